@@ -17,6 +17,7 @@ from rotemina.sim.messages import marked, message
 
 _KEPT = 4096  # samples that nobody has asked for yet
 _TELEMETRY_BYTES = 31
+_FAULTS = frozenset(Fault)
 _LOW = marked("engine", "low")  # ends of an axis that has switches
 _HIGH = marked("engine", "high")
 _WORDS = {
@@ -71,6 +72,9 @@ class Board:
         self.telemetry_ms = 0  # the period that it has acknowledged
         self.latest: Telemetry | None = None
         self.latest_us = 0
+        self.state = State(0)  # what it said last that it does
+        self.telemetry_fault = Fault.NONE  # that it told last, whoever caused it
+        self._told = DeviceState.IDLE  # by that state
         self.telemetry_s = 0.0  # host time of the latest
         self.inputs: Inputs | None = None
         self.samples: deque[BoardSample] = deque(maxlen=_KEPT)
@@ -104,17 +108,6 @@ class Board:
         )
 
     @property
-    def state(self) -> State:
-        """What it said last that it does."""
-        return State(self.latest.state) if self.latest is not None else State(0)
-
-    @property
-    def telemetry_fault(self) -> Fault:
-        """The fault that it told last, whoever caused it."""
-        number = self.latest.fault if self.latest is not None else 0
-        return Fault(number) if number in tuple(Fault) else Fault.SENSOR
-
-    @property
     def fault(self) -> str | None:
         """Why it halted, in words; None for a stop that was asked for."""
         fault = self.telemetry_fault
@@ -130,12 +123,7 @@ class Board:
         """What it does, or will as soon as it has heard of it."""
         if (expected := self.orders.expected) is not None:
             return expected
-        state = self.state
-        if state & State.HOMING:
-            return DeviceState.HOMING
-        if state & State.PLAYING:
-            return DeviceState.PLAYING
-        return DeviceState.MOVING if state & State.MOVING else DeviceState.IDLE
+        return self._told
 
     @property
     def at_rest(self) -> bool:
@@ -201,6 +189,8 @@ class Board:
         was_busy = not self.at_rest
         self.clock.observe(time_us, said_s)
         self.latest, self.latest_us, self.telemetry_s = told, time_us, now_s
+        self.state, self._told = State(told.state), _activity(State(told.state))
+        self.telemetry_fault = Fault(told.fault) if told.fault in _FAULTS else Fault.SENSOR
         self.orders.seen(time_us)
         number = self.grid.number(time_us) if self.grid is not None else None
         if number is not None:
@@ -231,3 +221,11 @@ class Board:
             if told >> bit & 1
         ]
         return ", ".join(ends)
+
+
+def _activity(state: State) -> DeviceState:
+    if state & State.HOMING:
+        return DeviceState.HOMING
+    if state & State.PLAYING:
+        return DeviceState.PLAYING
+    return DeviceState.MOVING if state & State.MOVING else DeviceState.IDLE

@@ -2,6 +2,7 @@
 
 import struct
 from dataclasses import fields
+from functools import cache
 from struct import Struct
 from typing import ClassVar, Self
 
@@ -67,6 +68,7 @@ class Message:
         return cls(*values)
 
     @classmethod
+    @cache
     def _has_tail(cls) -> bool:
         own = fields(cls)  # type: ignore[arg-type]
         return bool(own) and own[-1].type is bytes
