@@ -37,6 +37,7 @@ XVFB, XDOTOOL = shutil.which("Xvfb"), shutil.which("xdotool")
 
 pytestmark = [
     pytest.mark.slow,
+    pytest.mark.xdist_group("screen"),  # two windows and their boards are too much for two cores
     pytest.mark.skipif(not (XVFB and XDOTOOL), reason="Xvfb or xdotool is not installed"),
 ]
 
@@ -158,15 +159,21 @@ class Operator:
         self.click("button('New motion', 'Play')")
 
     def make_ready(self):
-        """Clear the fault of boards that a busy computer has kept waiting, if there is one."""
-        if self.see("bench.session.snapshot().fault") is not None:
-            self.focus("RoTeMiNa")
-            self.press("ctrl+shift+p")
-            self.wait("window.palette_page.isVisible()")
-            self.focus("Find a command")
-            self.write_into("window.palette_page.field.text()", "clear fault")
-            self.press("Return")
-        self.wait("bench.session.snapshot().locked is None")
+        """Clear what a busy computer has left: a fault of boards, or a lost connection."""
+        end_s = time.monotonic() + SOON_S
+        helps = "window._bar.help.isVisible() and window._bar.help.text()"
+        while (why := self.see("bench.session.snapshot().locked")) is not None:
+            assert time.monotonic() < end_s, why
+            if "confirm it" in why:
+                self.see("bool(bench.confirm_position() or True)")  # nobody can have moved it
+            elif command := self.see(helps):
+                self.focus("RoTeMiNa")
+                self.press("ctrl+shift+p")  # the watchdog's window may lie over the button
+                self.wait("window.palette_page.isVisible()")
+                self.focus("Find a command")
+                self.write_into("window.palette_page.field.text()", command)
+                self.press("Return")
+            time.sleep(0.5)
 
     def until_done(self, begin, done):
         """Begin a motion, and wait until it is done; one that was cut off is begun again."""
