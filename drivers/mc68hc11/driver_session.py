@@ -27,7 +27,7 @@ from rotemina.sim.quantities import rounded
 from rotemina.sim.robot.model import Robot
 
 LOST_S = 0.5  # without telemetry: the connection is lost
-_SHORT_S = 0.1  # without telemetry: a short loss, at least
+_SHORT_S = 0.1  # without telemetry: a short loss
 _SHORT_PERIODS = 3.5
 _KEEP_ALIVE = 4  # of the watchdog's time
 _APART = 0.5  # periods between the boards' samples, from where on they are put in step again
@@ -68,7 +68,6 @@ class Session:
         self.capturing: Capturing | None = None
         self.lost: ConnectionLostError | None = None
         self.served_s = clock()
-        self._short_s = _SHORT_S  # without telemetry: a board is missed
         self._polled_s = float("-inf")
         self.boards = tuple(Board(number, own) for number, own in enumerate(axes, start=1))
         self.links: tuple[Link, ...] = ()
@@ -226,9 +225,12 @@ class Session:
             self._keep_alive(board, now_s)
         self._keep_in_step(now_s)
 
-    def _judge(self) -> None:
+    @property
+    def _short_s(self) -> float:
         slowest_ms = max(board.telemetry_ms for board in self.boards)
-        self._short_s = max(_SHORT_S, _SHORT_PERIODS * 1e-3 * slowest_ms)
+        return max(_SHORT_S, _SHORT_PERIODS * 1e-3 * slowest_ms)
+
+    def _judge(self) -> None:
         for board in self.boards:
             if board.reset:
                 raise ConnectionLostError(

@@ -107,8 +107,8 @@ class Diagnosing(QObject):
         self._clock.stop()
 
     def stand_back(self) -> None:
-        """Let a machine that moves have the cores first."""
-        if self.running:
+        """Let a machine that moves have the cores first, even before work that was stopped."""
+        if self.busy:
             self._process.stand_back()
 
     def close(self) -> None:

@@ -30,7 +30,7 @@ _ENDED = mark(
     "perhaps for lack of memory; diagnose again with fewer or shorter records"
 )
 _WORKER = ("-m", "rotemina.plugins.gap.diagnosis_worker")
-_NICE = 10  # more than the window
+_NICE = 10  # above the window's nice value
 _LOOKS_S = 0.05  # between two questions whether an answer is still wanted
 _PATIENCE_S = 2.0  # before a process that does not end its work is ended itself
 
@@ -69,7 +69,7 @@ class DiagnosisProcess:
 
     def __init__(self) -> None:
         self._process: subprocess.Popen[bytes] | None = None
-        self._behind: subprocess.Popen[bytes] | None = None  # what stands back
+        self._behind: subprocess.Popen[bytes] | None = None  # the process that stands back
         self._told: SimpleQueue[object] = SimpleQueue()
         self._number = 0
 
@@ -111,18 +111,19 @@ class DiagnosisProcess:
     def stand_back(self) -> None:
         """Let the process run only while no other wants the core, for as long as it lives.
 
-        This is for a machine that moves: the window and what steers go first. On Linux a nice value
-        is not enough. The scheduler puts a thread that wakes on a core that is idle or runs a
-        process of this policy, but lets it wait behind a process that is only nice. It raises no
-        process again, so the next request starts another one.
+        While a machine moves, the window and what steers it go first. A nice value is not enough
+        on Linux: a thread that wakes takes a core from a process of this policy at once, but waits
+        behind one that is only nice. A process cannot leave this policy without privileges, so the
+        next request starts another one.
         """
         process = self._process
         if process is None or process is self._behind or not hasattr(os, "SCHED_IDLE"):
             return
         self._behind = process
-        with suppress(OSError):  # it may have ended, or not be allowed here
+        with suppress(OSError):  # it may have ended
             for thread in Path(f"/proc/{process.pid}/task").iterdir():
-                os.sched_setscheduler(int(thread.name), os.SCHED_IDLE, os.sched_param(0))
+                with suppress(OSError):  # this one may have, or it is not allowed here
+                    os.sched_setscheduler(int(thread.name), os.SCHED_IDLE, os.sched_param(0))
 
     def close(self) -> int | None:
         """End the process, if any, and return its status."""

@@ -216,7 +216,7 @@ class GapPanel(Panel):
         self.result.offer_use(why_not, doubt)
 
     def _follow_motion(self, state: SessionState) -> None:
-        """Offer the switch of the model at rest only, and let what moves have the cores."""
+        """Offer the switch of the model at rest only; let a machine that moves have the cores."""
         resting = state.activity is DeviceState.IDLE and not state.queued
         if not resting:
             self.diagnosing.stand_back()

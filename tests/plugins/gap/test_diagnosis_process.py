@@ -3,8 +3,10 @@
 import os
 import subprocess
 import sys
+import threading
 from pathlib import Path
 from pickle import PicklingError
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -91,6 +93,28 @@ def test_it_has_its_share_of_the_cores_until_the_machine_moves(process, started,
             min(os.getpriority(os.PRIO_PROCESS, 0) + 10, 19)
         }
     assert len(started) == 2  # none is raised again
+
+
+@pytest.mark.skipif(not hasattr(os, "SCHED_IDLE"), reason="a policy of Linux")
+def test_a_thread_that_ends_while_it_stands_back_spares_no_other(monkeypatch):
+    asked = []
+
+    def gone(thread, policy, _):
+        asked.append((thread, policy))
+        raise ProcessLookupError(thread)
+
+    monkeypatch.setattr(os, "sched_setscheduler", gone)
+    process, goes_on = DiagnosisProcess(), threading.Event()
+    process._process = SimpleNamespace(pid=os.getpid())
+    other = threading.Thread(target=goes_on.wait)
+    other.start()
+    process.stand_back()
+    goes_on.set()
+    other.join()
+    assert {(os.getpid(), os.SCHED_IDLE), (other.native_id, os.SCHED_IDLE)} <= set(asked)
+    before = list(asked)
+    process.stand_back()  # it does already
+    assert asked == before
 
 
 def test_what_cannot_be_diagnosed_is_refused_in_the_same_words(process, healthy):
