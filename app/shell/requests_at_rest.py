@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable
+from dataclasses import dataclass
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.operator_requests import Requests
@@ -12,6 +13,15 @@ from rotemina.drivers.samples import DeviceState
 LONGEST_S = 2.0  # a machine that moves for longer is not about to rest: the session says so
 
 
+@dataclass(frozen=True, slots=True)
+class _Held:
+    request: Callable[[], object]
+    permit: Permit
+    done: Callable[[], None]
+    undone: Callable[[], None]
+    since_s: float
+
+
 class AtRest:
     """Holds one request, the latest; it is made within two seconds or not at all.
 
@@ -20,28 +30,40 @@ class AtRest:
 
     def __init__(self, requests: Requests, clock: Clock = time.monotonic) -> None:
         self._requests, self._clock = requests, clock
-        self._held: tuple[Callable[[], object], Permit, float] | None = None
+        self._held: _Held | None = None
 
     @property
     def waiting(self) -> bool:
         """Whether a request waits for the machine to rest."""
         return self._held is not None
 
-    def do(self, request: Callable[[], object], permit: Permit) -> None:
-        """Make a request now, or when what is under way has come to rest."""
-        self._held = request, permit, self._clock()
+    def do(
+        self,
+        request: Callable[[], object],
+        permit: Permit,
+        done: Callable[[], None] = lambda: None,
+        undone: Callable[[], None] = lambda: None,
+    ) -> None:
+        """Make a request now, or when what is under way has come to rest.
+
+        ``done`` or ``undone`` is called once it was taken, or was refused, stopped or replaced.
+        """
+        replaced, self._held = self._held, _Held(request, permit, done, undone, self._clock())
+        if replaced is not None:
+            replaced.undone()
         self.look(self._requests.session.snapshot())
 
     def look(self, state: SessionState) -> None:
         """Make the request that waits, once there is nothing to wait for."""
-        if self._held is None:
+        held = self._held
+        if held is None:
             return
-        request, permit, since_s = self._held
-        if not permit.valid:
+        if not held.permit.valid:
             self._held = None
+            held.undone()
             return
         settling = state.activity in (DeviceState.IDLE, DeviceState.MOVING)
         resting = self._requests.session.at_rest or not settling or state.locked is not None
-        if resting or self._clock() - since_s >= LONGEST_S:
+        if resting or self._clock() - held.since_s >= LONGEST_S:
             self._held = None
-            self._requests.ask_aside(request)
+            self._requests.ask_aside(held.request, held.done, held.undone)

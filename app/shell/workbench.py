@@ -169,7 +169,8 @@ class Workbench(Requests):
         self._happened.connect(self._on_event)
         self.refused.connect(lambda reason: self.notify(Level.ERROR, reason, about=page_of(reason)))
         self._unsubscribe = session.subscribe(self._happened.emit)
-        self._at_rest = AtRest(self)
+        #: Makes a request once the machine rests, as one whose effects were switched soon does.
+        self.at_rest = AtRest(self)
         self._frames = QTimer(self, interval=FRAME_MS)
         self._frames.timeout.connect(self._refresh)
 
@@ -253,7 +254,7 @@ class Workbench(Requests):
         """Play the planned trajectory; a refusal becomes a notice.
 
         A ``permit`` is that of the request, where it waited: nothing plays if a stop came since.
-        What is about to rest, as a machine whose effects were switched at present, is waited for.
+        A machine that is about to rest is waited for.
         """
         plan, permit = self.plan, permit or self.session.permit()
         if plan is None:
@@ -261,7 +262,7 @@ class Workbench(Requests):
             self.notify(Level.WARNING, text, about="trajectory.md")
         elif self.ask(plan.dry_run.require):
             checked, pace, bounds = plan.dry_run.require(), self.pace, dict(self.bounds)
-            self._at_rest.do(
+            self.at_rest.do(
                 lambda: self.playback.play(checked, speed=pace, bounds=bounds, permit=permit),
                 permit,
             )
@@ -480,7 +481,7 @@ class Workbench(Requests):
         self._played.look()
         self._penetrated.look()
         self.refreshed.emit(state)
-        self._at_rest.look(state)
+        self.at_rest.look(state)
         self.replaying.step()
         source = self.source
         self.shown.emit(state if source is self.session else source.snapshot())

@@ -50,6 +50,7 @@ class CalibrationPanel(Panel):
         self.calibration: Calibration | None = None
         self._sources: tuple[Source, ...] = ()
         self._motion: CheckedTrajectory | None = None
+        self._plan_text = ""
         self._run: CalibrationRun | None = None
         self.tabs, self.views = tabbed(
             tr("View"),
@@ -76,10 +77,8 @@ class CalibrationPanel(Panel):
 
     def start(self) -> None:
         """Play the planned motion; sensor and laser are recorded."""
-        if self._motion is None or self._running:
+        if self._motion is None or self._run is not None:
             return
-        if self._run is not None:
-            self._run.close()
         run = CalibrationRun(self.workbench.session, self.procedure.chosen, self._motion)
         self._run = run
         permit = self.workbench.session.permit()
@@ -88,8 +87,9 @@ class CalibrationPanel(Panel):
             run.close()
             if self._run is run:
                 self._run = None
+                self.procedure.told.setText(self._plan_text)
 
-        self.workbench.ask_aside(lambda: run.start(permit=permit), undone=refused)
+        self.workbench.at_rest.do(lambda: run.start(permit=permit), permit, undone=refused)
 
     def stop(self) -> None:
         """Stop the machine; nothing of the run is kept."""
@@ -140,10 +140,6 @@ class CalibrationPanel(Panel):
 
     # --- inside -----------------------------------------------------------------------------------
 
-    @property
-    def _running(self) -> bool:
-        return self._run is not None and self._run.state.phase is Phase.MOVING
-
     def _forget_plan(self) -> None:
         self._motion = None
         self.procedure.told.setText(tr(NOTHING))
@@ -154,7 +150,8 @@ class CalibrationPanel(Panel):
         if axis != self.procedure.chosen:
             return
         self._motion = motion
-        self.procedure.told.setText(planned(motion.commands, axis, self.workbench.robot))
+        self._plan_text = planned(motion.commands, axis, self.workbench.robot)
+        self.procedure.told.setText(self._plan_text)
         self.calibration = None
         self.result.show_result(None)
         self.tabs.setTabEnabled(_ISO, False)
@@ -164,6 +161,8 @@ class CalibrationPanel(Panel):
     def _refresh(self, session: SessionState) -> None:
         run = self._run
         state = run.state if run is not None else RunState()
+        if run is not None and state.phase is Phase.IDLE:  # until the machine rests
+            state = RunState(Phase.MOVING)
         motion = self._motion.commands if self._motion is not None else None
         if run is not None and motion is not None:
             self.procedure.show_run(state, motion.duration_s)

@@ -162,7 +162,7 @@ class Actuation:
     def _play(self, motion: Callable[[], Record], begun: Callable[[], None] = lambda: None) -> None:
         session = self._workbench.session
         permit = session.permit()
-        self._workbench.ask_aside(lambda: session.play(motion(), permit=permit), begun)
+        self._workbench.at_rest.do(lambda: session.play(motion(), permit=permit), permit, begun)
 
     @property
     def _unit(self) -> str:

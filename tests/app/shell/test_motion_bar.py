@@ -394,11 +394,15 @@ def test_what_waits_for_rest_ends_with_a_stop_or_after_two_seconds(window, monke
     waits = AtRest(requests, lambda: now[0])
     state = replace(session.snapshot(), activity=DeviceState.MOVING, locked=None)
     monkeypatch.setattr(session, "snapshot", lambda: state)
-    waits.do("first", session.permit())
+    undone = []
+    waits.do("replaced", session.permit(), undone=lambda: undone.append("replaced"))
+    waits.do("first", session.permit(), undone=lambda: undone.append("first"))
     assert waits.waiting
+    assert undone == ["replaced"]
     session.stop()
     waits.look(state)
     assert not waits.waiting
+    assert undone == ["replaced", "first"]
     waits.do("second", session.permit())
     now[0] = 1.9
     waits.look(state)

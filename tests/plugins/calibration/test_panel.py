@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from rotemina.app.calibration.calibration_playback import Phase, RunState
+from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.calibration.words import cycles, progress
 from rotemina.sim.calibration.plan import calibration_motion
 from rotemina.sim.robot.file import load_robot
@@ -64,6 +65,25 @@ def test_from_a_plan_to_a_calibration_that_is_on(qtbot, panel):
     panel.stored.off.click()
     qtbot.waitUntil(lambda: corrections.names == {}, timeout=LONG_MS)
     qtbot.waitUntil(lambda: panel.stored.on.isEnabled(), timeout=LONG_MS)
+
+
+def test_a_run_asked_for_while_the_machine_moves_waits_and_can_be_stopped(
+    qtbot, panel, monkeypatch
+):
+    session, procedure = panel.workbench.session, panel.procedure
+    _choose(panel, "zn")
+    procedure.plan.click()
+    qtbot.waitUntil(procedure.run.isEnabled, timeout=LONG_MS)
+    plan = procedure.told.text()
+    monkeypatch.setattr(type(session), "at_rest", False)
+    procedure.run.click()
+    qtbot.waitUntil(procedure.stop.isEnabled, timeout=LONG_MS)
+    procedure.stop.click()
+    qtbot.waitUntil(lambda: procedure.told.text() == plan, timeout=LONG_MS)
+    monkeypatch.undo()
+    qtbot.waitUntil(procedure.run.isEnabled, timeout=LONG_MS)  # the plan may be played again
+    procedure.run.click()
+    qtbot.waitUntil(lambda: session.reported.activity is DeviceState.PLAYING, timeout=LONG_MS)
 
 
 @pytest.mark.slow
