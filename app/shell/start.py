@@ -58,8 +58,9 @@ def start(
         print(f"rotemina: {complaint(missing)}", file=sys.stderr)
         return 1
 
-    from rotemina.app.shell import qt_messages  # Qt may be loaded from here on
+    from rotemina.app.shell import qt_imports, qt_messages  # Qt may be loaded from here on
 
+    qt_imports.spare_source_search()
     qt_messages.log_qt_messages()
     if not reason:
         gc.disable()  # what is loaded stays: looks through it take a tenth of a start
