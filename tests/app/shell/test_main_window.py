@@ -5,8 +5,8 @@ from importlib.metadata import EntryPoint
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QFileDialog, QLabel, QMessageBox
+from PySide6.QtCore import QCoreApplication, QEvent, Qt
+from PySide6.QtWidgets import QFileDialog, QLabel, QMessageBox, QWidget
 
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import PlaybackFinished
@@ -82,6 +82,20 @@ def test_a_panel_is_made_when_its_dock_comes_into_sight(qtbot, make_robot_window
     window.bring_up("view3d")
     assert window.docks["view3d"].widget() is window.panels.made["view3d"]
     window.bring_up("nothing of that name")
+
+
+@pytest.mark.every_panel
+def test_what_comes_into_sight_is_laid_out_before_it_is_painted(make_robot_window, monkeypatch):
+    monkeypatch.setattr(LatePanels, "start", lambda _: None)
+    monkeypatch.setattr(LatePanels, "_before_work", lambda *_: None)
+    window = make_robot_window()
+    for name in ("gap", "plate"):
+        window.docks[name].raise_()
+        assert name not in window.panels.made
+        window.late_panels.make_seen()
+        laid_out = [widget.geometry() for widget in window.findChildren(QWidget)]
+        QCoreApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
+        assert laid_out == [widget.geometry() for widget in window.findChildren(QWidget)]
 
 
 @pytest.mark.every_panel
