@@ -82,6 +82,8 @@ class SessionState:
         The latest stop: who asked, why and when.
     latched : str or None
         Why the emergency stop is latched, until it is released.
+    doubt : str or None
+        Why the position may be wrong, until it is confirmed or the axes are homed.
     owners : mapping axis -> str
         Who drives each axis that someone drives.
     differences : tuple of str
@@ -120,6 +122,7 @@ class SessionState:
     stopping: bool = False
     stop: StopRequest | None = None
     latched: str | None = None
+    doubt: str | None = None
     owners: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
     differences: tuple[str, ...] = ()
     tip: tuple[float, float, float] | None = None
@@ -146,8 +149,8 @@ class SessionState:
         return Phase.READY if self.position_known else Phase.POSITION_UNKNOWN
 
 
-def lock_reason(state: SessionState, doubt: str | None) -> str | None:
-    """Return why no motion is possible by a state, and by a doubt about the position; else None."""
+def lock_reason(state: SessionState) -> str | None:
+    """Return why no motion is possible by a state; else None."""
     if state.connection is Connection.FAILED:
         return message(
             "engine", "the device failed ({fault}); reconnect, then check its position"
@@ -171,9 +174,9 @@ def lock_reason(state: SessionState, doubt: str | None) -> str | None:
             return message("engine", "the position is not known yet")
         unknown = message("engine", "the position of {axes} is not known; home first")
         return unknown.fill(axes=", ".join(state.unhomed))
-    if doubt is not None:
+    if state.doubt is not None:
         return message("engine", "{reason}: the position may be wrong; home, or confirm it").fill(
-            reason=doubt
+            reason=state.doubt
         )
     return None
 

@@ -338,10 +338,10 @@ class Worker:
         unsettled, received_s = self.models.unsettled, self._portions.received_s
         state = with_samples(state, driver.axes, samples, answers, unsettled, received_s)
         known = status.position_known and state.sample_host_time_s is not None
-        state = replace(state, position_known=known)
+        state = replace(state, position_known=known, doubt=self._trust.reason)
         if state.activity is not DeviceState.IDLE:
             state = replace(state, moved_s=self._clock())
-        return replace(state, locked=lock_reason(state, self._trust.reason))
+        return replace(state, locked=lock_reason(state))
 
     def _link(self) -> LinkQuality | None:
         driver = self.driver
@@ -391,8 +391,9 @@ class Worker:
             fault=fault,
             silent_s=0.0,
             stopping=False,
+            doubt=self._trust.reason,
         )
-        self._next = replace(self._next, locked=lock_reason(self._next, self._trust.reason))
+        self._next = replace(self._next, locked=lock_reason(self._next))
 
     def _publish(self) -> None:
         before, self.state = self.state, self._next

@@ -1,4 +1,4 @@
-"""The one button that helps in a state: release, reconnect, acknowledge, home."""
+"""The one button that helps in a state: release, reconnect, acknowledge, home, confirm."""
 
 from collections.abc import Callable
 from typing import NamedTuple
@@ -48,6 +48,12 @@ def help_in(state: SessionState, requests: Requests) -> Help | None:
                 "shell", "Find the limit switches of all axes with switches; these axes move"
             ),
             requests.home,
+        )
+    if state.doubt is not None:
+        return Help(
+            translate("shell", "Confirm …"),
+            translate("shell", "Open the page on which the position is confirmed"),
+            lambda: requests.panel_asked.emit("connection"),
         )
     return None
 

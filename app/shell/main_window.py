@@ -121,6 +121,7 @@ class MainWindow(ArrangedWindow):
         )
         workbench.run_changed.connect(lambda run: self._bring_up_new("comparison", run.record))
         workbench.ports_offered.connect(lambda ports: ports and self.bring_up("connection"))
+        workbench.panel_asked.connect(self.bring_up)
 
     # --- parts ------------------------------------------------------------------------------------
 

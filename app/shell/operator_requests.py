@@ -35,11 +35,13 @@ class Requests(QObject):
     refused(str) : a request that was not taken, and why.
     acted() : a request was taken.
     ports_offered(tuple of OfferedPort) : where virtual boards listen now.
+    panel_asked(str) : the panel of that name is to be shown.
     """
 
     refused = Signal(object)
     acted = Signal()
     ports_offered = Signal(object)
+    panel_asked = Signal(str)
 
     def __init__(self, session: MotionSession) -> None:
         super().__init__()

@@ -1,4 +1,4 @@
-"""Positions of the axes: homing, doubt, the way back, and owners."""
+"""Positions of the axes: homing, the way back, and owners."""
 
 from PySide6.QtWidgets import QHBoxLayout, QPushButton
 
@@ -13,7 +13,7 @@ from rotemina.plugins.connection import tr, unavailable_reasons
 
 
 class PositionSection(Section):
-    """Homing of all axes or of one, confirming, and taking back a move."""
+    """Homing of all axes or of one, and taking back a move."""
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(tr("Position"))
@@ -22,9 +22,8 @@ class PositionSection(Section):
         self.home_all = button(tr("Home all"), workbench.home)
         self.home: dict[str, QPushButton] = {}
         self._axes: QHBoxLayout = self.add_row(self.home_all)
-        self.confirm = button(tr("Confirm position"), workbench.confirm_position)
         self.back = button(tr("Back"), workbench.undo)
-        self.add_row(self.confirm, self.back)
+        self.add_row(self.back)
         self.owners = self.add_text()
 
     def refresh(self, state: SessionState) -> None:
@@ -36,11 +35,6 @@ class PositionSection(Section):
         allow(self.home_all, why, tr("Find the limit switches of all axes with switches"))
         for axis, one in self.home.items():
             allow(one, why, tr("Find the limit switch of {label}").format(label=label(axis)))
-        allow(
-            self.confirm,
-            unavailable_reasons.against_confirming(state),
-            tr("Confirm that the machine has not moved since the connection was lost"),
-        )
         allow(
             self.back,
             unavailable_reasons.against_going_back(

@@ -1,4 +1,4 @@
-"""The state of the session: its phase, locks, and the emergency stop."""
+"""The state of the session: its phase, what locks motion, and what ends that."""
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
@@ -23,7 +23,9 @@ class StateSection(Section):
         self.emergency = button(tr("Stop and lock"), workbench.emergency_stop)
         self.release = button(tr("Release"), workbench.release)
         self.clear = button(tr("Clear fault"), workbench.clear_fault)
-        self.add_row(self.emergency, self.release, self.clear)
+        self.confirm = button(tr("Confirm position"), workbench.confirm_position)
+        self.add_row(self.emergency, self.release)
+        self.add_row(self.clear, self.confirm)
         self._session = workbench.session
 
     def refresh(self, state: SessionState) -> None:
@@ -51,4 +53,9 @@ class StateSection(Section):
             self.clear,
             unavailable_reasons.against_clearing(state),
             tr("Acknowledge the device's fault"),
+        )
+        allow(
+            self.confirm,
+            unavailable_reasons.against_confirming(state),
+            tr("Confirm that the machine has not moved since the connection was lost"),
         )

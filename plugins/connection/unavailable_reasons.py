@@ -77,7 +77,7 @@ def against_confirming(state: SessionState) -> str | None:
     if not state.position_known:
         return tr("the position is unknown; home first")
     other = state.fault is not None or state.silent_s > 0.0 or bool(state.differences)
-    if state.locked is None or other:
+    if state.doubt is None or other:
         return tr("the position is certain: no connection was lost")
     return None
 

@@ -995,6 +995,14 @@
         <translation>Den Fehler quittieren; von selbst bewegt sich nichts</translation>
     </message>
     <message>
+        <source>Confirm …</source>
+        <translation>Bestätigen …</translation>
+    </message>
+    <message>
+        <source>Open the page on which the position is confirmed</source>
+        <translation>Die Seite öffnen, auf der die Position bestätigt wird</translation>
+    </message>
+    <message>
         <source>Home</source>
         <translation>Referenzfahrt</translation>
     </message>

@@ -211,9 +211,15 @@ def test_a_lost_connection_is_distrusted_until_confirmed(qtbot, make_robot_windo
     press(panel.device.reconnect_button)
     phase_is(qtbot, panel, "locked")
     assert "may be wrong" in panel.state.reason.text()
-    press(panel.position.confirm)
+    window.docks["connection"].hide()
+    qtbot.waitUntil(lambda: window._bar.help.text() == "Confirm …", timeout=LONG_MS)
+    press(window._bar.help)  # leads to the page, and confirms nothing by itself
+    assert "may be wrong" in panel.state.reason.text()
+    qtbot.waitUntil(panel.state.confirm.isVisible, timeout=LONG_MS)
+    press(panel.state.confirm)
     phase_is(qtbot, panel, "ready")
-    assert not panel.position.confirm.isEnabled()
+    assert not panel.state.confirm.isEnabled()
+    assert not window._bar.help.isVisible()
 
 
 def test_a_fault_is_cleared_from_here(qtbot, make_robot_window, press, losing):

@@ -25,7 +25,8 @@ CONNECTING = state(connection=Connection.CONNECTING, activity=DeviceState.CLOSED
 GONE = state(connection=Connection.DISCONNECTED, activity=DeviceState.CLOSED, locked="gone")
 FAILED = state(connection=Connection.FAILED, activity=DeviceState.CLOSED, fault="x", locked="x")
 MOVING = state(activity=DeviceState.MOVING)
-DISTRUSTED = state(locked="the connection was lost: home, or confirm")
+LOST = "the connection was lost"
+DISTRUSTED = state(locked=f"{LOST}: home, or confirm", doubt=LOST)
 
 
 @pytest.mark.parametrize(
@@ -78,7 +79,7 @@ def test_only_a_doubtful_position_is_confirmed():
     assert unavailable_reasons.against_confirming(DISTRUSTED) is None
     assert "position is certain" in unavailable_reasons.against_confirming(state())
     assert "position is certain" in unavailable_reasons.against_confirming(
-        state(locked="differ", differences=("a",))
+        state(locked="differ", differences=("a",), doubt=LOST)
     )
     assert "home first" in unavailable_reasons.against_confirming(
         state(position_known=False, locked="home")
