@@ -65,7 +65,7 @@ class LatePanels(QObject):
             dock = self._docks.get(name)
             if dock is not None and dock.isVisible() and not dock.visibleRegion().isEmpty():
                 made = self._panels.make(name) is not None or made
-        if made:  # laid out before anything is painted: plots painted twice cost a tenth of a start
+        if made:  # laid out before anything is painted: plots take long to paint again
             for _ in range(2):  # what the docks need, and how the window shares its room by it
                 QCoreApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
         if self._next.isActive():
