@@ -52,8 +52,8 @@ class LiveHistory:
         self.axes = axes
         self.capacity = max(1, round(seconds * rate_hz))
         self._time_s = np.empty(self.capacity)
-        # Per sample: command, model, measured, nominal, doubt.
-        self._values = np.empty((self.capacity, 5, len(axes)))
+        # Command, model, measured, nominal, doubt: each whole, as it is copied at every frame.
+        self._values = np.empty((5, self.capacity, len(axes)))
         self._gap_since_s = float("-inf")
         self._written = 0
         self._lock = threading.Lock()
@@ -86,11 +86,12 @@ class LiveHistory:
             return
         nominal = model if nominal is None else nominal
         doubt = np.zeros(model.shape) if doubt is None else doubt
-        values = np.stack([samples.command, model, samples.measured, nominal, doubt], axis=1)
+        values = (samples.command, model, samples.measured, nominal, doubt)
         with self._lock:
             slots = (self._written + np.arange(count)) % self.capacity
             self._time_s[slots] = samples.device_time_s[-count:]
-            self._values[slots] = values[-count:]
+            for ring, part in zip(self._values, values, strict=True):
+                ring[slots] = part[-count:]
             self._written += count
 
     def tail(self, seconds: float | None = None) -> LiveWindow:
@@ -102,13 +103,9 @@ class LiveHistory:
                 times = self._ordered(self._time_s, first)
                 first += int(times.searchsorted(times[-1] - seconds))
             time_s = self._ordered(self._time_s, first)
-            values = self._ordered(self._values, first)
+            values = [self._ordered(ring, first) for ring in self._values]
             gap_since_s = self._gap_since_s
-        command, model, measured, nominal, doubt = (
-            read_only(np.ascontiguousarray(values[:, part])) for part in range(5)
-        )
-        parts = (command, model, measured, nominal, doubt, gap_since_s)
-        return LiveWindow(self.axes, read_only(time_s), *parts)
+        return LiveWindow(self.axes, read_only(time_s), *map(read_only, values), gap_since_s)
 
     def _ordered(self, ring: FloatArray, first: int) -> FloatArray:
         """Copy a ring from sample number ``first`` to the latest, oldest first."""

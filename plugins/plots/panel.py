@@ -240,7 +240,9 @@ class PlotsPanel(Panel):
         self._told_s = now_s
         self._course = GapHistory.of(window, span_s)
         if live:
-            self._gaps = gaps_of(self.workbench.source.history.tail(LIVE_S))
+            whole = span_s >= LIVE_S
+            history = self.workbench.source.history
+            self._gaps = gaps_of(latest(window, LIVE_S) if whole else history.tail(LIVE_S))
 
     def _draw(self, window: LiveWindow) -> None:
         picture = self._take(window)
