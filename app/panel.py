@@ -12,8 +12,6 @@ from itertools import count
 from time import monotonic
 from typing import ClassVar
 
-from PySide6.QtCore import QCoreApplication, QEvent, Qt
-from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QWidget
 
 from rotemina.app.motion.state import SessionState
@@ -24,7 +22,6 @@ API_VERSION = API_VERSIONS["rotemina.panels"]
 STALE_S = 0.5  # data older than this is shown as old
 HIDDEN_S = 0.2  # between two looks of a panel that is out of sight
 _made = count()
-_SHOWN = QEvent.Type(QEvent.registerEventType())
 
 
 class Area(StrEnum):
@@ -72,22 +69,6 @@ class Panel(QWidget):
         self._made = next(_made)
         # Those out of sight look in turns, not all at one frame: the golden ratio spreads them.
         self._followed_s = monotonic() - HIDDEN_S * (0.618 * self._made % 1.0)
-
-    def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 (Qt's name)
-        """Be painted once all that is shown with the panel has been heard of.
-
-        Every widget that is shown asks to be painted, and every scene of a plot has the window
-        painted at once: a panel with six plots would be painted three times.
-        """
-        super().showEvent(event)
-        self.setUpdatesEnabled(False)
-        # Behind everything that showing has posted, and before the painting.
-        QCoreApplication.postEvent(self, QEvent(_SHOWN), Qt.EventPriority.LowEventPriority.value)
-
-    def customEvent(self, event: QEvent) -> None:  # noqa: N802 (Qt's name)
-        """Paint what was shown."""
-        if event.type() == _SHOWN:
-            self.setUpdatesEnabled(True)
 
     def follow(self, look: Callable[[SessionState], object]) -> None:
         """Call ``look`` with the machine's state ten times a second, less often while out of sight.

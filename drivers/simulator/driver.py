@@ -81,7 +81,8 @@ class Simulator(
 
     name = "simulator"
     virtual_time = True
-    service_period_s = 0.001
+    # What is asked for wakes the session at once; between that, samples wait for 16 ms anyway.
+    service_period_s = 0.004
     default_settings: ClassVar[Mapping[str, SettingValue]] = MappingProxyType(
         {
             "sample_rate_hz": 1000.0,

@@ -3,15 +3,12 @@
 from dataclasses import replace
 
 import pytest
-from PySide6.QtCore import QCoreApplication, QEvent, QObject
 from PySide6.QtWidgets import QTabWidget
 
 from rotemina.app import panel as panels
 from rotemina.app.panel import HIDDEN_S, Panel
 from rotemina.app.plugin_kit.panel_bench import panel_bench
-from rotemina.app.shell.plot import SignalPlot
 from rotemina.app.shell.turns import TURNS
-from rotemina.app.widgets.layouts import in_column
 from rotemina.drivers.samples import DeviceState
 
 
@@ -85,54 +82,3 @@ def test_texts_are_written_in_turns_and_at_once_when_it_moves_or_is_locked(chang
         assert sum(looked(changed)) == 2
         workbench.refreshed.emit(changed)  # by hand: all
         assert all(panel.texts_due for panel in panels)
-
-
-class Drawing(Panel):
-    title = "Drawing"
-
-    def __init__(self, workbench):
-        super().__init__(workbench)
-        self.plots = [SignalPlot(workbench.theme) for _ in range(3)]
-        in_column(*self.plots, on=self)
-
-
-class Paints(QObject):
-    """Counts how often widgets are painted."""
-
-    def __init__(self, widgets):
-        super().__init__()
-        self.counts = dict.fromkeys(widgets, 0)
-        for widget in widgets:
-            widget.installEventFilter(self)
-
-    def eventFilter(self, watched, event):  # noqa: N802 (Qt's name)
-        if event.type() == QEvent.Type.Paint:
-            self.counts[watched] += 1
-        return False
-
-
-def all_painted():
-    for _ in range(4):
-        QCoreApplication.processEvents()
-
-
-def test_plots_are_painted_once_where_a_panel_comes_into_sight(qtbot):
-    with panel_bench(Drawing) as bench:
-        tabs = QTabWidget()
-        qtbot.addWidget(tabs)
-        tabs.addTab(bench.panel, "drawing")
-        tabs.addTab(Panel(bench.workbench), "other")
-        with qtbot.waitActive(tabs):
-            tabs.show()
-            tabs.activateWindow()
-        tabs.setCurrentIndex(1)
-        all_painted()
-        paints = Paints([plot.viewport() for plot in bench.panel.plots])
-        tabs.setCurrentIndex(0)
-        all_painted()
-        assert list(paints.counts.values()) == [1, 1, 1]
-        for plot in bench.panel.plots:  # and goes on being painted
-            plot.viewport().update()
-        all_painted()
-        assert list(paints.counts.values()) == [2, 2, 2]
-        bench.panel.setParent(None)
