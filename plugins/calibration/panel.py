@@ -59,6 +59,8 @@ class CalibrationPanel(Panel):
         self.tabs.setTabEnabled(_ISO, False)
         lay_beside(self, self.procedure, _WIDTH, self.tabs, self.views)
         self._connect()
+        # Buttons are right at once: until the first frame a run without a plan could be asked for.
+        self._refresh(workbench.session.snapshot())
         self._look()
 
     # --- plan and run -----------------------------------------------------------------------------

@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 from rotemina.app.calibration.calibration_playback import Phase, RunState
+from rotemina.app.plugin_kit.panel_bench import panel_bench
 from rotemina.drivers.samples import DeviceState
+from rotemina.plugins.calibration.panel import CalibrationPanel
 from rotemina.plugins.calibration.words import cycles, progress
 from rotemina.sim.calibration.plan import calibration_motion
 from rotemina.sim.robot.file import load_robot
@@ -65,6 +67,13 @@ def test_from_a_plan_to_a_calibration_that_is_on(qtbot, panel):
     panel.stored.off.click()
     qtbot.waitUntil(lambda: corrections.names == {}, timeout=LONG_MS)
     qtbot.waitUntil(lambda: panel.stored.on.isEnabled(), timeout=LONG_MS)
+
+
+def test_nothing_can_be_run_or_stopped_before_the_first_frame():
+    with panel_bench(CalibrationPanel) as bench:
+        procedure = bench.panel.procedure
+        assert not procedure.run.isEnabled()
+        assert not procedure.stop.isEnabled()
 
 
 def test_a_run_asked_for_while_the_machine_moves_waits_and_can_be_stopped(
