@@ -81,8 +81,7 @@ class Simulator(
 
     name = "simulator"
     virtual_time = True
-    # What is asked for wakes the session at once; between that, samples wait for 16 ms anyway.
-    service_period_s = 0.004
+    service_period_s = 0.001
     default_settings: ClassVar[Mapping[str, SettingValue]] = MappingProxyType(
         {
             "sample_rate_hz": 1000.0,
