@@ -105,7 +105,9 @@ class LiveHistory:
             time_s = self._ordered(self._time_s, first)
             values = [self._ordered(ring, first) for ring in self._values]
             gap_since_s = self._gap_since_s
-        return LiveWindow(self.axes, read_only(time_s), *map(read_only, values), gap_since_s)
+        command, model, measured, nominal, doubt = map(read_only, values)
+        parts = (command, model, measured, nominal, doubt, gap_since_s)
+        return LiveWindow(self.axes, read_only(time_s), *parts)
 
     def _ordered(self, ring: FloatArray, first: int) -> FloatArray:
         """Copy a ring from sample number ``first`` to the latest, oldest first."""
