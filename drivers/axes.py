@@ -32,6 +32,8 @@ class AxisDescription:
         ``m`` or ``rad``.
     resolution : float
         The smallest step that it can be told or can tell, in ``unit``; 0 if there is none.
+    max_speed, max_acceleration : float or None
+        The device's own, in ``unit``/s and ``unit``/s²; None where the robot file's hold.
     """
 
     name: str
@@ -41,6 +43,8 @@ class AxisDescription:
     high: float
     unit: str
     resolution: float
+    max_speed: float | None = None
+    max_acceleration: float | None = None
 
     @classmethod
     def of(cls, robot: Robot, name: str) -> Self:

@@ -57,7 +57,7 @@ class Driver(ABC):
     #: How often the driver wants to be read, s; one that feeds a serial line has no other chance.
     service_period_s: ClassVar[float] = 0.01
     #: By how much the time of a sample may be wrong where the device has no clock of its own, s.
-    stamp_error_s: ClassVar[float] = 0.0
+    stamp_error_s: float = 0.0
     default_settings: ClassVar[Mapping[str, SettingValue]] = MappingProxyType({})
 
     def __init__(

@@ -3,11 +3,14 @@
 An alarm is a fault, which ``clear_fault`` resets; until then a controller that a switch has locked
 does not answer, but its line is not lost. A stop resets it only after the axes have come to rest,
 because a reset in motion loses steps; the reset empties the queue, so that no ``~`` resumes it.
+
+A report is used only if it is plausible (:mod:`rotemina.drivers.reading_check`), its state word is
+known, and it was requested after the latest command.
 """
 
 import logging
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 
 import numpy as np
@@ -15,25 +18,29 @@ import numpy as np
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.errors import ConnectionLostError
 from rotemina.drivers.gate import GateError, Permit
+from rotemina.drivers.gcode.controller_settings import ControllerSettings
 from rotemina.drivers.gcode.coordinates import StageAxis
-from rotemina.drivers.gcode.dialogue import HOLD, JOG_CANCEL, RESET, Dialogue
-from rotemina.drivers.gcode.grbl_reports import (
-    CRITICAL,
-    POSITION_KEPT,
-    Alarm,
-    Answer,
-    Message,
-    Status,
-    Welcome,
-)
+from rotemina.drivers.gcode.dialogue import HOLD, JOG_CANCEL, RESET, Dialogue, Reception
+from rotemina.drivers.gcode.error_texts import describe_alarm, describe_error
+from rotemina.drivers.gcode.grbl_reports import Alarm, Answer, Status, Welcome
+from rotemina.drivers.gcode.machine_states import MachineState, interpret_state
 from rotemina.drivers.gcode.straight_move import StraightMove
+from rotemina.drivers.reading_check import REPORTS_OF_A_NEW_POSITION, ReadingCheck
 from rotemina.drivers.samples import DeviceState, Samples
-from rotemina.sim.messages import marked, message
+from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import rounded
 
 _LOG = logging.getLogger(__name__)
+# Of a fast line; a slow one has two round trips more.
 _SILENT_S, _LOST_S = 0.25, 2.0
 _LINE_S = 1.0  # for an answer to a jog: it is given when the line is in the queue
 _RESET_S = 1.0
+_WAITING_ROUND_TRIPS = 2.0
+#: After so long without a step this program was suspended: nothing may go on by itself.
+MAX_PAUSE_S = 1.0
+# A homing that is reset ends with this alarm.
+_HOMING_RESET_ALARM = 6
 
 
 class Controller:
@@ -47,6 +54,7 @@ class Controller:
         The driver's, for the log.
     dialogue : Dialogue
     axes : tuple of StageAxis
+    settings : ControllerSettings
     status : Status
         What it said when it was opened; it has a position.
     clock : Clock
@@ -61,6 +69,7 @@ class Controller:
         name: str,
         dialogue: Dialogue,
         axes: tuple[StageAxis, ...],
+        settings: ControllerSettings,
         status: Status,
         clock: Clock,
         *,
@@ -68,27 +77,42 @@ class Controller:
         homing_s: float,
         port: str,
     ) -> None:
+        assert status.position is not None, "the opening refuses one without"
         self.dialogue = dialogue
         self.known: set[str] = set()  # axes whose position is
         self.fault: str | None = None
-        self._name, self._axes, self._clock, self._port = name, axes, clock, port
+        self._name, self._settings, self._clock, self._port = name, settings, clock, port
         self._poll_s, self._homing_s = poll_s, homing_s
-        self._opened_s = clock()
+        self._opened_s = self._stepped_s = self._used_s = clock()
         self._lost: str | None = None
-        self._latest = status
+        self._position = status.position
+        self._machine = interpret_state(status)
+        self._strange_word: str | None = None  # a state that only the latest report had
         self._asked_s = float("-inf")
         self._rows: list[tuple[float, tuple[float, ...]]] = []
         # Written by whichever thread stops, compared by the driver's own.
         self._stops: deque[bytes] = deque()
         self._braking = False  # told to halt: a reset follows once the axes rest
         self._reset_s: float | None = None  # since when a reset is to be confirmed
-        self._wanted: dict[str, float] = {}
+        self._targets: dict[str, float] = {}
         self._speeds: dict[str, float] = {}
         self._permit: Permit | None = None
-        self._way: StraightMove | None = None
-        self._searching: deque[tuple[str, tuple[str, ...]]] = deque()  # line, axes; first: now
+        self._move: StraightMove | None = None
+        self._tried: set[str] = set()  # axes seen to go where they are sent, since they were homed
+        self._searches: deque[tuple[str, tuple[str, ...]]] = deque()  # line, axes; first: now
+        self._homed: set[str] = set()  # axes whose switch was found, to be located by a report
         self._unlock = False
-        self._deaf = False  # after a critical alarm it answers nothing but a reset
+        self._deaf = False  # after an alarm it may answer nothing but a reset
+        self._use_axes(axes)
+
+    def trust_count(self) -> None:
+        """Take the controller's count for the position, where it lies within every range."""
+        if self._machine.position_lost:
+            return
+        values = self._values(self._position)
+        for axis, value in zip(self._axes, values, strict=True):
+            if axis.low - axis.tolerance <= value <= axis.high + axis.tolerance:
+                self.known.add(axis.name)
 
     # --- how it stands -----------------------------------------------------------------------
 
@@ -102,27 +126,30 @@ class Controller:
         """The state of the controller."""
         if self.fault is not None:
             return DeviceState.FAULT
-        if self._searching:
+        if self._searches or self._homed:
             return DeviceState.HOMING
-        if self._wanted or self._latest.moving:
+        if self._targets or self._machine.moving:
             return DeviceState.MOVING
         return DeviceState.IDLE
 
     @property
     def silent_s(self) -> float:
-        """For how long it has said nothing, where it should have; 0 for a short while."""
-        silent_s = 0.0 if self._may_be_silent() else self._clock() - self.dialogue.heard_s
-        return silent_s if silent_s > _SILENT_S else 0.0
+        """For how long it has said nothing that could be used; 0 for a short while."""
+        if self._may_be_silent():
+            return 0.0
+        heard_s = min(self.dialogue.heard_s, self._used_s)
+        silent_s = self._clock() - heard_s
+        return silent_s if silent_s > self._patience(_SILENT_S) else 0.0
 
     @property
     def braking(self) -> bool:
         """Whether axes may still brake."""
-        return self._braking or self._latest.moving
+        return self._braking or self._machine.moving
 
     @property
-    def to_be_emptied(self) -> bool:
-        """Whether it holds anything that would continue after it is left."""
-        return self._lost is None and bool(self._latest.moving or self._way or self._searching)
+    def is_lost(self) -> bool:
+        """Whether its line is lost."""
+        return self._lost is not None
 
     @property
     def ready(self) -> bool:
@@ -139,26 +166,28 @@ class Controller:
 
     def move_to(self, targets: dict[str, float], speeds: dict[str, float], permit: Permit) -> None:
         """Begin to move axes, m or rad, no faster than ``speeds``; a move under way is changed."""
-        wanted = {**self._wanted, **targets}
+        targets = {**self._targets, **targets}
         speeds = {**{k: v for k, v in self._speeds.items() if k not in targets}, **speeds}
-        under_way = self._way is not None
-        way = None
-        if not under_way and self.ready:
-            way = self._way_to(wanted, speeds)
-            if way is None:
+        under_way = self._move is not None
+        move = None
+        if not under_way and self.ready and not self._readings.is_in_doubt:
+            move = self._move_to(targets, speeds)
+            if move is None:
                 return
         with permit.passing():
-            if way is not None:
-                self.dialogue.say(self._next(way))
-            elif under_way:  # it brakes and forgets; then the new way begins
+            if move is not None:
+                line = move.line(self._position, on_trial=self._untried)
+                assert line is not None, "of a move that begins nothing has been sent"
+                self.dialogue.say(line)
+            elif under_way:  # it brakes and forgets; then the new move begins
                 self.dialogue.send_realtime(JOG_CANCEL)
-                self._brakes("Jog")
-        self._wanted, self._speeds, self._permit, self._way = wanted, speeds, permit, way
+                self._expect_braking()
+        self._targets, self._speeds, self._permit, self._move = targets, speeds, permit, move
 
     def stop(self) -> None:
         """Halt all axes; any thread."""
         # A controller that homes hears no feed hold, but a reset; its position is unknown anyway.
-        byte = RESET if self._searching else HOLD
+        byte = RESET if self._searches else HOLD
         self._stops.append(byte)
         with suppress(ConnectionLostError):  # the next step says so
             self.dialogue.send_realtime(byte)
@@ -168,14 +197,18 @@ class Controller:
         with permit.passing():
             self.dialogue.send_realtime(RESET)
         self._begin_reset()
+        self.dialogue.resume_after_pause()
+        self._used_s = self._clock()
         self.fault = None
         self._deaf = False
+        # Without switches nothing else ends the lock of an alarm; the position stays unknown.
+        self._unlock = not self._settings.can_home
 
     def home(self, lines: deque[tuple[str, tuple[str, ...]]], permit: Permit) -> None:
         """Search for switches: each line with the axes that it is for."""
         with permit.passing():
-            self._searching = lines  # before the line goes: a stop that follows must reset
-            self.known -= {axis for _, axes in lines for axis in axes}
+            self._searches = lines  # before the line goes: a stop that follows must reset
+            self._forget_position(axis for _, axes in lines for axis in axes)
             self.dialogue.say(lines[0][0])
         self._permit = permit
 
@@ -189,9 +222,11 @@ class Controller:
         """
         if self._lost is not None:
             raise ConnectionLostError(self._lost)
+        self._notice_pause(now_s)
         self._follow_stops()
-        for told, asked_s, fresh in self.dialogue.received():
-            self._take(told, asked_s, fresh)
+        self.dialogue.may_be_silent = self._may_be_silent()
+        for reception in self.dialogue.received():
+            self._take(reception)
         self._empty_at_rest()
         self._go_on()
         self._look_at_times(now_s)
@@ -202,35 +237,117 @@ class Controller:
 
     # --- what is heard -----------------------------------------------------------------------
 
-    def _take(self, message: Message, asked_s: float | None, fresh: bool) -> None:
-        if isinstance(message, Status):
-            if message.position is None:
-                return
-            if asked_s is not None:
-                self._rows.append((asked_s - self._opened_s, message.position))
-            if fresh:
-                self._latest = message
-                self._arrive()
-        elif isinstance(message, Answer):
-            self._answered(message)
-        elif isinstance(message, Alarm):
-            self._alarmed(message)
-        elif isinstance(message, Welcome):
+    def _take(self, reception: Reception) -> None:
+        heard = reception.message
+        if isinstance(heard, Status):
+            self._take_status(heard, reception)
+        elif isinstance(heard, Answer):
+            self._answered(heard)
+        elif isinstance(heard, Alarm):
+            self._alarmed(heard)
+        elif isinstance(heard, Welcome):
             self._welcomed()
 
+    def _take_status(self, status: Status, reception: Reception) -> None:
+        if not self._is_usable(status, reception):
+            self.dialogue.count_discarded()
+            if self._readings.shows_new_position:
+                self._readings.restart()
+                self._forget_position(self._names)
+                self._give_up(
+                    message(
+                        "engine",
+                        "{count} reports in a row put the axes where they cannot have gone by "
+                        "themselves; the position is unknown, home all axes",
+                    ).fill(count=REPORTS_OF_A_NEW_POSITION)
+                )
+            return
+        assert status.position is not None, "it is usable"
+        self._used_s = reception.received_s
+        self._deaf = False
+        if reception.time_s is not None:
+            self._rows.append((reception.time_s - self._opened_s, status.position))
+        if not reception.fresh:
+            return
+        machine = interpret_state(status)
+        if not machine.recognized:
+            # Nobody knows whether such a state moves: the count tells.
+            machine = MachineState(status.position != self._position, machine.fault)
+        self._position, self._machine = status.position, machine
+        self._locate_homed_axes()
+        self._heed_state()
+        self._arrive()
+
+    def _is_usable(self, status: Status, reception: Reception) -> bool:
+        """Return whether a report is complete, plausible, and of a state that is no slip."""
+        if status.position is None or len(status.position) < len(self._axes):
+            return False
+        known = [index for index, name in enumerate(self._names) if name in self.known]
+        values = self._values(status.position)
+        if not self._readings.accepts(values, reception.asked_s, reception.received_s, known):
+            return False
+        # A byte that was lost makes a strange word once; a strange state says it again.
+        strange = None if interpret_state(status).recognized else status.state
+        usable = strange is None or strange == self._strange_word
+        self._strange_word = strange
+        return usable
+
+    def _heed_state(self) -> None:
+        """Lock motion where the controller itself forbids it."""
+        machine = self._machine
+        expected = self._braking or self._stops or self._reset_s is not None
+        locked_already = machine.position_lost and not self.known and self._move is None
+        if machine.position_lost:
+            self._forget_position(self._names)
+        if machine.fault is None or self.fault is not None or self._searches:
+            return
+        if (expected and machine.holds) or (machine.alarm and locked_already):
+            return
+        _LOG.warning("%s: %s", self._name, machine.fault)
+        self._end_move()
+        self.fault = machine.fault
+
+    def _locate_homed_axes(self) -> None:
+        """Find out where the count of homed axes begins; their position is known from now on."""
+        if not self._homed or self._machine.moving:
+            return
+        homed, self._homed = self._homed, set()
+        try:
+            axes = tuple(
+                axis.located(self._position[axis.number], self._settings)
+                if axis.name in homed
+                else axis
+                for axis in self._axes
+            )
+        except InputError as error:
+            _LOG.warning("%s: %s", self._name, error)
+            self._end_move()
+            self.fault = str(error)
+            return
+        self._use_axes(axes)
+        self.known |= homed
+
     def _arrive(self) -> None:
-        """End a way whose end has been reached."""
-        if self._latest.moving or self.dialogue.awaited is not None or self._braking:
+        """End a move whose end has been reached, and one that goes elsewhere."""
+        move = self._move
+        if move is None:
             return
-        way, position = self._way, self._latest.position
-        if way is None or position is None or not way.fully_sent:
+        if strayed := move.strayed(self._position):
+            self._forget_position(axis.name for axis in move.axes)
+            self._give_up(strayed)
             return
-        if short := way.missed(position):
+        self._tried.update(move.passed_trial(self._position))
+        if self._machine.moving or self.dialogue.awaited is not None or self._braking:
+            return
+        untried = [axis.name for axis in move.axes if axis.name not in self._tried]
+        if not move.fully_sent and not untried:
+            return
+        if short := move.missed(self._position):
             self._give_up(
                 message("engine", "the move ended before its target: {short}").fill(short=short)
             )
         else:
-            self._end_way()
+            self._end_move()
 
     def _answered(self, answer: Answer) -> None:
         line, self.dialogue.awaited = self.dialogue.awaited, None
@@ -239,36 +356,43 @@ class Controller:
         if answer.error is not None:
             self._give_up(
                 message("engine", "the controller refused {line}: {text}").fill(
-                    line=repr(line), text=answer.text
+                    line=repr(line), text=describe_error(answer.error, self._settings.firmware)
                 ),
             )
-        elif self._searching and line == self._searching[0][0]:
-            self.known |= set(self._searching.popleft()[1])
+        elif self._searches and line == self._searches[0][0]:
+            self._homed |= set(self._searches.popleft()[1])
+            # Some answer no query while they home, and then the last one at an unknown time.
+            self.dialogue.abandon_query()
+            self._readings.restart()
+            self._used_s = self._clock()
 
     def _alarmed(self, alarm: Alarm) -> None:
         self.dialogue.forget()
-        self._latest = Status("Alarm", 0, self._latest.position)
+        self._machine = MachineState()
         self._braking = False
-        self._end_way()
-        self._searching.clear()
-        if alarm.number not in POSITION_KEPT:
-            self.known.clear()
-        self._unlock = alarm.number in POSITION_KEPT
-        self._deaf = alarm.number in CRITICAL
-        if alarm.number != 6 or not self.stop_pending:  # 6 is how a homing ends that is stopped
-            self.fault = alarm.text
-            _LOG.warning("%s: %s", self._name, alarm.text)
+        self._end_move()
+        self._searches.clear()
+        self._homed.clear()
+        self._forget_position(self._names)
+        self._deaf = True
+        # A homing that is stopped ends with an alarm of its own.
+        if alarm.number != _HOMING_RESET_ALARM or not self.stop_pending:
+            self.fault = describe_alarm(alarm.number, self._settings.firmware)
+            _LOG.warning("%s: %s", self._name, self.fault)
 
     def _welcomed(self) -> None:
         if self._reset_s is None and not self._stops and self.fault is None:
-            self.known.clear()
-            self.fault = marked(
-                "engine", "the controller was reset from outside, or lost its supply"
+            self._forget_position(self._names)
+            self.fault = message(
+                "engine",
+                "the controller was reset from outside, or lost its supply; clear the fault, "
+                "then home",
             )
         self._deaf = False
         self._reset_s = None
-        self._searching.clear()
-        self._end_way(keep=self._reset_wanted())
+        self._searches.clear()
+        self._homed.clear()
+        self._end_move(keep=self._reset_wanted())
         self.dialogue.forget()
 
     def _reset_wanted(self) -> bool:
@@ -277,27 +401,44 @@ class Controller:
 
     # --- what is done ------------------------------------------------------------------------
 
+    def _notice_pause(self, now_s: float) -> None:
+        """Cancel everything after a pause of this program: nobody watched meanwhile."""
+        paused_s, self._stepped_s = now_s - self._stepped_s, now_s
+        if paused_s <= MAX_PAUSE_S:
+            return
+        self.dialogue.resume_after_pause()
+        self._used_s = now_s
+        if self._move is None and not self._targets and not self._searches:
+            return
+        _LOG.warning(
+            "%s: this program was suspended for %.1f s; the motion is cancelled",
+            self._name,
+            paused_s,
+        )
+        self._permit = None
+        self.stop()
+
     def _follow_stops(self) -> None:
         """Note what other threads have told the controller, and let nothing continue."""
         while self._stops:
             byte = self._stops.popleft()
             if byte == RESET:
-                self._searching.clear()
+                self._searches.clear()
                 self._begin_reset()
             else:
                 self._braking = True
-                self._brakes("Hold")
-            self._end_way(keep=self._reset_wanted() and self._way is None)
+                self._expect_braking()
+            self._end_move(keep=self._reset_wanted() and self._move is None)
 
     def _empty_at_rest(self) -> None:
-        if self._braking and not self._latest.moving and self._reset_s is None:
+        if self._braking and not self._machine.moving and self._reset_s is None:
             self.dialogue.send_realtime(RESET)
             self._begin_reset()
 
-    def _brakes(self, state: str) -> None:
+    def _expect_braking(self) -> None:
         """Take it to brake until a report that was requested from now on says otherwise."""
         self.dialogue.invalidate_reports()
-        self._latest = Status(state, 1, self._latest.position)
+        self._machine = MachineState(moving=True)
 
     def _begin_reset(self) -> None:
         self._reset_s = self._clock()
@@ -305,101 +446,131 @@ class Controller:
         self.dialogue.forget()
 
     def _go_on(self) -> None:
-        """Say what comes next: a search, a piece of a way, a way that had to wait."""
+        """Say what comes next: a search, a piece of a move, a move that had to wait."""
         if not self.ready:
             return
-        if self._unlock and self._latest.state == "Alarm":
+        if self._unlock:
             self._unlock = False
             self.dialogue.say("$X")
         if self._permit is None or self.dialogue.awaited is not None:
             return
         try:
-            if self._searching:
+            if self._searches:
                 with self._permit.passing(begins=False):
-                    self.dialogue.say(self._searching[0][0])
-            elif self._wanted:
+                    self.dialogue.say(self._searches[0][0])
+            elif self._targets:
                 self._say_next(self._permit)
         except GateError as error:
             _LOG.info("%s: %s", self._name, error)
-            self._searching.clear()
-            self._end_way()
+            self._searches.clear()
+            self._end_move()
 
     def _say_next(self, permit: Permit) -> None:
-        begins = self._way is None
-        if self._way is None:
-            if self._latest.moving:
-                return  # it still brakes
-            self._way = self._way_to(self._wanted, self._speeds)
-            if self._way is None:
-                self._end_way()
+        begins = self._move is None
+        if self._move is None:
+            # It still brakes, or nobody knows where it is: the move waits.
+            if self._machine.moving or self._readings.is_in_doubt:
                 return
-        assert self._latest.position is not None, "a controller that was opened tells one"
-        line = self._way.line(self._latest.position)
+            self._move = self._move_to(self._targets, self._speeds)
+            if self._move is None:
+                self._end_move()
+                return
+        line = self._move.line(self._position, on_trial=self._untried)
         if line is not None:
             with permit.passing(begins=begins):
                 self.dialogue.say(line)
 
-    def _way_to(
+    def _move_to(
         self, targets: Mapping[str, float], speeds: Mapping[str, float]
     ) -> StraightMove | None:
-        assert self._latest.position is not None, "a controller that was opened tells one"
-        return StraightMove.of(self._axes, self._latest.position, targets, speeds)
+        return StraightMove.of(
+            self._axes, self._position, targets, speeds, self.dialogue.round_trip_s
+        )
 
-    def _next(self, way: StraightMove) -> str:
-        assert self._latest.position is not None, "a controller that was opened tells one"
-        line = way.line(self._latest.position)
-        assert line is not None, "of a way that begins nothing has been told"
-        return line
+    @property
+    def _untried(self) -> list[str]:
+        return [name for name in self._names if name not in self._tried]
 
     def _may_be_silent(self) -> bool:
-        """Whether it answers no questions now: while it homes, and after a critical alarm."""
-        return bool(self._searching) or self._deaf
+        """Whether it answers no questions now: while it homes, and after an alarm."""
+        return bool(self._searches) or self._deaf
 
-    def _end_way(self, *, keep: bool = False) -> None:
-        self._way = None
+    def _end_move(self, *, keep: bool = False) -> None:
+        self._move = None
         if not keep:
-            self._wanted, self._speeds = {}, {}
+            self._targets, self._speeds = {}, {}
+
+    def _use_axes(self, axes: tuple[StageAxis, ...]) -> None:
+        """Work with axes that are counted so from now on."""
+        self._axes = axes
+        self._names = tuple(axis.name for axis in axes)
+        self._readings = ReadingCheck([axis.reading_bounds for axis in axes])
+        self.dialogue.guard.permit_ranges({axis.letter: axis.permitted_targets for axis in axes})
+
+    def _forget_position(self, names: Iterable[str]) -> None:
+        forgotten = set(names)
+        self.known -= forgotten
+        self._tried -= forgotten
+
+    def _values(self, position: Sequence[float]) -> tuple[float, ...]:
+        """Return a report's position in m or rad."""
+        return tuple(axis.value(position[axis.number]) for axis in self._axes)
 
     def _give_up(self, fault: str) -> None:
         """Halt and say why."""
         _LOG.warning("%s: %s", self._name, fault)
-        self._searching.clear()
-        self._end_way()
+        self._searches.clear()
+        self._end_move()
         self.fault = fault
         self.dialogue.send_realtime(HOLD)
         self._braking = True
-        self._brakes("Hold")
+        self._expect_braking()
+
+    def _patience(self, seconds: float) -> float:
+        """Return a time that a fast line needs, for this one."""
+        return seconds + _WAITING_ROUND_TRIPS * self.dialogue.round_trip_s
 
     def _look_at_times(self, now_s: float) -> None:
-        if self._reset_s is not None and now_s - self._reset_s > _RESET_S:
+        if self._reset_s is not None and now_s - self._reset_s > self._patience(_RESET_S):
             self.dialogue.send_realtime(RESET)
             self._reset_s = now_s
-        limit_s = self._homing_s if self._searching else _LINE_S
-        if self.dialogue.awaited is not None and now_s - self.dialogue.awaited_since_s > limit_s:
-            line = self.dialogue.awaited
+        limit_s = self._homing_s if self._searches else self._patience(_LINE_S)
+        line, since_s = self.dialogue.awaited, self.dialogue.awaited_since_s
+        silent_s = now_s - self.dialogue.heard_s
+        if line is not None and now_s - since_s > limit_s:
             self.dialogue.forget()
-            if now_s - self.dialogue.heard_s < _SILENT_S or self._searching:
+            if silent_s < self._patience(_SILENT_S) or self._searches:
                 self._give_up(
                     message("engine", "no answer to {line} within {limit_s} s").fill(
-                        line=repr(line), limit_s=limit_s
+                        line=repr(line), limit_s=rounded(limit_s, 2)
                     ),
                 )
-        if not self._may_be_silent() and now_s - self.dialogue.heard_s > _LOST_S:
+        if self._may_be_silent():
+            return
+        lost_s = self._patience(_LOST_S)
+        if silent_s > lost_s:
             self._lost = message(
                 "engine",
                 "{port}: the controller has not answered for {seconds} s; it ends its "
                 "motion within half a second plus braking. Check the machine, then "
                 "reconnect",
-            ).fill(port=self._port, seconds=_LOST_S)
+            ).fill(port=self._port, seconds=rounded(lost_s, 2))
             raise ConnectionLostError(self._lost)
+        if now_s - self._used_s > lost_s and self.fault is None:
+            self._forget_position(self._names)
+            self._give_up(
+                message(
+                    "engine",
+                    "no report of the last {seconds} s could be used; check the cable, then clear "
+                    "the fault and home",
+                ).fill(seconds=rounded(lost_s, 2))
+            )
 
     def _samples(self) -> Samples:
         rows, self._rows = self._rows, []
         if not rows:
             return Samples.none(len(self._axes))
-        position = np.array(
-            [[axis.value(at[axis.number]) for axis in self._axes] for _, at in rows]
-        )
+        position = np.array([self._values(at) for _, at in rows])
         none = np.full(position.shape, np.nan)
         time_s = np.array([time_s for time_s, _ in rows])
         return Samples(time_s, position, position, none, np.full(len(rows), -1))

@@ -1,14 +1,18 @@
-"""A robot's axes in a GRBL controller's coordinates: letters, mm or degrees, below zero.
+"""A robot's axes in a GRBL controller's coordinates: letters, mm or degrees, origin, range.
 
-Machine coordinates of GRBL end at 0 and begin at minus the travel (``$130`` and on), whichever end
-the switch is at; the low end of an axis' range lies there.
+GRBL counts from minus the travel (``$130`` and on) to 0, whichever end the switch is at. With a
+forced origin (GRBL's option Z, bit 3 of ``$22`` in grblHAL) it counts from 0 at the switch, and
+FluidNC from a position that its configuration names. The low end of an axis' range lies at the low
+end of the travel.
 """
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from math import floor, pi, sqrt
 from typing import Self
 
+from rotemina.drivers.gcode.controller_settings import ControllerSettings
+from rotemina.drivers.reading_check import ReadingBounds
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import fixed
@@ -17,7 +21,10 @@ from rotemina.sim.robot.model import Robot, StepperAxis
 _UNITS = {"m": 1000.0, "rad": 180.0 / pi}  # to mm, to degrees
 _DIGIT = 1e-3  # a report has three decimals
 _FIRST_STEPS, _FIRST_RATE, _FIRST_ACCELERATION, _FIRST_TRAVEL = 100, 110, 120, 130
+_PER_MINUTE = 60.0
 _SLACK = 1e-6  # settings have three decimals; this is their rounding, as a share
+# A report is rounded, and so is the place where a controller ends a move.
+_TOLERANCE_STEPS = 2.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,9 +43,11 @@ class StageAxis:
     low, high : float
         Ends of the range, m or rad.
     travel, resolution : float
-        What the controller travels, and its smallest step that is told, m or rad.
+        What the controller travels, and the smallest step that it reports, m or rad.
     speed, acceleration : float
         The greatest, m/s and m/s² or rad/s and rad/s².
+    origin : float
+        Where the controller counts the low end of the range, mm or degrees.
     """
 
     name: str
@@ -51,23 +60,25 @@ class StageAxis:
     resolution: float
     speed: float
     acceleration: float
+    origin: float
 
     @classmethod
     def of(
-        cls, robot: Robot, name: str, letter: str, number: int, settings: Mapping[int, float]
+        cls, robot: Robot, name: str, letter: str, number: int, settings: ControllerSettings
     ) -> Self:
         """Return an axis as the settings of its controller say.
 
         Raises
         ------
         InputError
-            If a setting is missing, or lets the axis do more, or go less far, than its robot file.
+            If a setting is missing.
         """
         axis = robot.axes[name]
         scale = _UNITS[robot.unit(name) or "m"]
 
         def value(first: int) -> float:
-            if settings.get(first + number, 0.0) <= 0.0:
+            setting = settings.number(first + number)
+            if setting is None or setting <= 0.0:
                 raise InputError(
                     message(
                         "engine",
@@ -75,46 +86,138 @@ class StageAxis:
                         "each of the {count} axes",
                     ).fill(name=name, first=first + number, count=len(robot.axes))
                 )
-            return settings[first + number]
+            return setting
 
-        speed, acceleration = value(_FIRST_RATE) / 60.0 / scale, value(_FIRST_ACCELERATION) / scale
-        travel = value(_FIRST_TRAVEL) / scale
-        unit = "mm" if scale == _UNITS["m"] else "deg"
-        for first, bound, least, wanted in (
-            (_FIRST_TRAVEL, travel, True, axis.span),
-            (_FIRST_ACCELERATION, acceleration, False, axis.max_acceleration),
-        ):
-            if wanted is None:
-                continue
-            over = wanted - bound if least else bound - wanted
-            if over > _SLACK * wanted:
-                raise InputError(
-                    message(
-                        "engine",
-                        "axis {name}: the controller's ${first} = {settings} does not agree with "
-                        "the robot file; send it ${first}={wanted} ({unit}), or correct the file",
-                    ).fill(
-                        name=name,
-                        first=first + number,
-                        settings=settings[first + number],
-                        wanted=fixed(wanted * scale, 3),
-                        unit=unit,
-                    )
-                )
+        travel = value(_FIRST_TRAVEL)
+        speed = value(_FIRST_RATE) / _PER_MINUTE / scale
         return cls(
-            name, letter, number, scale, *axis.range, travel,
+            name,
+            letter,
+            number,
+            scale,
+            *axis.range,
+            travel / scale,
             max(_DIGIT, 1.0 / value(_FIRST_STEPS)) / scale,
-            min(speed, axis.max_speed or speed), acceleration,
-        )  # fmt: skip
+            min(speed, axis.max_speed or speed),
+            value(_FIRST_ACCELERATION) / scale,
+            settings.declared_low_end(letter, number, travel),
+        )
+
+    @property
+    def tolerance(self) -> float:
+        """By how much a report may differ from where the axis is, m or rad."""
+        return _TOLERANCE_STEPS * self.resolution
+
+    @property
+    def reading_bounds(self) -> ReadingBounds:
+        """What reports of this axis may say."""
+        return ReadingBounds(self.low, self.high, self.speed, self.tolerance)
+
+    @property
+    def permitted_targets(self) -> tuple[float, float]:
+        """Ends of the range in the controller's coordinates."""
+        return self.rounded(self.low), self.rounded(self.high)
+
+    def located(self, homed_at: float, settings: ControllerSettings) -> Self:
+        """Return the axis with its origin as the controller counts it after homing.
+
+        Raises
+        ------
+        InputError
+            If the count fits no machine space, or the range of the robot file.
+        """
+        travel = self.travel * self.scale
+        origin = settings.low_end_after_homing(self.letter, self.number, travel, homed_at)
+        located = self if origin is None else replace(self, origin=origin)
+        at = located.value(homed_at)
+        if origin is not None and self.low - self.tolerance <= at <= self.high + self.tolerance:
+            return located
+        unit = "mm" if self.scale == _UNITS["m"] else "deg"
+        raise InputError(
+            message(
+                "engine",
+                "axis {name}: after homing the controller counts {count} {unit}, which is not "
+                "within its range: the robot file has {low} to {high} {unit}, the controller "
+                "travels {travel} {unit} (${setting}). Correct ${setting} and the homing settings "
+                "($22, $23, $27), or the robot file",
+            ).fill(
+                name=self.name,
+                count=fixed(homed_at, 3),
+                unit=unit,
+                low=fixed(self.low * self.scale, 3),
+                high=fixed(self.high * self.scale, 3),
+                travel=fixed(travel, 3),
+                setting=_FIRST_TRAVEL + self.number,
+            )
+        )
 
     def rounded(self, value: float) -> float:
         """Return a position, m or rad, in the controller's coordinates, in its own digits."""
         bounded = min(max(value, self.low), self.high)
-        return round((bounded - self.low - self.travel) * self.scale, 3)
+        return round(self.origin + (bounded - self.low) * self.scale, 3)
 
     def value(self, number: float) -> float:
         """Return a position of a report in m or rad."""
-        return self.low + self.travel + number / self.scale
+        return self.low + (number - self.origin) / self.scale
+
+
+def check_agreement(robot: Robot, axes: Sequence[StageAxis], settings: ControllerSettings) -> None:
+    """Refuse a controller whose travel, speed or acceleration does not cover the robot file.
+
+    Raises
+    ------
+    InputError
+        With every difference, and what to send to the controller.
+    """
+    differences = [
+        difference for axis in axes for difference in _differences_of(robot, axis, settings)
+    ]
+    if differences:
+        raise InputError(
+            message(
+                "engine",
+                "the controller's settings do not agree with the robot file: {differences}. Send "
+                "them to the controller, or correct the file",
+            ).fill(differences=", ".join(differences))
+        )
+
+
+def _differences_of(robot: Robot, axis: StageAxis, settings: ControllerSettings) -> list[str]:
+    described = robot.axes[axis.name]
+    per_minute = _PER_MINUTE * axis.scale
+    # Travel and speed must suffice; the acceleration decides how long a stop takes, so it is the
+    # same: more could lose steps, less lets the axis run on farther than the file says.
+    wanted = {
+        _FIRST_TRAVEL: (described.span * axis.scale, False),
+        _FIRST_RATE: ((described.max_speed or 0.0) * per_minute, False),
+        _FIRST_ACCELERATION: ((described.max_acceleration or 0.0) * axis.scale, True),
+    }
+    unit = "mm" if axis.scale == _UNITS["m"] else "deg"
+    units = {
+        _FIRST_TRAVEL: unit,
+        _FIRST_RATE: f"{unit}/min",
+        _FIRST_ACCELERATION: f"{unit}/s²",
+    }
+    differences: list[str] = []
+    for first, (value, exactly) in wanted.items():
+        present = settings.number(first + axis.number) or 0.0
+        lacks = value - present > _SLACK * value
+        exceeds = exactly and value > 0.0 and present - value > _SLACK * value
+        if lacks or exceeds:
+            differences.append(
+                message(
+                    "engine",
+                    "axis {name}: ${setting} = {present}, the file has {value} {unit} "
+                    "(${setting}={value})",
+                ).fill(
+                    name=axis.name,
+                    setting=first + axis.number,
+                    present=fixed(present, 3),
+                    value=fixed(value, 3),
+                    unit=units[first],
+                )
+            )
+    return differences
 
 
 def check_stage(robot: Robot, letters: str) -> None:

@@ -3,6 +3,7 @@
 import time
 from collections import deque
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from types import MappingProxyType
 from typing import ClassVar
 
@@ -11,10 +12,11 @@ from rotemina.drivers.axes import AxisDescription
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.errors import DriverError, LimitError, StateError
 from rotemina.drivers.gate import Permit
+from rotemina.drivers.gcode.controller_settings import ControllerSettings
 from rotemina.drivers.gcode.controller_state import Controller
-from rotemina.drivers.gcode.coordinates import StageAxis, check_stage
+from rotemina.drivers.gcode.coordinates import StageAxis, check_agreement, check_stage
 from rotemina.drivers.gcode.dialogue import UNCERTAIN_S, Dialogue
-from rotemina.drivers.gcode.opening import Opening
+from rotemina.drivers.gcode.opening import ControllerInfo, Opening
 from rotemina.drivers.line_quality import LinkQuality
 from rotemina.drivers.mc68hc11.port import OpenPort, Port, open_port
 from rotemina.drivers.samples import DeviceStatus, Samples
@@ -22,8 +24,6 @@ from rotemina.drivers.settings import SettingError, SettingValue
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
 from rotemina.sim.robot.model import Robot
-
-_SINGLE = "H"  # of the controller's options: it homes axes one by one
 
 
 class GcodeStage(Homer, Linked):
@@ -35,7 +35,7 @@ class GcodeStage(Homer, Linked):
     position when it is opened (otherwise the axes must be homed first).
 
     The controller has no sensors: readings are its own count of steps. Nor has it a clock: a sample
-    is of when it was requested, and is left out where the answer was late.
+    is of the middle of its round trip, and is left out where the answer was late.
 
     Parameters
     ----------
@@ -92,27 +92,30 @@ class GcodeStage(Homer, Linked):
         self._controller: Controller | None = None
         self._port: Port | None = None
         self._axes: tuple[StageAxis, ...] = ()
-        self._single = self._able = False
+        self._controller_settings = ControllerSettings()
 
     # --- what the contract asks for ----------------------------------------------------------
 
     @property
     def descriptions(self) -> tuple[AxisDescription, ...]:
-        """The axes, with the controller's step sizes."""
-        told = super().descriptions
+        """The axes, with the controller's step sizes, speeds and accelerations."""
+        described = super().descriptions
         if not self._axes:
-            return told
+            return described
         return tuple(
-            AxisDescription(
-                one.name, one.kind, one.role, one.low, one.high, one.unit, axis.resolution
+            replace(
+                description,
+                resolution=axis.resolution,
+                max_speed=axis.speed,
+                max_acceleration=axis.acceleration,
             )
-            for one, axis in zip(told, self._axes, strict=True)
+            for description, axis in zip(described, self._axes, strict=True)
         )
 
     @property
     def homing_axes(self) -> tuple[str, ...]:
         """All axes, where the controller's homing is enabled ($22)."""
-        return self.axes if self._able else ()
+        return self.axes if self._controller_settings.can_home else ()
 
     @property
     def stop_pending(self) -> bool:
@@ -126,13 +129,13 @@ class GcodeStage(Homer, Linked):
     def _open(self) -> None:
         url = str(self.settings["port"])
         port = self._open_port(url, self._baud)
-        self._single = self._able = False
+        self._controller_settings = ControllerSettings()
         try:
             dialogue = Dialogue(port, self.clock, self._baud)
-            info = Opening(dialogue, self.clock, self._pause, url).handshake()
-            assert info.status.position is not None, "the opening refuses one without"
-            self._axes = self._matched(info.settings, len(info.status.position), url)
-            self._able, self._single = bool(info.settings.get(22)), _SINGLE in info.options
+            letters = self._letters[: len(self.axes)]
+            info = Opening(dialogue, self.clock, self._pause, url).handshake(letters)
+            self._axes = self._matched(info, url)
+            self._controller_settings = info.settings
         except BaseException:
             port.close()
             raise
@@ -141,6 +144,7 @@ class GcodeStage(Homer, Linked):
             self.name,
             dialogue,
             self._axes,
+            info.settings,
             info.status,
             self.clock,
             poll_s=self._poll_s,
@@ -148,38 +152,38 @@ class GcodeStage(Homer, Linked):
             port=url,
         )
         if self.settings["trust_position"] and info.status.state == "Idle":
-            controller.known = set(self.axes)
+            controller.trust_count()
         self._controller = controller
 
-    def _matched(
-        self, settings: Mapping[int, float], count: int, url: str
-    ) -> tuple[StageAxis, ...]:
+    def _matched(self, info: ControllerInfo, url: str) -> tuple[StageAxis, ...]:
+        count = len(info.status.position or ())
         if count < len(self.axes):
             raise DriverError(
                 message(
                     "engine",
-                    "{url}: the controller has {count} axes, robot {robot} {wanted}; choose "
+                    "{url}: the controller has {count} axes, robot {robot} {expected}; choose "
                     "the robot file of this stage",
-                ).fill(url=url, count=count, robot=repr(self.robot.name), wanted=len(self.axes))
+                ).fill(url=url, count=count, robot=repr(self.robot.name), expected=len(self.axes))
             )
         try:
-            return tuple(
-                StageAxis.of(self.robot, name, self._letters[number], number, settings)
+            axes = tuple(
+                StageAxis.of(self.robot, name, self._letters[number], number, info.settings)
                 for number, name in enumerate(self.axes)
             )
+            check_agreement(self.robot, axes, info.settings)
         except InputError as error:
             raise DriverError(
                 message("engine", "{url}: {error}").fill(url=url, error=str(error))
             ) from error
+        return axes
 
     def _close(self) -> None:
         controller, self._controller = self._controller, None
         assert controller is not None, "an open driver has one"
         try:
-            if controller.to_be_emptied:
-                dialogue = controller.dialogue
-                dialogue.forget()
-                Opening(dialogue, self.clock, self._pause, str(self.settings["port"])).empty()
+            if not controller.is_lost:
+                where = str(self.settings["port"])
+                Opening(controller.dialogue, self.clock, self._pause, where).leave()
         finally:
             if self._port is not None:
                 self._port.close()
@@ -213,7 +217,8 @@ class GcodeStage(Homer, Linked):
         self._opened.clear_fault(permit)
 
     def _home(self, axes: tuple[str, ...], permit: Permit) -> None:
-        if not self._single and set(axes) != set(self.axes):
+        single = self._controller_settings.homes_single_axes
+        if not single and set(axes) != set(self.axes):
             raise LimitError(
                 message(
                     "engine",
@@ -226,12 +231,14 @@ class GcodeStage(Homer, Linked):
                 message("engine", "{name} is still handling a stop; try again").fill(name=self.name)
             )
         lines = deque([("$H", self.axes)])
-        if self._single:
+        if single:
             lines = deque(("$H" + self._letters[self.axes.index(axis)], (axis,)) for axis in axes)
         self._opened.home(lines, permit)
 
     def _read(self) -> Samples:
-        return self._opened.step(self.clock())
+        samples = self._opened.step(self.clock())
+        self.stamp_error_s = self._opened.dialogue.stamp_error_s
+        return samples
 
     @property
     def _opened(self) -> Controller:

@@ -1,51 +1,35 @@
-"""Reports of a GRBL controller: each line as a message. Source: GRBL 1.1, interface.md."""
+"""Reports of a GRBL controller: each line as a message.
+
+Source: GRBL 1.1 (``interface.md``), grblHAL (``report.c``), FluidNC (``Report.cpp``).
+"""
 
 import re
-from collections.abc import Mapping
 from dataclasses import dataclass
+from math import isfinite
 
-from rotemina.sim.messages import marked, message
-
-#: What alarms mean that a stage can have.
-ALARMS = {
-    1: marked("engine", "hard limit: a limit switch was reached"),
-    2: marked("engine", "soft limit: a target lies beyond the travel"),
-    3: marked("engine", "it was reset during motion"),
-    6: marked("engine", "homing was ended by a reset"),
-    7: marked("engine", "the door was opened during homing"),
-    8: marked("engine", "homing: pulling off did not clear the limit switch"),
-    9: "homing: the limit switch was not found",
-}
-#: Of alarms after which the controller still knows where it is.
-POSITION_KEPT = frozenset({2, 4, 5})
-#: Of alarms after which the controller answers nothing but a reset.
-CRITICAL = frozenset({1, 2})
-ERRORS = {
-    5: marked("engine", "homing is not enabled ($22)"),
-    8: marked("engine", "it is not idle"),
-    9: marked("engine", "it is locked by an alarm"),
-    11: marked("engine", "the line is too long"),
-    15: marked("engine", "the target lies beyond the travel"),
-    16: marked("engine", "not a jog command"),
-    20: marked("engine", "unsupported G-code"),
-}
-_STATUS = re.compile(r"<(\w+)(?::(\d+))?\|(.*)>")
+_STATUS = re.compile(r"<(\w*)(?::(\d+))?\|([^<>]*)>")
 _NUMBERED = re.compile(r"(error|ALARM):(\d+)")
-_SETTING = re.compile(r"\$(\d+)=(-?[\d.]+).*")
+_SETTING = re.compile(r"\$([\w/]+)=(.*)")
+_COORDINATE = re.compile(r"[+-]?\d+(\.\d*)?")
+#: The older form of a status, of GRBL 0.9 and before: commas where 1.1 has bars.
+OLD_STATUS = re.compile(r"<\w+,[MW]Pos:")
 
 
 @dataclass(frozen=True, slots=True)
 class Status:
-    """``<State:substate|MPos:x,y,z|…>``; ``position`` in mm or degrees, None if it is no MPos."""
+    """``<State:substate|MPos:x,y,z|…>``.
+
+    Attributes
+    ----------
+    state : str
+    substate : int or None
+    position : tuple of float or None
+        The machine position, mm or degrees; None where the report has none that can be read.
+    """
 
     state: str
-    substate: int
+    substate: int | None
     position: tuple[float, ...] | None
-
-    @property
-    def moving(self) -> bool:
-        """Whether axes move, or still brake."""
-        return self.state in ("Run", "Jog", "Home") or (self.state == "Hold" and self.substate == 1)
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,22 +38,12 @@ class Answer:
 
     error: int | None = None
 
-    @property
-    def text(self) -> str:
-        """The error in words."""
-        return _in_words("error", self.error or 0, ERRORS)
-
 
 @dataclass(frozen=True, slots=True)
 class Alarm:
     """``ALARM:N``: the controller has locked itself."""
 
     number: int
-
-    @property
-    def text(self) -> str:
-        """The alarm in words."""
-        return _in_words("ALARM", self.number, ALARMS)
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,10 +55,10 @@ class Welcome:
 
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """``$N=value``."""
+    """``$name=text``; names are numbers, in FluidNC also paths, and not every text is a number."""
 
-    number: int
-    value: float
+    name: str
+    text: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,34 +75,36 @@ def parse_report(line: str) -> Message | None:
     """Return the message of a line; None if it is not a controller's."""
     if line == "ok":
         return Answer()
-    if line.startswith("Grbl"):
+    if line.lower().startswith("grbl"):
         return Welcome(line)
     if line.startswith("[") and line.endswith("]"):
         return Note(line[1:-1])
-    if found := _NUMBERED.fullmatch(line):
-        number = int(found[2])
-        return Answer(number) if found[1] == "error" else Alarm(number)
-    if found := _STATUS.fullmatch(line):
-        return Status(found[1], int(found[2] or 0), _position(found[3]))
-    if found := _SETTING.fullmatch(line):
-        return Setting(int(found[1]), float(found[2]))
+    if match := _NUMBERED.fullmatch(line):
+        number = int(match[2])
+        return Answer(number) if match[1] == "error" else Alarm(number)
+    if match := _STATUS.fullmatch(line):
+        substate = int(match[2]) if match[2] else None
+        return Status(match[1], substate, _read_position(match[3]))
+    if match := _SETTING.fullmatch(line):
+        return Setting(match[1], match[2])
     return None
 
 
-def _position(fields: str) -> tuple[float, ...] | None:
+def read_number(text: str) -> float | None:
+    """Return the number that a setting begins with, as ``10.000 (x, mm)``; None where none is."""
+    words = text.split()
+    try:
+        value = float(words[0]) if words else float("nan")
+    except ValueError:
+        return None
+    return value if isfinite(value) else None
+
+
+def _read_position(fields: str) -> tuple[float, ...] | None:
     for field in fields.split("|"):
         name, _, numbers = field.partition(":")
         if name == "MPos":
-            try:
-                return tuple(map(float, numbers.split(",")))
-            except ValueError:
-                return None
+            coordinates = numbers.split(",")
+            if all(map(_COORDINATE.fullmatch, coordinates)):
+                return tuple(map(float, coordinates))
     return None
-
-
-def _in_words(what: str, number: int, meanings: Mapping[int, str]) -> str:
-    return message("engine", "{what}:{number}, {meaning}").fill(
-        what=what,
-        number=number,
-        meaning=meanings.get(number, marked("engine", "see the manual")),
-    )
