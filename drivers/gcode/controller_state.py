@@ -20,7 +20,7 @@ from rotemina.drivers.errors import ConnectionLostError
 from rotemina.drivers.gate import GateError, Permit
 from rotemina.drivers.gcode.controller_settings import ControllerSettings
 from rotemina.drivers.gcode.coordinates import StageAxis
-from rotemina.drivers.gcode.dialogue import HOLD, JOG_CANCEL, RESET, Dialogue, Reception
+from rotemina.drivers.gcode.dialogue import HALT, JOG_CANCEL, RESET, Dialogue, Reception
 from rotemina.drivers.gcode.error_texts import describe_alarm, describe_error
 from rotemina.drivers.gcode.grbl_reports import Alarm, Answer, Status, Welcome
 from rotemina.drivers.gcode.machine_states import MachineState, interpret_state
@@ -187,10 +187,10 @@ class Controller:
     def stop(self) -> None:
         """Halt all axes; any thread."""
         # A controller that homes hears no feed hold, but a reset; its position is unknown anyway.
-        byte = RESET if self._searches else HOLD
-        self._stops.append(byte)
+        data = RESET if self._searches else HALT
+        self._stops.append(data)
         with suppress(ConnectionLostError):  # the next step says so
-            self.dialogue.send_realtime(byte)
+            self.dialogue.send_realtime(data)
 
     def clear_fault(self, permit: Permit) -> None:
         """Reset it, and forget the fault."""
@@ -274,6 +274,7 @@ class Controller:
             # Nobody knows whether such a state moves: the count tells.
             machine = MachineState(status.position != self._position, machine.fault)
         self._position, self._machine = status.position, machine
+        self._hold_again()
         self._locate_homed_axes()
         self._heed_state()
         self._arrive()
@@ -351,6 +352,7 @@ class Controller:
 
     def _answered(self, answer: Answer) -> None:
         line, self.dialogue.awaited = self.dialogue.awaited, None
+        self._hold_again()
         if line is None:
             return
         if answer.error is not None:
@@ -421,14 +423,19 @@ class Controller:
     def _follow_stops(self) -> None:
         """Note what other threads have told the controller, and let nothing continue."""
         while self._stops:
-            byte = self._stops.popleft()
-            if byte == RESET:
+            if self._stops.popleft() == RESET:
                 self._searches.clear()
                 self._begin_reset()
             else:
                 self._braking = True
                 self._expect_braking()
             self._end_move(keep=self._reset_wanted() and self._move is None)
+
+    def _hold_again(self) -> None:
+        """Repeat a halt for as long as axes move: a line that it overtook begins a new jog."""
+        if self._braking and self._machine.moving:
+            self.dialogue.send_realtime(HALT)
+            self._expect_braking()
 
     def _empty_at_rest(self) -> None:
         if self._braking and not self._machine.moving and self._reset_s is None:
@@ -522,7 +529,7 @@ class Controller:
         self._searches.clear()
         self._end_move()
         self.fault = fault
-        self.dialogue.send_realtime(HOLD)
+        self.dialogue.send_realtime(HALT)
         self._braking = True
         self._expect_braking()
 

@@ -13,13 +13,17 @@ from rotemina.drivers.gcode.wire_guard import WireGuard
 from rotemina.drivers.line_quality import LinkQuality
 from rotemina.drivers.mc68hc11.port import Port
 
-QUERY, HOLD, RESET, JOG_CANCEL = b"?", b"!", b"\x18", b"\x85"
+QUERY, RESET, JOG_CANCEL = b"?", b"\x18", b"\x85"
+#: Brakes the axes, whatever moves them. In a jog grblHAL ignores a feed hold; the jog cancel also
+#: removes a jog that still waits in its input, which would begin after the hold.
+HALT = JOG_CANCEL + b"!"
 _MAX_LINE_BYTES = 256  # longer than any line of a controller
 _KEPT_BYTES = 2048  # of what was sent and received, to explain a contact that fails
 _SMOOTHING = 0.1
-#: An answer that takes so much longer than the quickest ones may be of any moment in between, s.
-UNCERTAIN_S = 0.01
-_SLOWER = 1.01  # what the quickest answer is taken to have slowed down by, from answer to answer
+#: A status is dated in the middle of its round trip: on a fast line this is the error, s.
+MIN_STAMP_ERROR_S = 0.01
+# Of a round trip: an answer that takes longer than this leaves its moment open.
+_USUAL_ROUND_TRIPS = 1.5
 # A query is abandoned after this, and as many round trips.
 _PATIENCE_S, _PATIENCE_ROUND_TRIPS = 0.2, 3.0
 # Until a round trip is known: longer than any line that is accepted takes.
@@ -70,7 +74,6 @@ class Dialogue:
         self._first_sent = self._first_received = b""
         self._sent = self._received = self._rejected = self._repeated = 0
         self._round_trip_s: float | None = None
-        self._least_s = float("inf")  # the quickest answer of late
         #: The line that waits for its answer, and since when, s.
         self.awaited: str | None = None
         self.awaited_since_s = 0.0
@@ -92,7 +95,7 @@ class Dialogue:
     @property
     def stamp_error_s(self) -> float:
         """By how much the time of a status may be wrong, s: it was taken within the round trip."""
-        return max(UNCERTAIN_S, 0.5 * self.round_trip_s)
+        return max(MIN_STAMP_ERROR_S, 0.5 * _USUAL_ROUND_TRIPS * self.round_trip_s)
 
     @property
     def first_bytes(self) -> tuple[bytes, bytes]:
@@ -114,9 +117,9 @@ class Dialogue:
         self._sent += 1
         self._acts += 1
 
-    def send_realtime(self, byte: bytes) -> None:
-        """Send a byte that the controller obeys at once, past every line; any thread."""
-        self._write(byte)
+    def send_realtime(self, data: bytes) -> None:
+        """Send bytes that the controller obeys at once, past every line; any thread."""
+        self._write(data)
 
     def invalidate_reports(self) -> None:
         """Invalidate all reports requested before now."""
@@ -206,10 +209,9 @@ class Dialogue:
             asked_s, self.asked_s = self.asked_s, None
             took_s = now_s - asked_s
             if not self.may_be_silent:
-                self._least_s = min(self._least_s * _SLOWER, took_s)
                 self._measure(took_s)
-            is_late = took_s > self._least_s + UNCERTAIN_S * (1.0 + 1e-6)
-            time_s = None if is_late else asked_s + 0.5 * took_s
+            error_s = 0.5 * took_s
+            time_s = asked_s + error_s if error_s <= self.stamp_error_s else None
             return Reception(report, asked_s, now_s, time_s, self._asked_acts == self._acts)
         return Reception(report, now_s, now_s)
 

@@ -15,7 +15,7 @@ from rotemina.drivers.gate import Permit
 from rotemina.drivers.gcode.controller_settings import ControllerSettings
 from rotemina.drivers.gcode.controller_state import Controller
 from rotemina.drivers.gcode.coordinates import StageAxis, check_agreement, check_stage
-from rotemina.drivers.gcode.dialogue import UNCERTAIN_S, Dialogue
+from rotemina.drivers.gcode.dialogue import MIN_STAMP_ERROR_S, Dialogue
 from rotemina.drivers.gcode.opening import ControllerInfo, Opening
 from rotemina.drivers.line_quality import LinkQuality
 from rotemina.drivers.mc68hc11.port import OpenPort, Port, open_port
@@ -54,7 +54,7 @@ class GcodeStage(Homer, Linked):
 
     name = "gcode"
     service_period_s = 0.005
-    stamp_error_s = UNCERTAIN_S
+    stamp_error_s = MIN_STAMP_ERROR_S
     default_settings: ClassVar[Mapping[str, SettingValue]] = MappingProxyType(
         {
             "port": "",

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.errors import DriverTimeoutError, ProtocolError
 from rotemina.drivers.gcode.controller_settings import ControllerSettings, homing_path
-from rotemina.drivers.gcode.dialogue import HOLD, RESET, Dialogue, Reception
+from rotemina.drivers.gcode.dialogue import HALT, RESET, Dialogue, Reception
 from rotemina.drivers.gcode.error_texts import Firmware, identify_firmware
 from rotemina.drivers.gcode.first_contact import explain_contact
 from rotemina.drivers.gcode.grbl_reports import Answer, Message, Note, Setting, Status, Welcome
@@ -116,7 +116,7 @@ class Opening:
             If it does not answer, or does not come to rest.
         """
         self._status(_ANSWER_S, deaf_s=_DEAF_S)
-        self._dialogue.send_realtime(HOLD)
+        self._dialogue.send_realtime(HALT)
         self._dialogue.invalidate_reports()
         self._rest()
         self._dialogue.send_realtime(RESET)
