@@ -59,9 +59,18 @@ class ReadingCheck:
         """Whether so many refused reports agree that the axes must be elsewhere."""
         return len(self._run) >= REPORTS_OF_A_NEW_POSITION
 
-    def restart(self) -> None:
-        """Accept the next report from wherever it is: the axes were moved, or homed."""
-        self._position = None
+    def restart(self, position: Sequence[float] | None = None, taken_s: float = 0.0) -> None:
+        """Judge the next report from a position that is certain; without one, accept it anywhere.
+
+        Parameters
+        ----------
+        position : sequence of float, optional
+            Of each axis, m or rad.
+        taken_s : float
+            Host time at which the axes were there.
+        """
+        self._position = None if position is None else tuple(position)
+        self._taken_s = taken_s
         self._run = []
         self.is_in_doubt = False
 

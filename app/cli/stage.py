@@ -25,7 +25,7 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
         description="Serve a GRBL controller with the axes of a robot behind it, byte by byte, on"
         " a pseudo-terminal. The robot file gives its settings, and may have stepper "
         "axes only. Lines on standard input: limit (a limit switch closes), power "
-        "(its supply fails and returns).",
+        "(its supply fails and returns), door and closed (its safety door opens and closes).",
     )
     add_robot(parser)
     parser.add_argument("--port", type=Path, metavar="PATH", help="name of the pseudo-terminal")
@@ -69,7 +69,12 @@ def _serve(stage: EmulatedStage, port: PseudoTerminal, ended: Callable[[], bool]
 
 
 def _inject(stage: EmulatedStage, command: str) -> None:
-    commands = {"limit": stage.hit_limit, "power": stage.cut_power}
+    commands = {
+        "limit": stage.hit_limit,
+        "power": stage.cut_power,
+        "door": stage.open_door,
+        "closed": stage.close_door,
+    }
     if command in commands:
         commands[command]()
     elif command:

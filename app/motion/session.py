@@ -20,6 +20,7 @@ from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.model_in_use import ModelInUse
 from rotemina.app.motion.motion_requests import Moves
 from rotemina.app.motion.narrowed_ranges import NarrowedRanges
+from rotemina.app.motion.pause_watch import MAX_PAUSE_S, PauseWatch
 from rotemina.app.motion.profile_execution import Profiles
 from rotemina.app.motion.recent_history import LiveHistory
 from rotemina.app.motion.regulation import Loops
@@ -38,6 +39,7 @@ from rotemina.drivers.driver import Driver
 from rotemina.drivers.gate import Epoch, Permit, Purpose
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.messages import message
+from rotemina.sim.quantities import rounded
 
 _MOVES = (DeviceState.MOVING, DeviceState.PLAYING, DeviceState.HOMING)
 
@@ -144,6 +146,7 @@ class MotionSession:
         self._local_time = local_time
         self._thread: threading.Thread | None = None
         self._closing = threading.Event()
+        self._pauses = PauseWatch(clock)
         #: Of the thread that shows this to an operator; once it beats, nothing moves without it.
         self.screen = Heartbeat(clock)
         #: Of the worker.
@@ -250,11 +253,29 @@ class MotionSession:
         What an operator began moves on only as long as he can see it.
         """
         self.pulse.beat()
+        self._stop_after_pause()
         state = self._link.worker.state
         moves = state.activity in _MOVES and not state.stopping
         if moves and self.screen.silent:
             self.stop(message("engine", "the window does not respond"))
         self._link.worker.run_once()
+        if self._link.worker.state.connection is not state.connection:
+            self._pauses.restart()  # connecting takes its time
+
+    def _stop_after_pause(self) -> None:
+        """Cancel all that is under way or waits, where this program did not run for a while."""
+        paused_s = self._pauses.measure_pause()
+        # A stepped simulation is advanced as far as its caller likes.
+        is_simulation = self._thread is None and self.driver.virtual_time
+        connected = self._link.worker.state.connection is Connection.CONNECTED
+        if paused_s > MAX_PAUSE_S and connected and not is_simulation:
+            self.stop(
+                message(
+                    "engine",
+                    "this program stood still for {paused} s (computer asleep or overloaded); "
+                    "look at the machine, then move again",
+                ).fill(paused=rounded(paused_s, 2))
+            )
 
     def confirm_position(self) -> None:
         """Trust the position again after a lost connection: someone has looked.

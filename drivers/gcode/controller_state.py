@@ -273,9 +273,11 @@ class Controller:
         if not machine.recognized:
             # Nobody knows whether such a state moves: the count tells.
             machine = MachineState(status.position != self._position, machine.fault)
+        rests = not machine.moving and status.position == self._position
         self._position, self._machine = status.position, machine
         self._hold_again()
-        self._locate_homed_axes()
+        if self._homed and rests:
+            self._locate_homed_axes(reception.asked_s)
         self._heed_state()
         self._arrive()
 
@@ -308,10 +310,11 @@ class Controller:
         self._end_move()
         self.fault = machine.fault
 
-    def _locate_homed_axes(self) -> None:
-        """Find out where the count of homed axes begins; their position is known from now on."""
-        if not self._homed or self._machine.moving:
-            return
+    def _locate_homed_axes(self, taken_s: float) -> None:
+        """Find out where the count of homed axes begins; their position is known from now on.
+
+        Two reports in a row agree on it, so it is no slip of the line.
+        """
         homed, self._homed = self._homed, set()
         try:
             axes = tuple(
@@ -326,6 +329,7 @@ class Controller:
             self.fault = str(error)
             return
         self._use_axes(axes)
+        self._readings.restart(self._values(self._position), taken_s)
         self.known |= homed
 
     def _arrive(self) -> None:

@@ -1,8 +1,8 @@
 """An emulated GRBL controller with a stage, byte for byte; its time is advanced explicitly.
 
 It behaves as GRBL 1.1 does, as far as a host can tell: a queue of blocks, feed holds and resets,
-alarms and locks, no reports while it homes. Time is given by the caller, s. Source: GRBL 1.1,
-``protocol.c``, ``motion_control.c``, ``limits.c``.
+alarms and locks, a safety door, sleep, no reports while it homes. Time is given by the caller, s.
+Source: GRBL 1.1, ``protocol.c``, ``motion_control.c``, ``limits.c``.
 """
 
 from collections import deque
@@ -21,7 +21,7 @@ LETTERS = "XYZABC"
 _RX_BYTES = 128
 _MOST_BLOCKS = 15
 _LOCKED = "[MSG:'$H'|'$X' to unlock]"
-_SEEK, _PULL_OFF, _PULL_OFF_RATE = 25, 27, 24
+_DIRECTION, _SEEK, _PULL_OFF, _PULL_OFF_RATE = 23, 25, 27, 24
 _UNITS = {"m": 1000.0, "rad": 180.0 / pi}
 
 
@@ -78,7 +78,9 @@ class EmulatedStage:
         self.letters = LETTERS[: len(axes)]
         self._missing = {self.letters.index(letter) for letter in missing_switch}
         self._options = "VH" if single_homing else "V"
-        self.settings = {10: 1.0, 13: 0.0, 20: 1.0, 21: 1.0, 22: 1.0, 23: 0.0}
+        self.settings = {10: 1.0, 13: 0.0, 20: 1.0, 21: 1.0, 22: 1.0}
+        # Every switch is at the low end.
+        self.settings[_DIRECTION] = float(2 ** len(axes) - 1)
         self.settings |= {_PULL_OFF_RATE: 60.0, _SEEK: 600.0, _PULL_OFF: 1.0}
         for number, ((_, axis), scale) in enumerate(zip(axes, scales, strict=True)):
             speed = axis.max_speed or axis.span
@@ -127,6 +129,18 @@ class EmulatedStage:
         if self._state not in ("Alarm", "Home"):
             self._alarm(1, critical=True)
 
+    def open_door(self) -> None:
+        """Open the safety door: the axes brake, and nothing goes on before it is closed."""
+        self._door_is_open = True
+        if self._state in ("Alarm", "Home", "Sleep"):
+            return
+        self._cancel = self._cancel or self._state == "Jog"
+        self._state, self._hold = "Door", True
+
+    def close_door(self) -> None:
+        """Close the safety door; what was held waits to be resumed."""
+        self._door_is_open = False
+
     def cut_power(self) -> None:
         """Interrupt the supply: the controller loses its whole state."""
         self._power_on()
@@ -139,6 +153,7 @@ class EmulatedStage:
         self._state = "Alarm"  # homing is enabled: it wants that first
         self._critical = False
         self._search: _Search | None = None
+        self._door_is_open = False
         self._start()
 
     def _start(self) -> None:
@@ -153,7 +168,7 @@ class EmulatedStage:
         if self._state == "Alarm":
             self._say(_LOCKED)
         else:
-            self._state = "Idle"
+            self._state = "Door" if self._door_is_open else "Idle"
 
     def _say(self, line: str) -> None:
         self._out += line.encode("ascii") + b"\r\n"
@@ -169,8 +184,11 @@ class EmulatedStage:
             self._feed_hold()
         elif byte == ord("~"):
             self._resume()
+        elif byte == 0x84:
+            self.open_door()
         elif byte == 0x85:
-            self._cancel = self._hold = self._state == "Jog"
+            if self._state == "Jog":
+                self._cancel = self._hold = True
         elif byte < 0x80 and len(self._rx) < _RX_BYTES:
             self._rx.append(byte)
         self._report_if_asked()
@@ -179,10 +197,16 @@ class EmulatedStage:
         if not self._reported or self._critical or self._search is not None:
             return
         self._reported = False
-        substate = f":{int(self._blocks.moving)}" if self._state == "Hold" else ""
         position = ",".join(f"{at:.3f}" for at in self._blocks.counted(self._each(100)))
         speed = 60.0 * self._blocks.speed
-        self._say(f"<{self._state}{substate}|MPos:{position}|FS:{speed:.0f},0>")
+        self._say(f"<{self._state}{self._substate()}|MPos:{position}|FS:{speed:.0f},0>")
+
+    def _substate(self) -> str:
+        if self._state == "Hold":
+            return f":{int(self._blocks.moving)}"
+        if self._state == "Door":
+            return ":2" if self._blocks.moving else f":{int(self._door_is_open)}"
+        return ""
 
     def _feed_hold(self) -> None:
         if self._state == "Jog":
@@ -191,7 +215,8 @@ class EmulatedStage:
             self._state, self._hold = "Hold", True
 
     def _resume(self) -> None:
-        if self._state == "Hold" and not self._blocks.moving:
+        held = self._state == "Hold" or (self._state == "Door" and not self._door_is_open)
+        if held and not self._blocks.moving:
             self._state, self._hold = ("Run" if self._blocks.waiting else "Idle"), False
 
     def _reset(self) -> None:
@@ -201,6 +226,8 @@ class EmulatedStage:
         elif self._blocks.moving:
             self._alarm(3)  # the motors stall: steps are lost
         self._critical = False
+        if self._state == "Sleep":
+            self._state = "Alarm"
         self._start()
 
     def _alarm(self, number: int, *, critical: bool = False) -> None:
@@ -231,14 +258,14 @@ class EmulatedStage:
             ]
         self._settle()
         # A hold keeps the main loop from lines; so does an alarm that wants a reset.
-        if not self._critical and self._state != "Hold" and not self._cancel:
+        if not self._critical and self._state not in ("Hold", "Door", "Sleep") and not self._cancel:
             self._obey_a_line()
         self._report_if_asked()
 
     def _settle(self) -> None:
         if self._cancel and not self._blocks.moving:
             self._blocks.clear()
-            self._hold = self._cancel = False
+            self._cancel, self._hold = False, self._state == "Door"
         if self._state in ("Run", "Jog") and not self._blocks.waiting and not self._cancel:
             self._state = "Idle"
 
@@ -258,6 +285,8 @@ class EmulatedStage:
         """Do what a line says; return whether it is done, rather than answered later."""
         if line.startswith("$J="):
             self._jog(line[3:])
+        elif line == "$SLP":
+            self._state = "Sleep"
         elif line.startswith("$H"):
             return self._home(line[2:])
         elif line == "$X":

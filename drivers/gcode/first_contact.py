@@ -6,6 +6,8 @@ from rotemina.sim.messages import message
 # Wrong baud rates produce bytes above 0x7f and control characters; text has hardly any.
 _MIN_TEXT_SHARE = 0.9
 _MAX_QUOTED = 60
+# No controller says the query itself.
+_ECHO_BEFORE_STATUS = b"?<"
 
 
 def explain_contact(received: bytes, sent: bytes) -> str:
@@ -42,7 +44,7 @@ def explain_contact(received: bytes, sent: bytes) -> str:
             "a controller with GRBL 0.9 or older answered ({reply}); this driver needs GRBL 1.1, "
             "grblHAL or FluidNC: update its firmware",
         ).fill(reply=_quote(text))
-    if "<" in text and sent.strip() and _is_echo(received.split(b"<", 1)[0], sent):
+    if _ECHO_BEFORE_STATUS in received:
         return message(
             "engine",
             "a controller answers, but the line also returns what is sent ({reply}); turn off the "

@@ -153,7 +153,7 @@ class Opening:
         for line in lines:
             for setting in self._asked(line):
                 if isinstance(setting, Setting):
-                    texts[setting.name] = setting.text
+                    texts[setting.name.lower()] = setting.text
         return ControllerSettings(texts, options, firmware)
 
     def _rest(self) -> None:

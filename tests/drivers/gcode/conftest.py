@@ -14,11 +14,18 @@ from rotemina.sim.robot.file import load_robot
 
 
 class MemoryPort:
-    """A line in memory; threads may write to it while another one reads."""
+    """A line in memory; threads may write to it while another one reads.
 
-    def __init__(self, stage, clock, began_s):
+    ``delay_s`` passes each way; ``alter`` changes what the controller says; with ``echo`` what is
+    sent comes back too.
+    """
+
+    def __init__(self, stage, clock, began_s, delay_s=0.0, alter=None, echo=False):
         self._stage, self._clock, self._began_s = stage, clock, began_s
+        self._delay_s, self._echo = delay_s, echo
+        self.alter = alter
         self._turn = threading.Lock()
+        self._to, self._back = [], []
         self.cut = self.gone = False
         self.written = b""
 
@@ -26,14 +33,32 @@ class MemoryPort:
         if self.gone:
             raise ConnectionLostError("memory: the port is gone")
         with self._turn:
-            data = self._stage.advance(self._clock() - self._began_s)
-        return b"" if self.cut else data
+            now_s = self._deliver()
+            data = b""
+            while self._back and self._back[0][0] <= now_s:
+                data += self._back.pop(0)[1]
+        if self.cut:
+            return b""
+        return self.alter(data) if self.alter is not None else data
 
     def write(self, data):
         with self._turn:
             self.written += data
             if not self.cut:
-                self._stage.receive(data, self._clock() - self._began_s)
+                self._to.append((self._clock() - self._began_s + self._delay_s, data))
+            self._deliver()
+
+    def _deliver(self):
+        now_s = self._clock() - self._began_s
+        while self._to and self._to[0][0] <= now_s:
+            at_s, data = self._to.pop(0)
+            self._stage.receive(data, at_s)
+            if self._echo:
+                self._back.append((at_s + self._delay_s, data))
+        reply = self._stage.advance(now_s)
+        if reply:
+            self._back.append((now_s + self._delay_s, reply))
+        return now_s
 
     def waiting(self):
         return 0
@@ -45,11 +70,12 @@ class MemoryPort:
 class Bench:
     """A driver that is joined to an emulated stage, whatever drivers come and go."""
 
-    def __init__(self, robot="xyz", settings=None, **stage):
+    def __init__(self, robot="xyz", settings=None, *, stage=EmulatedStage, line=None, **options):
         self.robot = load_robot(robot) if isinstance(robot, str) else robot
         self.clock = VirtualClock(1234.5)
         self.began_s = self.clock()
-        self.stage = EmulatedStage(self.robot, **stage)
+        self.stage = stage(self.robot, **options)
+        self.line = line or {}
         self.settings = {"port": "memory", **(settings or {})}
         self.ports = []
         self.driver = self.make({})
@@ -64,12 +90,30 @@ class Bench:
         )
 
     def _opened(self, _url, _baud):
-        self.ports.append(MemoryPort(self.stage, self.clock, self.began_s))
+        self.ports.append(MemoryPort(self.stage, self.clock, self.began_s, **self.line))
         return self.ports[-1]
 
     @property
     def port(self):
         return self.ports[-1]
+
+    def alter_once(self, change):
+        """Change the next status, and only that."""
+
+        def alter(data):
+            if b"MPos:" not in data:
+                return data
+            self.port.alter = None
+            return change(data)
+
+        self.port.alter = alter
+
+    def lines_sent(self, since=0):
+        """Return the lines that were written, without single bytes."""
+        written = self.port.written[since:]
+        for byte in (b"?", b"!", b"\x18", b"\x85"):
+            written = written.replace(byte, b"")
+        return [line.decode() for line in written.split(b"\n") if line]
 
     def cut(self, is_cut):
         for port in self.ports:

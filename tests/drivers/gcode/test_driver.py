@@ -256,8 +256,10 @@ def test_a_port_that_goes_is_a_lost_connection_and_stops_raise_nothing(joined):
 @pytest.mark.parametrize(
     ("number", "value", "words"),
     [
-        (120, 400.0, r"axis x: the controller's \$120 = 400 .* send it \$120=200\.000 \(mm\)"),
-        (131, 40.0, r"axis y: the controller's \$131 = 40 .* send it \$131=50\.000 \(mm\)"),
+        (120, 400.0, r"axis x: \$120 = 400\.000, the file has 200\.000 mm/s² \(\$120=200\.000\)"),
+        (120, 10.0, r"axis x: \$120 = 10\.000, the file has 200\.000 mm/s² \(\$120=200\.000\)"),
+        (112, 60.0, r"axis z: \$112 = 60\.000, the file has 300\.000 mm/min \(\$112=300\.000\)"),
+        (131, 40.0, r"axis y: \$131 = 40\.000, the file has 50\.000 mm \(\$131=50\.000\)"),
         (102, -1.0, r"axis z: the controller has no setting \$102"),
         (13, 1.0, r"it reports inches; send it \$13=0"),
     ],
@@ -282,7 +284,7 @@ def test_what_does_not_answer_is_told(joined):
         return port
 
     bench.driver._open_port = deaf
-    with pytest.raises(DriverTimeoutError, match="check that it is a GRBL controller"):
+    with pytest.raises(DriverTimeoutError, match="nothing arrived; check the controller's power"):
         bench.driver.open()
 
 
