@@ -150,10 +150,10 @@ class EmulatedStage:
     def _power_on(self) -> None:
         self._blocks = Blocks([0.0] * len(self.letters), self._each(110), self._each(120))
         self._modes = _Modes()
-        self._state = "Alarm"  # homing is enabled: it wants that first
+        self._state: str = "Alarm"  # homing is enabled: it wants that first
         self._critical = False
         self._search: _Search | None = None
-        self._door_is_open = False
+        self._door_is_open = self._hold = self._cancel = False
         self._start()
 
     def _start(self) -> None:
