@@ -11,7 +11,7 @@ from rotemina.drivers.clock import Clock
 from rotemina.drivers.gcode.grbl_reports import Answer, Message, Status, Welcome, parse_report
 from rotemina.drivers.gcode.wire_guard import WireGuard
 from rotemina.drivers.line_quality import LinkQuality
-from rotemina.drivers.mc68hc11.port import Port
+from rotemina.drivers.serial_port import Port
 
 QUERY, RESET, JOG_CANCEL = b"?", b"\x18", b"\x85"
 #: Brakes the axes, whatever moves them. In a jog grblHAL ignores a feed hold; the jog cancel also

@@ -18,8 +18,8 @@ from rotemina.drivers.gcode.coordinates import StageAxis, check_agreement, check
 from rotemina.drivers.gcode.dialogue import MIN_STAMP_ERROR_S, Dialogue
 from rotemina.drivers.gcode.opening import ControllerInfo, Opening
 from rotemina.drivers.line_quality import LinkQuality
-from rotemina.drivers.mc68hc11.port import OpenPort, Port, open_port
 from rotemina.drivers.samples import DeviceStatus, Samples
+from rotemina.drivers.serial_port import OpenPort, Port, open_port
 from rotemina.drivers.settings import SettingError, SettingValue
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message

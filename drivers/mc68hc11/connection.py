@@ -14,8 +14,8 @@ from rotemina.drivers.mc68hc11.axes import board_axes
 from rotemina.drivers.mc68hc11.board import Board
 from rotemina.drivers.mc68hc11.dialogue import Urgency
 from rotemina.drivers.mc68hc11.driver_session import Session
-from rotemina.drivers.mc68hc11.port import OpenPort, open_port
 from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
+from rotemina.drivers.serial_port import OpenPort, open_port
 from rotemina.drivers.settings import SettingError, SettingValue
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message

@@ -16,11 +16,11 @@ from rotemina.drivers.mc68hc11.framing import BROADCAST, Frame, encoded
 from rotemina.drivers.mc68hc11.host_messages import Poll, SetTelemetry, Watch
 from rotemina.drivers.mc68hc11.parameter_check import Trust
 from rotemina.drivers.mc68hc11.payload import Message
-from rotemina.drivers.mc68hc11.port import OpenPort
 from rotemina.drivers.mc68hc11.sampling import Row, Sampling
 from rotemina.drivers.mc68hc11.segment_player import Player
 from rotemina.drivers.mc68hc11.serial_link import Link
 from rotemina.drivers.samples import Samples
+from rotemina.drivers.serial_port import OpenPort
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import rounded

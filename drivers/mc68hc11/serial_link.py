@@ -26,8 +26,8 @@ from rotemina.drivers.mc68hc11.host_messages import Poll
 from rotemina.drivers.mc68hc11.line_budget import Line
 from rotemina.drivers.mc68hc11.messages import message_of
 from rotemina.drivers.mc68hc11.payload import Message
-from rotemina.drivers.mc68hc11.port import Port
 from rotemina.drivers.mc68hc11.segment_window import SetpointWindow
+from rotemina.drivers.serial_port import Port, UrgentBytes
 
 _EARLY_S = 3e-4  # before the line is free: what a frame may wait for it
 _IN_THE_WAY = 3 * MAX_FRAME  # bytes: telemetry, captured samples and the answer itself
@@ -107,7 +107,7 @@ class Link:
         """Say stop, now, whatever else is going on; any thread."""
         now_s = self._clock()
         data = self._stop_bytes(now_s)
-        self._port.write(data)
+        self._port.write(UrgentBytes(data))
         self._free_s = max(self._free_s, now_s) + self._line.seconds(len(data))
 
     def cancel_pending(self) -> None:
@@ -117,7 +117,7 @@ class Link:
     def close_with(self, frames: Sequence[bytes]) -> None:
         """Stop, say the last words, and let go of the port."""
         try:
-            self._port.write(STOP_BYTES + b"".join(frames))
+            self._port.write(UrgentBytes(STOP_BYTES + b"".join(frames)))
         finally:
             self._port.close()
 

@@ -27,7 +27,7 @@ from rotemina.drivers.inputs.hid.hid_discovery import HidSource
 from rotemina.drivers.mc68hc11.driver import MC68HC11
 from rotemina.drivers.mc68hc11.framing import Decoder
 from rotemina.drivers.mc68hc11.host_messages import MoveVelocity
-from rotemina.drivers.mc68hc11.port import open_port
+from rotemina.drivers.serial_port import open_port
 from rotemina.drivers.simulator.driver import Simulator
 from rotemina.sim.robot.file import load_robot
 
