@@ -26,18 +26,24 @@ class Bench:
         together with whatever stands at the other end of an in-memory line.
     cut_link, restore_link : callable, optional
         Pull the cable and put it back. Without them nothing is checked about lost links.
+    block_port, unblock_port : callable, optional
+        Let the device's end of the line take no more bytes, and take them again, while what the
+        device says still arrives. Without them nothing is checked about blocked ports.
     cause_fault : callable, optional
         Bring about a fault of the open device that can be cleared at once.
     touched : callable, optional
         Whether anything has reached the device since the bench was made.
     short_loss_s, long_loss_s : float
-        A loss of the link that the driver must mask, and one after which it must have given up.
+        A loss of the link that the driver must mask, and one after which it must have given up; so
+        must it after as long a time with a blocked port.
     """
 
     make: Callable[[Mapping[str, object]], Driver]
     advance: Callable[[float], None]
     cut_link: Callable[[], None] | None = None
     restore_link: Callable[[], None] | None = None
+    block_port: Callable[[], None] | None = None
+    unblock_port: Callable[[], None] | None = None
     cause_fault: Callable[[Driver], None] | None = None
     touched: Callable[[], bool] | None = None
     short_loss_s: float = 0.1

@@ -1,13 +1,22 @@
-"""Checks of a driver's behaviour when its link is cut."""
+"""Checks of a driver's behaviour when its link is cut, or takes no more bytes."""
+
+import threading
+from collections.abc import Callable
+from contextlib import suppress
 
 from rotemina.drivers.conformance.bench import Bench
 from rotemina.drivers.conformance.check import check
 from rotemina.drivers.conformance.driver_under_test import CATCH_S, Subject
-from rotemina.drivers.conformance.findings import Inapplicable, Unmet, demand, refused
+from rotemina.drivers.conformance.findings import Inapplicable, Unmet, demand, refused, within
 from rotemina.drivers.errors import ConnectionLostError, DriverError, StateError
 from rotemina.drivers.samples import DeviceState
 
 _HOOKS = ("cut_link", "restore_link")
+_BLOCK_HOOKS = ("block_port", "unblock_port")
+# Far longer than a stop takes that does not wait, far shorter than somebody waits for one.
+_PATIENCE_S = 2.0
+# For reads until the link is given up, in the time of the host: longer than any machine needs.
+_READS_PATIENCE_S = 60.0
 
 
 def _cut(bench: Bench) -> None:
@@ -23,6 +32,10 @@ def _restore(bench: Bench) -> None:
 def _lose(bench: Bench, subject: Subject) -> None:
     """Cut the link and read on until the driver gives up."""
     _cut(bench)
+    _read_until_lost(bench, subject, "the link was cut")
+
+
+def _read_until_lost(bench: Bench, subject: Subject, event: str) -> None:
     passed_s = 0.0
     while passed_s < bench.long_loss_s:
         subject.advance(subject.step_s)
@@ -31,9 +44,7 @@ def _lose(bench: Bench, subject: Subject) -> None:
             subject.driver.read()
         except ConnectionLostError:
             return
-    raise Unmet(
-        f"reads go on {bench.long_loss_s:g} s after the link was cut; expected: ConnectionLostError"
-    )
+    raise Unmet(f"reads go on {bench.long_loss_s:g} s after {event}; expected: ConnectionLostError")
 
 
 @check(hooks=_HOOKS)
@@ -98,3 +109,54 @@ def nothing_resumes(bench: Bench) -> None:
         resting = state in (DeviceState.IDLE, DeviceState.FAULT)
         demand(resting, f"reopened after a loss it is {state}", "at rest")
         subject.holds(0.5)
+
+
+def _demand_return(what: str, call: Callable[[], object], patience_s: float) -> None:
+    """Demand that a call of another thread returns; raise what it raises."""
+    raised: list[Exception] = []
+
+    def run() -> None:
+        try:
+            call()
+        except Exception as error:
+            raised.append(error)
+
+    thread = threading.Thread(target=run, name="caller of a check", daemon=True)
+    thread.start()
+    thread.join(patience_s)
+    demand(not thread.is_alive(), f"{what} has not returned for {patience_s:g} s", "at once")
+    if raised:
+        raise raised[0]
+
+
+@check(hooks=_BLOCK_HOOKS)
+def blocked_port(bench: Bench) -> None:
+    """With a port that takes no bytes a stop returns at once, and reads soon raise.
+
+    They raise ConnectionLostError; when the port takes bytes again the device can be opened and
+    moved.
+    """
+    assert bench.block_port is not None, "a check runs where its hooks are"
+    assert bench.unblock_port is not None, "a check runs where its hooks are"
+    with bench.opened() as subject:
+        driver, axis = subject.driver, subject.slow
+        subject.cross(axis)
+        subject.run(CATCH_S)
+        bench.block_port()
+        try:
+            _demand_return("a stop", driver.stop, _PATIENCE_S)
+            _demand_return(
+                "a read",
+                lambda: _read_until_lost(bench, subject, "the port was blocked"),
+                _READS_PATIENCE_S,
+            )
+        finally:
+            bench.unblock_port()
+        with suppress(DriverError):  # of the port that is lost
+            driver.close()
+        driver.open()
+        subject.make_ready()
+        target = subject.send(axis, axis.stroke(float(subject.command()[axis.index])))
+        subject.rest()
+        seen = float(subject.command()[axis.index])
+        within(f"reopened, axis {axis.name} ends at", seen, target, axis.half_step, axis.unit)

@@ -125,13 +125,25 @@ class Session:
         return next((b, one) for b in self.boards for one in b.axes if one.name == axis)
 
     def close(self) -> None:
-        """Stop, end telemetry, let go; what the board does not hear its watchdog does."""
+        """Stop, end telemetry and close the ports; what a board does not hear its watchdog does.
+
+        Raises
+        ------
+        ConnectionLostError
+            If a port is gone; the others are closed all the same.
+        """
+        failures: list[ConnectionLostError] = []
         for link in self.links:
             last = [
                 encoded(Frame(address, 0xFF, SetTelemetry.TYPE, SetTelemetry(0, 0).packed()))
                 for address in link.dialogues
             ]
-            link.close_with(last)
+            try:
+                link.close_with(last)
+            except ConnectionLostError as error:
+                failures.append(error)
+        if failures:
+            raise failures[0]
 
     def stopped(self) -> None:
         """Follow up a stop: nothing that was asked before is said any more."""

@@ -9,15 +9,21 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from rotemina.drivers.byte_channels import ByteChannel
 from rotemina.drivers.clock import VirtualClock
 from rotemina.drivers.conformance.bench import Bench, bench_of
 from rotemina.drivers.conformance.check import Verdict
 from rotemina.drivers.conformance.suite import CHECKS, checks_named, run_checks
 from rotemina.drivers.errors import ConnectionLostError
+from rotemina.drivers.gcode.driver import GcodeStage
+from rotemina.drivers.gcode.emulator import EmulatedStage
+from rotemina.drivers.mc68hc11.driver import MC68HC11
 from rotemina.drivers.profile import Profile, ProfileSegment
 from rotemina.drivers.samples import DeviceState, Samples
+from rotemina.drivers.serial_port import SerialPort
 from rotemina.drivers.simulator.driver import Simulator
 from rotemina.drivers.simulator.fast_captures import Capturing
+from rotemina.drivers.virtual_board.boards import VirtualBoards
 from rotemina.sim.errors import InputError
 from rotemina.sim.robot.file import load_robot
 
@@ -36,11 +42,12 @@ class Cabled(Simulator):
     """The simulator at the end of a cable that can be pulled; the device's lease is 0.5 s."""
 
     cable = True  # of the class: it is the device's, whoever drives it
+    room = threading.Event()  # in its port
     touches = 0
 
     def _open(self):
         type(self).touches += 1
-        self._heard_s = self.clock()
+        self._heard_s = self._took_s = self.clock()
         self._lost = False
         super()._open()
 
@@ -50,10 +57,13 @@ class Cabled(Simulator):
         return replace(status, silent_s=max(silent_s, 1e-9) if not type(self).cable else 0.0)
 
     def _read(self):
-        if type(self).cable and not self._lost:
+        if self.room.is_set():
+            self._took_s = self.clock()
+        is_blocked = self.clock() - self._took_s > LOST_S
+        if type(self).cable and not self._lost and not is_blocked:
             self._heard_s = self.clock()
             return super()._read()
-        if self.clock() - self._heard_s > LOST_S and not self._lost:
+        if (is_blocked or self.clock() - self._heard_s > LOST_S) and not self._lost:
             self._lost = True
             super()._stop()
         if self._lost:
@@ -68,7 +78,9 @@ class Cabled(Simulator):
 
 def bench(driver):
     """A bench whose every hook works, on a fresh device."""
-    device = type(driver.__name__, (driver,), {"cable": True, "touches": 0})
+    room = threading.Event()
+    room.set()
+    device = type(driver.__name__, (driver,), {"cable": True, "room": room, "touches": 0})
     clock = VirtualClock(1234.5)
 
     def cause_fault(opened):
@@ -79,6 +91,8 @@ def bench(driver):
         advance=clock.advance,
         cut_link=lambda: setattr(device, "cable", False),
         restore_link=lambda: setattr(device, "cable", True),
+        block_port=room.clear,
+        unblock_port=room.set,
         cause_fault=cause_fault,
         touched=lambda: device.touches > 0,
         long_loss_s=2.0,
@@ -478,6 +492,34 @@ class ResumesWhenReopened(Cabled):
             self._running.move_to(0, 0.055)
 
 
+class StopWaitsForThePort(Cabled):
+    def _stop(self):
+        self.room.wait()
+        super()._stop()
+
+
+class WritesForEver(Cabled):
+    """Is read as if the port took everything."""
+
+    def _read(self):
+        self._took_s = self.clock()
+        return super()._read()
+
+
+class SilentWhenBlockedOnce(Cabled):
+    """Cannot be moved any more."""
+
+    _was_blocked = False
+
+    def _read(self):
+        self._was_blocked |= not self.room.is_set()
+        return super()._read()
+
+    def _move_to(self, *given):
+        if not self._was_blocked:
+            super()._move_to(*given)
+
+
 MUTANTS = {
     TouchesWhenMade: "making",
     ClosesBadly: "reopening",
@@ -518,12 +560,71 @@ MUTANTS = {
     NeverGivesUp: "long-loss",
     ReadsAfterALoss: "long-loss",
     ResumesWhenReopened: "nothing-resumes",
+    StopWaitsForThePort: "blocked-port",
+    WritesForEver: "blocked-port",
+    SilentWhenBlockedOnce: "blocked-port",
 }
+
+
+class MemoryChannel(ByteChannel):
+    """A line in memory to a device, which takes bytes only while there is room."""
+
+    def __init__(self, device, clock, room):
+        self._device, self._clock, self._room = device, clock, room
+        self._began_s = 1234.5
+
+    def read(self):
+        return self._device.advance(self._clock() - self._began_s)
+
+    def write(self, data):
+        if not self._room.is_set():
+            return 0
+        self._device.receive(data, self._clock() - self._began_s)
+        return len(data)
+
+    def close(self):
+        pass
+
+
+def line_bench(driver, robot, device, settings):
+    """A bench of a driver with the port that real lines have, and a device in memory."""
+    clock, room = VirtualClock(1234.5), threading.Event()
+    room.set()
+
+    def open_port(url, _baud):
+        return SerialPort(url, MemoryChannel(device, clock, room), clock)
+
+    def make(given):
+        return driver(
+            robot,
+            {"port": "memory", **settings, **given},
+            clock=clock,
+            open_port=open_port,
+            pause=clock.advance,
+        )
+
+    return Bench(make=make, advance=clock.advance, block_port=room.clear, unblock_port=room.set)
 
 
 def test_a_driver_that_keeps_the_contract_passes_every_check():
     results = list(run_checks(bench(Cabled)))
     assert [(one.name, one.note) for one in results if one.verdict is not Verdict.PASSED] == []
+
+
+def test_the_boards_driver_survives_a_port_that_takes_no_bytes():
+    robot = load_robot("picma")
+    boards = VirtualBoards(robot, ports=1, position_known=True)
+    (check,) = checks_named(["blocked-port"])
+    result = check.run(line_bench(MC68HC11, robot, boards.lines[0], {"settle_s": 0.05}))
+    assert result.verdict is Verdict.PASSED, result.note
+
+
+def test_the_gcode_driver_survives_a_port_that_takes_no_bytes():
+    robot = load_robot("xyz")
+    stage = EmulatedStage(robot)
+    (check,) = checks_named(["blocked-port"])
+    result = check.run(line_bench(GcodeStage, robot, stage, {"trust_position": True}))
+    assert result.verdict is Verdict.PASSED, result.note
 
 
 @pytest.mark.slow

@@ -242,3 +242,20 @@ def test_boards_whose_quartzes_differ_stay_in_step(robot, joined_bench):
     ]
     assert abs(true_s[0] - true_s[1]) * bench.boards.tick_s < 0.005
     assert len(bench.run(0.5)) > 90
+
+
+def test_a_port_that_is_gone_leaves_no_other_board_moving_or_port_open(robot, joined_bench):
+    bench = joined_bench(robot)
+    bench.driver.open()
+    bench.run(0.05)
+    first, second = bench.ports
+
+    def gone(_data):
+        raise ConnectionLostError("first: the port has disappeared")
+
+    first.write = gone
+    said = len(second.written)
+    with pytest.raises(ConnectionLostError, match="disappeared"):
+        bench.driver.close()
+    assert second.written[said][1].startswith(b"\0\0")
+    assert (first.closed, second.closed) == (True, True)
