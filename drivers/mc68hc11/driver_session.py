@@ -19,6 +19,7 @@ from rotemina.drivers.mc68hc11.payload import Message
 from rotemina.drivers.mc68hc11.sampling import Row, Sampling
 from rotemina.drivers.mc68hc11.segment_player import Player
 from rotemina.drivers.mc68hc11.serial_link import Link
+from rotemina.drivers.mc68hc11.wire_guard import WireGuard
 from rotemina.drivers.samples import Samples
 from rotemina.drivers.serial_port import OpenPort
 from rotemina.sim.arrays import FloatArray
@@ -106,6 +107,8 @@ class Session:
         self.setpoint_every = opening.setpoint_every  # samples
         for board in self.boards:
             board.telemetry_ms = self.period_ms
+            guard = WireGuard(self.trust.limits(board), board.commanded)
+            board.link.guard.add(board.address, guard)
         self.sampling = Sampling(self.boards, self._named)
         self.served_s = clock()
 

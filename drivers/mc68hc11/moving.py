@@ -17,7 +17,7 @@ from rotemina.drivers.mc68hc11.protocol_codes import Ability
 from rotemina.drivers.mc68hc11.segment_player import Player
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.errors import InputError
-from rotemina.sim.messages import message
+from rotemina.sim.messages import AxisName, message
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import StepperAxis
 
@@ -82,9 +82,17 @@ class Moving(Connected, TrajectoryPlayer, VelocityMover, Homer, VoltageOutput):
         trust = self._running.trust
         first = 1e-3 * trust.value(board, PER_AXIS * own.number + _FIRST_MV)
         last = 1e-3 * trust.value(board, PER_AXIS * own.number + _LAST_MV)
+        if last <= first:
+            raise StateError(
+                message(
+                    "engine",
+                    "{where}: by its parameters the voltage of axis {axis} goes from {first} V to "
+                    "{last} V; write the parameters of the robot file to the board",
+                ).fill(where=board.where, axis=AxisName(axis), first=first, last=last)
+            )
         code = min(max(round((voltage - first) / (last - first) * CODES), 0), CODES)
-        message = SetVoltage(own.number, code)
-        board.orders.give(("axis", own.number), message, permit=permit)
+        order = SetVoltage(own.number, code)
+        board.orders.give(("axis", own.number), order, permit=permit)
         self._serve()
 
     def _play(self, trajectory: Record, permit: Permit) -> None:

@@ -9,9 +9,10 @@ from rotemina.drivers.mc68hc11.board import Board
 from rotemina.drivers.mc68hc11.board_messages import Identity, Parameter
 from rotemina.drivers.mc68hc11.dialogue import Request, Urgency
 from rotemina.drivers.mc68hc11.host_messages import Identify, ReadParameter, WriteParameter
-from rotemina.drivers.mc68hc11.parameters import fingerprint, meaning, parameters_of
+from rotemina.drivers.mc68hc11.parameters import PER_AXIS, fingerprint, meaning, parameters_of
 from rotemina.drivers.mc68hc11.payload import Message
 from rotemina.drivers.mc68hc11.protocol_codes import VERSION, State
+from rotemina.drivers.mc68hc11.wire_guard import StepLimits
 from rotemina.drivers.parameters import ParameterDifference
 from rotemina.sim.messages import joined, marked, message
 from rotemina.sim.robot.model import Robot
@@ -53,6 +54,14 @@ class Trust:
     def wanted(self, board: Board, index: int) -> int:
         """Return a parameter as the robot file has it."""
         return self._wanted[board][index]
+
+    def limits(self, board: Board) -> dict[int, StepLimits]:
+        """Return the limits of a board's axes by the robot file, by the board's number of each."""
+        limits = {}
+        for axis in board.axes:
+            low, high, speed = self._wanted[board][PER_AXIS * axis.number :][:3]
+            limits[axis.number] = StepLimits(axis.name, low, high, max(speed, 1))
+        return limits
 
     def compare(self) -> None:
         """Ask each board whose fingerprint is another one for all its parameters."""

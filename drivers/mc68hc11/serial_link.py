@@ -6,11 +6,12 @@ shared bus the host stays silent until the boards that it asked have answered.
 A USB adapter adds its frame of 1 ms; its latency timer, usually 16 ms, delays only answers.
 """
 
+import logging
 from collections.abc import Callable, Sequence
 from contextlib import nullcontext
 
 from rotemina.drivers.clock import Clock
-from rotemina.drivers.errors import ProtocolError
+from rotemina.drivers.errors import DriverError, LimitError, ProtocolError
 from rotemina.drivers.gate import GateError
 from rotemina.drivers.line_quality import LinkQuality
 from rotemina.drivers.mc68hc11.dialogue import Dialogue, Offered, Urgency
@@ -27,8 +28,10 @@ from rotemina.drivers.mc68hc11.line_budget import Line
 from rotemina.drivers.mc68hc11.messages import message_of
 from rotemina.drivers.mc68hc11.payload import Message
 from rotemina.drivers.mc68hc11.segment_window import SetpointWindow
+from rotemina.drivers.mc68hc11.wire_guard import LineGuard
 from rotemina.drivers.serial_port import Port, UrgentBytes
 
+_LOG = logging.getLogger(__name__)
 _EARLY_S = 3e-4  # before the line is free: what a frame may wait for it
 _IN_THE_WAY = 3 * MAX_FRAME  # bytes: telemetry, captured samples and the answer itself
 _LOAD_S = 0.5  # over which the load is counted
@@ -89,8 +92,10 @@ class Link:
         self._awaited_until_s = float("-inf")
         self._polled = False  # by what was said last
         self._sent = self._refused = self._repeated = 0
-        #: Why the gate held a frame back; whoever serves the link takes it.
-        self.held_back: GateError | None = None
+        #: The last check of what is written; it knows the boards' axes once they were added.
+        self.guard = LineGuard()
+        #: Why the gate or the guard held a frame back; whoever serves the link takes it.
+        self.held_back: DriverError | None = None
         self._bytes = [0, 0]  # out, in
         self._load, self._load_since_s = 0.0, clock()
 
@@ -158,9 +163,12 @@ class Link:
             return
         address, (data, permit, begins) = said
         try:
+            self.guard.check(data)
             with permit.passing(begins=begins) if permit is not None else nullcontext():
                 self._port.write(data)
-        except GateError as error:
+        except (GateError, LimitError) as error:
+            if isinstance(error, LimitError):
+                _LOG.error("%s: a frame was held back: %s", self.url, error)
             if begins:
                 self.dialogues[address].give_up()
             else:

@@ -5,6 +5,7 @@ import pytest
 
 from rotemina.drivers.errors import DriverError, LimitError, StateError
 from rotemina.drivers.mc68hc11 import segment_player
+from rotemina.drivers.mc68hc11.parameters import PER_AXIS
 from rotemina.drivers.mc68hc11.protocol_codes import Fault
 from rotemina.drivers.profile import Profile, ProfileSegment
 from rotemina.drivers.samples import DeviceState
@@ -366,6 +367,16 @@ def test_accepted_parameters_bind(robot, joined_bench):
     samples = bench.run_until(IDLE)
     speed = np.abs(np.diff(samples.command[:, 0])) / np.diff(samples.device_time_s)
     assert speed.max() <= 0.001 * (1 + 1e-6)
+
+
+def test_accepted_parameters_that_leave_no_voltage_refuse_one(robot, joined_bench):
+    bench = joined_bench(robot)
+    kept = bench.boards.boards[1].kept
+    kept.write(2 * PER_AXIS + 5, kept[2 * PER_AXIS + 4])
+    bench.driver.open()
+    bench.driver.accept_parameters()
+    with pytest.raises(StateError, match="the voltage of axis"):
+        bench.driver.set_voltage("zn", 10.0)
 
 
 def test_reopening_finds_it_at_rest(bench):
