@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from itertools import count
 from types import MappingProxyType
 from typing import ClassVar
@@ -19,9 +20,13 @@ from rotemina.drivers.serial_port import OpenPort, open_port
 from rotemina.drivers.settings import SettingError, SettingValue
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
+from rotemina.sim.quantities import rounded
 from rotemina.sim.robot.model import Robot, StepperAxis
 from rotemina.sim.trajectory.speed_and_acceleration import SETPOINT_PERIOD_S
 
+#: A longer pause of this program, s, ends what was under way: longer than those of a busy computer,
+#: far shorter than the suspension of one, of which nobody knows what has changed meanwhile.
+MAX_PAUSE_S = 1.0
 _BUSY = (DeviceState.HOMING, DeviceState.PLAYING, DeviceState.MOVING)
 
 
@@ -68,6 +73,7 @@ class Connected(Driver):
         self._ended = False  # by a fault or refusal that was followed up
         self._progress = 0.0
         self._profile: Board | None = None
+        self._called_s = float("-inf")  # host time of the latest call that goes on with anything
 
     @property
     def setpoint_period_s(self) -> float:
@@ -102,6 +108,7 @@ class Connected(Driver):
         self._fault, self._progress, self._profile = None, 0.0, None
         self._searched, self._distrusted = set(), set()
         self._ended = False
+        self._called_s = float("-inf")
         self._session = Session(
             self.robot,
             axes,
@@ -181,6 +188,7 @@ class Connected(Driver):
             raise DriverError(
                 message("engine", "{name}: {lost}").fill(name=self.name, lost=str(session.lost))
             )
+        self._follow_stop(session)
         self._fault = None
         for board in session.boards:
             board.orders.forget()
@@ -238,8 +246,24 @@ class Connected(Driver):
     def _waits(self, session: Session) -> bool:
         return any(not board.at_rest and board.fault is None for board in session.boards)
 
+    def _cancel_after_pause(self, session: Session) -> None:
+        """End what was under way before a long pause of this program: nothing resumes by itself."""
+        now_s = self.clock()
+        paused_s, self._called_s = now_s - self._called_s, now_s
+        under_way = session.player is not None or not all(one.at_rest for one in session.boards)
+        if not MAX_PAUSE_S < paused_s < float("inf") or not under_way or session.lost is not None:
+            return
+        self._fault = message(
+            "engine",
+            "this program did not run for {seconds} s, at most {limit} s are allowed while axes "
+            "move; all motion was cancelled. Check the machine, clear the fault and move again",
+        ).fill(seconds=rounded(paused_s, 3), limit=rounded(MAX_PAUSE_S))
+        with suppress(DriverError):  # the exchange that follows says why a port takes no stop
+            self._stop()
+
     def _follow_stop(self, session: Session) -> None:
-        """Forget what was asked before the latest stop."""
+        """Forget what was asked before the latest stop, or a pause of this program."""
+        self._cancel_after_pause(session)
         asked = self._asked_stop
         if asked != self._seen_stop:
             session.stopped()

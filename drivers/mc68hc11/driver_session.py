@@ -180,6 +180,11 @@ class Session:
         """
         if self.lost is not None:
             return
+        unserved_s = self._clock() - self.served_s
+        if unserved_s > _SHORT_S:
+            # While this program did not run it asked nobody: that is no silence of a board.
+            for board in self.boards:
+                board.telemetry_s += unserved_s
         try:
             for link in self.links:
                 link.receive()
