@@ -6,6 +6,7 @@ bytes holds it for good. So bytes are written past it where it would.
 
 import os
 import select
+import socket
 from abc import ABC, abstractmethod
 from collections import deque
 from typing import Any
@@ -129,6 +130,11 @@ class WindowsChannel(ByteChannel):
 
 class SocketChannel(ByteChannel):
     """A raw connection over a network; pyserial's ``write`` tries again for ever here too."""
+
+    def __init__(self, opened: Any) -> None:
+        super().__init__(opened)
+        # A stop of one byte would wait here until what was sent before it is confirmed.
+        opened._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
 
     def write(self, data: bytes) -> int:
         """Send what the connection takes; see :class:`ByteChannel`."""

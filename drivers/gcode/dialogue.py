@@ -11,12 +11,12 @@ from rotemina.drivers.clock import Clock
 from rotemina.drivers.gcode.grbl_reports import Answer, Message, Status, Welcome, parse_report
 from rotemina.drivers.gcode.wire_guard import WireGuard
 from rotemina.drivers.line_quality import LinkQuality
-from rotemina.drivers.serial_port import Port
+from rotemina.drivers.serial_port import Port, UrgentBytes
 
-QUERY, RESET, JOG_CANCEL = b"?", b"\x18", b"\x85"
+QUERY, RESET, JOG_CANCEL = b"?", UrgentBytes(b"\x18"), UrgentBytes(b"\x85")
 #: Brakes the axes, whatever moves them. In a jog grblHAL ignores a feed hold; the jog cancel also
 #: removes a jog that still waits in its input, which would begin after the hold.
-HALT = JOG_CANCEL + b"!"
+HALT = UrgentBytes(JOG_CANCEL + b"!")
 _MAX_LINE_BYTES = 256  # longer than any line of a controller
 _KEPT_BYTES = 2048  # of what was sent and received, to explain a contact that fails
 _SMOOTHING = 0.1

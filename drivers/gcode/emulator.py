@@ -94,6 +94,8 @@ class EmulatedStage:
         #: Where each axis truly is, mm or degrees above the low end of its travel.
         self.true = [start_fraction * way for way in travel]
         self.events: list[str] = []
+        self._state = "Alarm"
+        self._cancel = False
         self._now_s = 0.0
         self._out = bytearray()
         self._reported = False  # a question that waits for the end of a homing
@@ -150,7 +152,7 @@ class EmulatedStage:
     def _power_on(self) -> None:
         self._blocks = Blocks([0.0] * len(self.letters), self._each(110), self._each(120))
         self._modes = _Modes()
-        self._state: str = "Alarm"  # homing is enabled: it wants that first
+        self._state = "Alarm"  # homing is enabled: it wants that first
         self._critical = False
         self._search: _Search | None = None
         self._door_is_open = self._hold = self._cancel = False
