@@ -8,6 +8,7 @@ from rotemina.drivers.clock import Clock
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.errors import StateError
 from rotemina.drivers.inputs.device import (
+    CONFIRM_S,
     InputDevice,
     InputIdentity,
     InputLostError,
@@ -79,6 +80,9 @@ class BoardJoystick(InputDevice):
         The host's time, s.
     """
 
+    # The driver says at any moment whether its readings are still true.
+    streams = True
+
     def __init__(
         self,
         identity: InputIdentity,
@@ -94,10 +98,11 @@ class BoardJoystick(InputDevice):
         self._in_use = in_use
         self._clock = clock
         self._told: Told | None = None
+        self._told_s = 0.0
         self._is_open = True
 
     def read(self) -> tuple[InputReading, ...]:
-        """Return a reading if anything has changed; see :class:`InputDevice`."""
+        """Return a reading after a change, and every ``CONFIRM_S``; see :class:`InputDevice`."""
         if not self._is_open:
             raise StateError(
                 message("engine", "{name} was closed; open it again").fill(name=self.identity.name)
@@ -123,11 +128,12 @@ class BoardJoystick(InputDevice):
                     buttons_before=len(self.buttons),
                 )
             )
-        if told == self._told:
+        now_s = self._clock()
+        if told == self._told and now_s - self._told_s < CONFIRM_S:
             return ()
-        self._told = told
+        self._told, self._told_s = told, now_s
         axes = tuple(2.0 * reading - 1.0 for reading in readings)
-        return (InputReading(self._clock(), axes, buttons),)
+        return (InputReading(now_s, axes, buttons),)
 
     def close(self) -> None:
         """Release it; see :class:`InputDevice`."""

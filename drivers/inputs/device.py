@@ -9,11 +9,15 @@ import time
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import ClassVar
+from math import nan
+from typing import ClassVar, Protocol, Self
 
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.errors import DriverError
 from rotemina.sim.plugin_points import API_VERSIONS
+
+#: How often a source that knows the state of its device at any moment confirms it, s.
+CONFIRM_S = 0.1
 
 
 class InputLostError(DriverError, ConnectionError):
@@ -39,6 +43,18 @@ class InputIdentity:
     source: str
 
 
+class HasControls(Protocol):
+    """Names of axes and buttons, in the order of the readings."""
+
+    @property
+    def axes(self) -> tuple[str, ...]:
+        """What the axes are called."""
+
+    @property
+    def buttons(self) -> tuple[str, ...]:
+        """What the buttons are called."""
+
+
 @dataclass(frozen=True, slots=True)
 class InputReading:
     """The latest reading of a device.
@@ -53,11 +69,20 @@ class InputReading:
         it is nowhere, and not to be taken for centred.
     buttons : tuple of bool
         Whether each is held.
+    fault : str or None
+        Why what came in could not be understood; None if it could. The device then counts as
+        released: every axis is NaN and no button is held.
     """
 
     host_time_s: float
     axes: tuple[float, ...]
     buttons: tuple[bool, ...]
+    fault: str | None = None
+
+    @classmethod
+    def unusable(cls, host_time_s: float, device: "HasControls", fault: str) -> Self:
+        """Return the reading for something that came in and could not be understood."""
+        return cls(host_time_s, (nan,) * len(device.axes), (False,) * len(device.buttons), fault)
 
 
 class InputDevice(ABC):
@@ -68,9 +93,9 @@ class InputDevice(ABC):
     #: What its axes and buttons are called, in the order of the readings.
     axes: tuple[str, ...]
     buttons: tuple[str, ...]
-    #: Whether it goes on talking while nothing changes, so that a quarter of a second without a
-    #: reading is a fault. Only where that is certain: one that speaks of changes alone, and is left
-    #: alone, would be lost. It may turn out, or turn out wrong, while the device is open.
+    #: Whether it goes on reporting while nothing changes, so that a quarter of a second without a
+    #: reading is a fault even at rest. Only where that is certain. The program finds out by itself
+    #: which devices keep reporting, and never lets a silent device move anything for long.
     streams: bool = False
 
     @abstractmethod
@@ -78,6 +103,9 @@ class InputDevice(ABC):
         """Return what came in since the last call, oldest first; never waits.
 
         A device that says something only when it changes returns nothing while it is left alone.
+        Never repeat an old reading for a device that may be gone: silence ends a motion, and what
+        is repeated counts as said anew. A report that cannot be understood is returned as
+        :meth:`InputReading.unusable`, never left out.
 
         Raises
         ------

@@ -9,6 +9,7 @@ from threading import Lock
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.errors import LimitError, StateError
 from rotemina.drivers.inputs.device import (
+    CONFIRM_S,
     InputDevice,
     InputIdentity,
     InputLostError,
@@ -23,9 +24,10 @@ _MOST_WAITING = 1024  # readings that nobody has read; the newest are kept
 class Pad(InputSource):
     """One device, set by one thread and read by another.
 
-    What is held stays held until it is released: whoever sets it calls :meth:`release_all` when its
-    window loses the focus, is left or is covered, so that no key stays down that nobody holds.
-    With a lease it also has to say :meth:`renew` meanwhile: one that hangs steers no more.
+    The program calls :meth:`release_all` when its window loses the focus, is left or is covered, so
+    that no key stays down that nobody holds. With a lease it also calls :meth:`renew` in time while
+    something is held, or all is released: a program that hangs steers no more. Until then the pad
+    confirms what is held. Without a lease it reports only changes.
 
     Parameters
     ----------
@@ -33,8 +35,9 @@ class Pad(InputSource):
         Tells several pads apart, for example "keyboard".
     axes, buttons : sequence of str
         What they are called.
-    lease_s : float
-        For how long something is held of which nothing is said.
+    lease_s : float, optional
+        For how long something is held without being set or renewed. Infinite only where what sets
+        the pad cannot hang while what reads it goes on.
     clock : callable
         The host's time, s.
     """
@@ -47,7 +50,7 @@ class Pad(InputSource):
         axes: Sequence[str] = ("x", "y", "z"),
         buttons: Sequence[str] = (),
         *,
-        lease_s: float = inf,
+        lease_s: float | None = None,
         clock: Clock = time.monotonic,
     ) -> None:
         super().__init__(clock=clock)
@@ -58,7 +61,7 @@ class Pad(InputSource):
         # Guards what follows, and the readings that wait in the devices.
         self._lock = Lock()
         self._there = True
-        self._said_s = -inf
+        self._said_s = self._told_s = -inf
         self._let_go = False  # by itself: what was held must be taken anew
         self._deflections = dict.fromkeys(self.axes, 0.0)
         self._held = dict.fromkeys(self.buttons, False)
@@ -160,6 +163,10 @@ class Pad(InputSource):
                     message("engine", "{name} was removed").fill(name=self.identity.name)
                 )
             self._lapse()
+            # Within its lease what is held is known to be held, as a device that streams would say.
+            leased = self._lease_s is not None and self._holds
+            if leased and self.clock() - self._told_s >= CONFIRM_S:
+                self._report()
             readings = tuple(device.waiting)
             device.waiting.clear()
         return readings
@@ -186,7 +193,8 @@ class Pad(InputSource):
         return any(self._deflections.values()) or any(self._held.values())
 
     def _lapse(self) -> None:
-        if self._holds and self.clock() - self._said_s > self._lease_s:
+        lease_s = inf if self._lease_s is None else self._lease_s
+        if self._holds and self.clock() - self._said_s > lease_s:
             self._let_go = True
             self._release()
 
@@ -201,8 +209,12 @@ class Pad(InputSource):
         )
 
     def _tell(self) -> None:
+        self._said_s = self.clock()
+        self._report()
+
+    def _report(self) -> None:
         reading = self._reading()
-        self._said_s = reading.host_time_s
+        self._told_s = reading.host_time_s
         for device in self._devices:
             device.waiting.append(reading)
 

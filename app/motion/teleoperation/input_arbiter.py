@@ -3,6 +3,7 @@
 It has neither threads nor a clock: whoever reads the devices tells it what came in and the time.
 """
 
+from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import compress
@@ -25,9 +26,11 @@ from rotemina.app.motion.teleoperation.profile_check import (
     check_profile,
     missing,
 )
+from rotemina.app.motion.teleoperation.report_watch import MAX_PAUSE_S, check_reading
 from rotemina.app.motion.teleoperation.takeover import RoleState, Takeover
 from rotemina.drivers.inputs.device import InputReading
 from rotemina.sim.messages import marked, message
+from rotemina.sim.quantities import rounded
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +50,10 @@ class DeviceView:
     newest : InputReading or None
         What it said last, as long as that holds.
     calibration : Calibration
+    faults : int
+        How many reports could not be understood since it was plugged in.
+    fault : str or None
+        What was wrong with the latest of them.
     """
 
     device: PluggedDevice
@@ -56,6 +63,8 @@ class DeviceView:
     axes: tuple[AxisView, ...]
     newest: InputReading | None
     calibration: Calibration
+    faults: int = 0
+    fault: str | None = None
 
     @property
     def lit(self) -> frozenset[str]:
@@ -113,6 +122,11 @@ class InputArbiter:
         self._calibrations: dict[str, Calibration] = {}
         self._devices: dict[str, MappedDevice] = {}
         self._unusable: dict[str, str] = {}
+        self._faults: Counter[str] = Counter()
+        self._latest_fault: dict[str, str] = {}
+        self._before_s: float | None = None
+        #: What came in at the latest step, by device key: sound readings, oldest first.
+        self.received: Mapping[str, tuple[InputReading, ...]] = MappingProxyType({})
         self._takeover = Takeover()
         #: Whether devices are being set up: only stops are sent.
         self.mapping_open = False
@@ -136,6 +150,8 @@ class InputArbiter:
             return
         self._lose(key, why)
         del self._plugged[key], self._calibrations[key]
+        self._faults.pop(key, None)
+        self._latest_fault.pop(key, None)
         self._arrange(())
 
     def inform(self, key: str, *, streams: bool) -> None:
@@ -209,8 +225,13 @@ class InputArbiter:
         now_s : float
             ``host_time_s``.
         """
+        before_s = now_s if self._before_s is None else self._before_s
+        self._before_s = now_s
+        self.received = self._checked(readings, before_s, now_s)
         for key, device in self._devices.items():
-            device.step(readings.get(key, ()), now_s)
+            device.step(self.received.get(key, ()), now_s)
+        self._end_stale_consent(before_s, now_s)
+        for key, device in self._devices.items():
             if device.lost is not None:
                 self._lose(key, device.lost)
         if not self.mapping_open:
@@ -251,6 +272,8 @@ class InputArbiter:
                 device.axes,
                 device.newest,
                 self._calibrations[key],
+                self._faults[key],
+                self._latest_fault.get(key),
             )
             for key, device in self._devices.items()
         )
@@ -261,6 +284,38 @@ class InputArbiter:
         return next((way for way in ways if way is not None), None)
 
     # How
+
+    def _checked(
+        self, readings: Mapping[str, Sequence[InputReading]], before_s: float, now_s: float
+    ) -> Mapping[str, tuple[InputReading, ...]]:
+        """Return sound readings of the devices that are there, and count the faults."""
+        checked = {
+            key: tuple(
+                check_reading(self._plugged[key], reading, before_s, now_s) for reading in each
+            )
+            for key, each in readings.items()
+            if key in self._plugged
+        }
+        for key, each in checked.items():
+            for fault in (one.fault for one in each if one.fault is not None):
+                self._faults[key] += 1
+                self._latest_fault[key] = fault
+        return MappingProxyType(checked)
+
+    def _end_stale_consent(self, before_s: float, now_s: float) -> None:
+        """Let nothing act by what a device said too long ago."""
+        if not 0.0 <= now_s - before_s <= MAX_PAUSE_S:
+            why = message(
+                "engine",
+                "the program was suspended or overloaded: its clock jumped by {pause} s. Release "
+                "the device and start again",
+            ).fill(pause=rounded(now_s - before_s, 3))
+            for device in self._devices.values():
+                device.forget_held(why)
+        moving = {seat: any(each.is_deflected for each in self._of(seat)) for seat in OperatorRole}
+        for device in self._devices.values():
+            seat = None if device.mapping is None else device.mapping.seat
+            device.check_silence(now_s, while_moving=seat is not None and moving[seat])
 
     def _arrange(self, anew: Collection[str]) -> None:
         """Give each device its mapping; those that are new, or have another one, begin again."""

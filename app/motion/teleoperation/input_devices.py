@@ -6,7 +6,6 @@ from collections import deque
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from types import MappingProxyType
 
 from rotemina.app.motion.teleoperation.axis_calibration import Calibration, CalibrationFolder
 from rotemina.app.motion.teleoperation.default_profile import default_profile
@@ -166,12 +165,13 @@ class InputDevices:
             readings: dict[str, tuple[InputReading, ...]] = {}
             for key, device in tuple(self._open.items()):
                 try:
-                    readings[key] = device.read()
+                    readings[key] = tuple(device.read())
                     self.arbiter.inform(key, streams=device.streams)
                 except Exception as error:  # a plugin may raise anything; the device is then gone
                     self._drop(key, str(error))
                     self.hub.lost(key)
-            snapshot = InputSnapshot(self.arbiter.step(readings, now_s), MappingProxyType(readings))
+            intent = self.arbiter.step(readings, now_s)
+            snapshot = InputSnapshot(intent, self.arbiter.received)
             if self._changed or now_s - self._view.host_time_s >= VIEW_S:
                 self._changed, self._view = False, self._viewed(now_s)
             listeners = self._listeners

@@ -9,10 +9,9 @@ from rotemina.app.motion.teleoperation.input_trust import AxisTrust
 from rotemina.app.motion.teleoperation.intent import Action
 from rotemina.app.motion.teleoperation.profile import ActionMapping, DeviceMapping
 from rotemina.app.motion.teleoperation.profile_check import PluggedDevice
+from rotemina.app.motion.teleoperation.report_watch import MAX_SILENCE_S, ReportWatch
 from rotemina.drivers.inputs.device import InputReading
 from rotemina.sim.messages import message
-
-SILENCE_S = 0.25  # of a device that streams
 
 #: Actions that work from every device, whoever drives, and while mappings are made.
 STOPS = frozenset({Action.STOP, Action.EMERGENCY_STOP})
@@ -77,27 +76,56 @@ class MappedDevice:
         self._calibrations = {axis: calibration.axis(axis) for axis in device.axes}
         self._trust = {axis: AxisTrust(self._calibrations[axis]) for axis in device.axes}
         self._raw: dict[str, float] = {}
-        self._heard_s: float | None = None if last is None else last.host_time_s
+        self._watch = ReportWatch(None if last is None else last.host_time_s)
         self._before = () if last is None else (last,)
         self._actors = [] if mapping is None else [_Actor(each) for each in mapping.actions]
 
     def step(self, readings: Sequence[InputReading], now_s: float) -> None:
         """Process the readings since the last step, oldest first, and let time pass."""
-        if self._heard_s is None:
-            self._heard_s = now_s  # it has as long from now on as after a reading
+        self._watch.begin(now_s)
         self.lost = None
         pressed: set[Action] = set()
-        for reading in (*self._before, *readings):
+        for reading in self._before:
             pressed |= self._feed(reading)
         self._before = ()
+        for reading in readings:
+            pressed |= self._feed(reading)
+            self._watch.receive(reading, now_s, at_rest=self._is_at_rest)
         for axis in self._trust.values():
             axis.step(now_s)
         for actor in self._actors:
             if actor.button.step(now_s):
                 pressed.add(actor.action)
-        self._listen(now_s)
         self.pressed = frozenset(pressed - WHILE_HELD)
         self.held = frozenset(actor.action for actor in self._actors if actor.button.held)
+
+    def check_silence(self, now_s: float, *, while_moving: bool) -> None:
+        """Take back what it said if it has been silent for too long.
+
+        Parameters
+        ----------
+        now_s : float
+            ``host_time_s``.
+        while_moving : bool
+            Whether an axis of its seat is deflected.
+        """
+        silence_s = self._watch.silence_s(now_s)
+        if self.device.streams:
+            if silence_s > MAX_SILENCE_S:
+                self._lose(_failed(MAX_SILENCE_S))
+            return
+        if self.mapping is None or not self._acts:
+            return
+        limit_s = self._watch.max_silence_s(self.mapping.when_silent)
+        # A stream that breaks off with the dead-man held must not find it held when it returns.
+        if silence_s > limit_s and (while_moving or self._watch.repeats_itself):
+            self._lose(_failed(limit_s) if limit_s <= MAX_SILENCE_S else _held_still(limit_s))
+
+    def forget_held(self, why: str) -> None:
+        """Take back what it holds: nobody saw what it did meanwhile. A stop still counts."""
+        self.pressed &= STOPS
+        if self._acts or self.held:
+            self._lose(why)
 
     def distrust(self, why: str) -> None:
         """Let no axis act until it is at rest."""
@@ -108,6 +136,11 @@ class MappedDevice:
     def wants_to_drive(self) -> bool:
         """Whether an axis of it is mapped to something that moves."""
         return self.mapping is not None and bool(self.mapping.axes)
+
+    @property
+    def is_deflected(self) -> bool:
+        """Whether an axis of it asks for motion."""
+        return any(self.deflections.values())
 
     @property
     def deflections(self) -> Mapping[str, float]:
@@ -145,22 +178,26 @@ class MappedDevice:
     def _deflection(self, axis: str) -> float:
         return self._calibrations[axis].deflection(self._raw[axis])
 
+    @property
+    def _acts(self) -> bool:
+        """Whether it moves something, or holds what lets something move."""
+        return self.is_deflected or any(
+            actor.button.held and actor.action in WHILE_HELD for actor in self._actors
+        )
+
+    @property
+    def _is_at_rest(self) -> bool:
+        """Whether nobody seems to touch it: all in its dead zones, no action held."""
+        mappings = self.mapping.axes if self.mapping is not None else ()
+        return not any(actor.button.held for actor in self._actors) and all(
+            mapping.control in self._raw and self._deflection(mapping.control) == 0.0
+            for mapping in mappings
+        )
+
     def _feed(self, reading: InputReading) -> set[Action]:
         device = self.device
-        self._heard_s = reading.host_time_s
-        if (len(reading.axes), len(reading.buttons)) != (len(device.axes), len(device.buttons)):
-            self._lose(
-                message(
-                    "engine",
-                    "a reading has {axes} axes and {buttons} buttons, but the device has "
-                    "{known} and {others}: replug it",
-                ).fill(
-                    axes=len(reading.axes),
-                    buttons=len(reading.buttons),
-                    known=len(device.axes),
-                    others=len(device.buttons),
-                )
-            )
+        if reading.fault is not None:
+            self._lose(reading.fault)
             return set()
         self.problem = None
         self.newest = reading
@@ -182,26 +219,34 @@ class MappedDevice:
             return False
         return actor.threshold.feed(self._deflection(actor.control))
 
-    def _listen(self, now_s: float) -> None:
-        assert self._heard_s is not None
-        if self.device.streams and now_s - self._heard_s > SILENCE_S:
-            self._lose(
-                message(
-                    "engine",
-                    "silent: a streaming device has sent nothing; replug it, or check its cable",
-                )
-            )
-
     def _lose(self, why: str) -> None:
         """Take back everything that it said, a held dead-man too."""
         if self.problem is None:
             self.lost = why
         self.problem = why
         self.newest = None
+        self.held = frozenset()
         for axis in self._trust.values():
             axis.forget(why)
         if self.mapping is not None:
             self._actors = [_Actor(each) for each in self.mapping.actions]
+
+
+def _failed(limit_s: float) -> str:
+    return message(
+        "engine",
+        "silent: a streaming device has sent nothing for {limit} s and counts as released. Check "
+        "its battery, radio link or cable; then release it and start again",
+    ).fill(limit=limit_s)
+
+
+def _held_still(limit_s: float) -> str:
+    return message(
+        "engine",
+        "silent for {limit} s while it moved something, so it counts as released: its link may "
+        "have failed. Release it and start again, and move the stick a little at least every "
+        "{limit} s; or choose under Set up, Mapping that it continues while silent",
+    ).fill(limit=limit_s)
 
 
 class _Actor:

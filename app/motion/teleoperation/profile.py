@@ -28,6 +28,13 @@ class OperatorRole(StrEnum):
     TRAINEE = "trainee"
 
 
+class SilencePolicy(StrEnum):
+    """What a device moves while it is silent, if it reports only changes."""
+
+    STOP = "stop"  # nothing, after a second
+    CONTINUE = "continue"  # the same as before, for as long as it is silent
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
 class AxisMapping:
     """An axis of a device that moves something.
@@ -81,12 +88,15 @@ class DeviceMapping:
     key : str
         The device's key; ``*`` stands for any letters, ``?`` for one.
     seat : OperatorRole
+    when_silent : SilencePolicy
+        Of a device that keeps reporting while nothing changes silence is a failure in any case.
     axes : tuple of AxisMapping
     actions : tuple of ActionMapping
     """
 
     key: Text
     seat: OperatorRole = OperatorRole.TRAINER
+    when_silent: SilencePolicy = SilencePolicy.STOP
     axes: tuple[AxisMapping, ...] = ()
     actions: tuple[ActionMapping, ...] = ()
 

@@ -1,7 +1,10 @@
-"""Meaning of a report's bits for the operator: deflections, hats, and held buttons."""
+"""Meaning of a report's bits for the operator: deflections, hats, and held buttons.
+
+``take`` notes the value of a control and returns whether it is one that the descriptor allows.
+"""
 
 from dataclasses import dataclass
-from math import cos, pi, sin
+from math import cos, nan, pi, sin
 
 from rotemina.drivers.inputs.hid.descriptor import Field
 
@@ -35,7 +38,11 @@ class Bits:
 
 @dataclass(frozen=True, slots=True)
 class Deflection:
-    """An axis from −1 at ``low`` to 1 at ``high``; with ``has_null``, beyond is no news."""
+    """An axis from −1 at ``low`` to 1 at ``high``; beyond, it is nowhere.
+
+    One count beyond is the end: many declare −127 to 127 and send −128. With ``has_null`` any value
+    beyond says that there is none, and is allowed.
+    """
 
     bits: Bits
     axis: int
@@ -43,13 +50,15 @@ class Deflection:
     high: int
     has_null: bool
 
-    def take(self, report: int, axes: list[float], buttons: list[bool]) -> None:
+    def take(self, report: int, axes: list[float], buttons: list[bool]) -> bool:
         """Note the value of the axis."""
         value = self.bits.read(report)
-        if self.low <= value <= self.high:
-            axes[self.axis] = 2.0 * (value - self.low) / (self.high - self.low) - 1.0
-        elif not self.has_null:
-            axes[self.axis] = 1.0 if value > self.high else -1.0
+        nearest = min(max(value, self.low), self.high)
+        if abs(value - nearest) > (0 if self.has_null else 1):
+            axes[self.axis] = nan
+            return self.has_null
+        axes[self.axis] = 2.0 * (nearest - self.low) / (self.high - self.low) - 1.0
+        return True
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,11 +80,12 @@ class Hat:
         )
         return cls(Bits.of(field), axis, field.low, directions)
 
-    def take(self, report: int, axes: list[float], buttons: list[bool]) -> None:
+    def take(self, report: int, axes: list[float], buttons: list[bool]) -> bool:
         """Note where the hat points."""
         index = self.bits.read(report) - self.low
         right, towards = self.directions[index] if 0 <= index < len(self.directions) else (0.0, 0.0)
         axes[self.axis], axes[self.axis + 1] = right, towards
+        return True
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,9 +104,10 @@ class Button:
         least = (field.low + high) // 2 + 1 if high > field.low else 1
         return cls(Bits.of(field), button, least)
 
-    def take(self, report: int, axes: list[float], buttons: list[bool]) -> None:
+    def take(self, report: int, axes: list[float], buttons: list[bool]) -> bool:
         """Note whether it is held."""
         buttons[self.button] = self.bits.read(report) >= self.least
+        return True
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,7 +129,7 @@ class Buttons:
         """The last place."""
         return self.places[-1]
 
-    def take(self, report: int, axes: list[float], buttons: list[bool]) -> None:
+    def take(self, report: int, axes: list[float], buttons: list[bool]) -> bool:
         """Note which are held: those that are listed, and no other."""
         for button in self.chosen:
             if button is not None:
@@ -127,6 +138,7 @@ class Buttons:
             index = place.read(report) - self.low
             if 0 <= index < len(self.chosen) and (button := self.chosen[index]) is not None:
                 buttons[button] = True
+        return True
 
 
 Control = Deflection | Hat | Button | Buttons

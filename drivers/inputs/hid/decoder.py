@@ -20,21 +20,27 @@ from rotemina.sim.messages import message
 
 @dataclass(frozen=True, slots=True)
 class Ignored:
-    """Counts of data that contradict the descriptor.
+    """Counts of data that were not used.
 
     Attributes
     ----------
     unknown : int
-        Reports of a number without axes and buttons: nothing of them was used.
+        Reports that the descriptor declares without axes and buttons, such as a keyboard's.
+    undeclared : int
+        Reports of a number that the descriptor does not declare.
     short : int
-        Reports that ended too early: the controls that they lack were left as they were.
+        Reports that ended too early.
     long : int
         Reports with more bytes than described; the rest was not looked at.
+    beyond : int
+        Values of axes outside their declared range.
     """
 
     unknown: int = 0
+    undeclared: int = 0
     short: int = 0
     long: int = 0
+    beyond: int = 0
 
 
 class Decoder:
@@ -61,7 +67,10 @@ class Decoder:
             )
         self.axes = tuple(plan.axes)
         self.buttons = tuple(plan.buttons)
+        #: Why the latest report could not be understood; None if it could.
+        self.fault: str | None = None
         self._numbered = descriptor.numbered
+        self._declared = frozenset(descriptor.bits)
         self._reports = {
             number: _Report(
                 tuple(sorted(controls, key=lambda control: control.bits.end)),
@@ -69,8 +78,8 @@ class Decoder:
             )
             for number, controls in plan.reports.items()
         }
-        self._axes = [nan] * len(self.axes)
-        self._buttons = [False] * len(self.buttons)
+        self._forget()
+        self._longest: Counter[int] = Counter()  # bytes that the reports of a number had so far
         self._ignored: Counter[str] = Counter()
 
     @property
@@ -79,28 +88,56 @@ class Decoder:
         return Ignored(**self._ignored)
 
     def decode(self, report: bytes) -> tuple[tuple[float, ...], tuple[bool, ...]] | None:
-        """Return all axes and buttons after a report; None if it contains none of them.
+        """Return all axes and buttons after a report; None if it is declared without any of them.
 
-        Never raises, whatever the bytes are. An axis that no report has told yet is NaN.
+        Never raises, whatever the bytes are. An axis that no report has told yet, or whose value is
+        outside its declared range, is NaN. After a report that cannot be understood, see
+        :attr:`fault`, every axis is NaN and no button is held.
         """
         number, payload = (report[0], report[1:]) if report and self._numbered else (0, report)
         known = self._reports.get(number)
-        if known is None:
+        if known is None and number in self._declared:
             self._ignored["unknown"] += 1
             return None
-        if len(payload) > known.size:
-            self._ignored["long"] += 1
-        controls = known.controls
-        if len(payload) < known.size:
-            self._ignored["short"] += 1
-            have = 8 * len(payload)
-            controls = tuple(control for control in controls if control.bits.end <= have)
-            if not controls:
-                return None
-        whole = int.from_bytes(payload, "little")
-        for control in controls:
-            control.take(whole, self._axes, self._buttons)
+        self.fault = self._fault(number, payload)
+        if known is None or self.fault is not None:
+            self._forget()
+            return tuple(self._axes), tuple(self._buttons)
+        self._longest[number] = max(self._longest[number], min(len(payload), known.size))
+        self._take(payload, known)
         return tuple(self._axes), tuple(self._buttons)
+
+    def _fault(self, number: int, payload: bytes) -> str | None:
+        """Return why a report cannot be understood; None if it can."""
+        if number not in self._declared:
+            self._ignored["undeclared"] += 1
+            return message(
+                "engine",
+                "it sent a report of type {number}, which it does not declare, and counts as "
+                "released. Release it and start again; if this repeats, replug it",
+            ).fill(number=number)
+        if len(payload) < self._longest[number]:
+            self._ignored["short"] += 1
+            return message(
+                "engine",
+                "it sent a report of {length} bytes after reports of {longest}, and counts as "
+                "released. Release it and start again; if this repeats, replug it",
+            ).fill(length=len(payload), longest=self._longest[number])
+        return None
+
+    def _take(self, payload: bytes, known: "_Report") -> None:
+        """Note the controls that a report has: some devices always send less than they declare."""
+        self._ignored["long"] += len(payload) > known.size
+        self._ignored["short"] += len(payload) < known.size
+        whole = int.from_bytes(payload, "little")
+        for control in known.controls:
+            if control.bits.end <= 8 * len(payload):
+                declared = control.take(whole, self._axes, self._buttons)
+                self._ignored["beyond"] += not declared
+
+    def _forget(self) -> None:
+        self._axes = [nan] * len(self.axes)
+        self._buttons = [False] * len(self.buttons)
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,6 @@ from rotemina.drivers.inputs.device import (
 )
 from rotemina.drivers.inputs.hid.decoder import Decoder, Ignored
 from rotemina.drivers.inputs.hid.hidapi import Handle
-from rotemina.drivers.inputs.hid.streaming import Streaming
 from rotemina.sim.messages import message
 
 _LOG = logging.getLogger(__name__)
@@ -44,7 +43,6 @@ class HidDevice(InputDevice):
         self._handle: Handle | None = handle
         self._decoder = decoder
         self._clock = clock
-        self._streaming = Streaming()
 
     @property
     def ignored(self) -> Ignored:
@@ -64,10 +62,7 @@ class HidDevice(InputDevice):
                 break
             state = self._decoder.decode(report)
             if state is not None:
-                reading = InputReading(self._clock(), *state)
-                self._streaming.receive(reading)
-                readings.append(reading)
-        self.streams = self._streaming.found
+                readings.append(InputReading(self._clock(), *state, self._decoder.fault))
         return tuple(readings)
 
     def close(self) -> None:

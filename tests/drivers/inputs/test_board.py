@@ -3,7 +3,7 @@
 import pytest
 
 from rotemina.drivers.inputs.board import BoardInputs
-from rotemina.drivers.inputs.device import InputLostError
+from rotemina.drivers.inputs.device import CONFIRM_S, InputLostError
 from rotemina.drivers.samples import DeviceState, DeviceStatus
 from rotemina.drivers.simulator.driver import Simulator
 from rotemina.sim.robot.file import load_robot
@@ -54,10 +54,15 @@ def test_readings_of_0_to_1_become_deflections(joystick, clock):
     assert joystick.axes == ("Potentiometer 1", "Potentiometer 2", "Potentiometer 3")
 
 
-def test_nothing_new_is_no_reading(joystick, driver):
-    assert len(joystick.read()) == 1
+def test_nothing_new_is_no_reading_until_it_is_confirmed(joystick, driver, clock):
+    (first,) = joystick.read()
     driver.set_analog_inputs([0.0, 0.5, 1.0], [True])
     assert joystick.read() == ()
+    clock.advance(1.1 * CONFIRM_S)
+    (again,) = joystick.read()
+    assert (again.axes, again.buttons) == (first.axes, first.buttons)
+    assert again.host_time_s == clock()
+    assert joystick.streams  # so that no confirmation is a failure
 
 
 @pytest.mark.parametrize(

@@ -119,7 +119,8 @@ def test_held_by_somebody_who_says_nothing_any_more_it_is_released(leased, clock
     leased.hold("fine")
     device.read()
     clock.advance(0.29)
-    assert device.read() == ()
+    (reading,) = device.read()
+    assert reading.axes == (1.0, 0.0)
     clock.advance(0.02)
     (reading,) = device.read()
     assert reading.axes == (0.0, 0.0)
@@ -141,6 +142,18 @@ def test_renewed_it_is_held_on(leased, clock):
     for _ in range(10):
         clock.advance(0.2)
         assert leased.renew()
+        (reading,) = device.read()
+        assert reading.axes == (1.0, 0.0)
+        assert device.read() == ()
+
+
+def test_released_or_without_a_lease_it_confirms_nothing(leased, pad, clock):
+    leased.release_all()
+    pad.deflect("x", 1.0)
+    for one in (leased, pad):
+        device = one.open(one.identity)
+        device.read()
+        clock.advance(0.2)
         assert device.read() == ()
 
 

@@ -1,5 +1,7 @@
 """Devices without a window: their looping by hand, on a clock set by hand."""
 
+from math import inf
+
 import pytest
 
 from rotemina.app.motion.teleoperation.input_devices import InputDevices
@@ -13,10 +15,10 @@ TICK_S = 0.005
 
 
 class Stick(Pad):
-    """A pad that is taken for a joystick."""
+    """A pad that is taken for a joystick which streams."""
 
     def __init__(self, clock, label="stick", axes=("X", "Y", "Z"), buttons=("1", "2", "3")):
-        super().__init__(label, axes, buttons, clock=clock)
+        super().__init__(label, axes, buttons, lease_s=inf, clock=clock)
         self.identity = InputIdentity(f"hid:046d:c215:{label}", label, "hid")
 
     @property

@@ -246,18 +246,6 @@ def test_a_stick_that_streams_is_lost_when_it_falls_silent_and_drops_what_it_hel
     assert (intent.deflections, intent.held) == ({"y": 0.0}, frozenset())
 
 
-def test_one_that_speaks_only_of_changes_may_be_silent():
-    bench = Bench()
-    bench.run(0.2)
-    intent = bench.say(axes=(1.0, 0.0), held=("fine",)).step()
-    bench.silence()
-    intents = bench.run(10.0)
-    assert lost(intents) == []
-    assert intents[-1].deflections == intent.deflections
-    assert intents[-1].held == {Action.FINE}
-    assert intents[-1].host_time_s == intent.host_time_s
-
-
 def test_a_calibration_acts_at_once_and_wants_the_centre():
     bench = Bench()
     bench.say(axes=(0.5, 0.0)).run(0.2)

@@ -110,28 +110,64 @@ def test_a_hat_points_in_eight_directions_or_none(descriptors, value, direction)
     assert axes[2:4] == direction
 
 
-def test_a_short_report_changes_what_it_has_and_a_long_one_is_no_harm(descriptors):
+def test_a_device_whose_reports_are_always_short_has_the_controls_in_them(descriptors):
     decoder = decoder_of(descriptors["joystick"])
-    decoded(decoder, [0] * 5 + [255, 0x0F])
     axes, held = decoded(decoder, [0xFF, 0xFF, 0xFF, 255])
     assert axes["Rz"] == axes["X"] == 1.0
-    assert axes["Slider"] == 1.0
-    assert held == {"Button 9", "Button 10", "Button 11", "Button 12"}
+    assert isnan(axes["Slider"])
+    assert held == set()
+    assert decoder.fault is None
+    assert decoder.ignored == Ignored(short=1)
+
+
+def test_a_long_report_is_no_harm(descriptors):
+    decoder = decoder_of(descriptors["joystick"])
     axes, _ = decoded(decoder, [0] * 7 + [255] * 60)
     assert axes["Slider"] == -1.0
-    assert decoder.decode(b"\xff") is None
-    assert decoder.decode(b"") is None
-    assert decoder.ignored == Ignored(short=3, long=1)
+    axes, _ = decoded(decoder, [0] * 7)
+    assert axes["Slider"] == -1.0
+    assert decoder.ignored == Ignored(long=1)
 
 
-def test_a_value_beyond_its_range_is_no_news_where_there_is_a_null_state():
-    with_null = "05 01 09 04 A1 01 09 30 15 01 25 0A 75 08 95 01 81 42 C0"
-    decoder = decoder_of(bytes.fromhex(with_null))
-    assert decoded(decoder, [10])[0] == {"X": 1.0}
-    assert decoded(decoder, [0])[0] == {"X": 1.0}
-    decoder = decoder_of(bytes.fromhex(with_null.replace("81 42", "81 02")))
+@pytest.mark.parametrize(
+    ("report", "fault", "count"),
+    [
+        ([1, 255, 255], "report of 2 bytes after reports of 4", Ignored(short=1)),
+        ([1], "report of 0 bytes after reports of 4", Ignored(short=1)),
+        ([7, 255, 255, 255, 255], "report of type 7, which", Ignored(undeclared=1)),
+        ([], "report of type 0, which", Ignored(undeclared=1)),
+    ],
+)
+def test_after_a_shorter_or_undeclared_report_nothing_is_deflected_or_held(report, fault, count):
+    descriptor = (
+        "05 01 09 04 A1 01 85 01 15 00 26 FF 00 75 08 95 03 09 30 09 31 09 32 81 02"
+        "05 09 19 01 29 08 25 01 75 01 95 08 81 02 85 02 05 01 26 FF 00 75 08 95 01 09 33 81 02 C0"
+    )
+    decoder = decoder_of(bytes.fromhex(descriptor))
+    decoded(decoder, [2, 255])
+    assert decoded(decoder, [1, 255, 0, 0, 1])[1] == {"Button 1"}
+    axes, held = decoded(decoder, report)
+    assert all(map(isnan, axes.values()))
+    assert held == set()
+    assert fault in decoder.fault
+    assert decoder.ignored == count
+    axes, held = decoded(decoder, [1, 255, 255, 255, 2])
+    assert decoder.fault is None
+    assert (axes["X"], held) == (1.0, {"Button 2"})
+    assert isnan(axes["Rx"])  # said before the fault
+
+
+def test_a_value_beyond_its_range_is_nowhere_but_one_count_is_the_end():
+    plain = "05 01 09 04 A1 01 09 30 15 01 25 0A 75 08 95 01 81 02 C0"
+    decoder = decoder_of(bytes.fromhex(plain))
     assert decoded(decoder, [0])[0] == {"X": -1.0}
-    assert decoded(decoder, [200])[0] == {"X": 1.0}
+    assert decoded(decoder, [11])[0] == {"X": 1.0}
+    assert isnan(decoded(decoder, [200])[0]["X"])
+    assert decoder.ignored == Ignored(beyond=1)
+    with_null = decoder_of(bytes.fromhex(plain.replace("81 02", "81 42")))
+    assert decoded(with_null, [10])[0] == {"X": 1.0}
+    assert isnan(decoded(with_null, [0])[0]["X"])
+    assert with_null.ignored == Ignored()
 
 
 def test_a_pressure_is_held_from_the_middle_on():

@@ -2,6 +2,7 @@
 
 import importlib
 import logging
+from math import isnan
 
 import pytest
 
@@ -101,10 +102,12 @@ def test_what_is_not_as_described_is_counted(hid, hidapi, descriptors, caplog):
     device = hid.open(hid.devices()[0])
     stick.waiting.extend([bytes([9, 1, 2]), bytes([1, 0, 0]), bytes([1, *[0] * 6, 7])])
     readings = device.read()
-    assert [reading.axes[0] for reading in readings] == [0.0, 0.0]
+    assert [reading.axes[0] for reading in readings][1:] == [0.0, 0.0]
+    assert isnan(readings[0].axes[0])
+    assert "type 9" in readings[0].fault
     with caplog.at_level(logging.INFO):
         device.close()
-    assert "Ignored(unknown=1, short=1, long=1)" in caplog.text
+    assert "Ignored(unknown=0, undeclared=1, short=1, long=1, beyond=0)" in caplog.text
 
 
 @pytest.mark.parametrize(
