@@ -103,6 +103,10 @@ def _said(view: DeviceView, age_s: float | None) -> str:
     if view.problem is not None:
         problem = spoken(view.problem)
         return problem[:1].upper() + problem[1:]
+    if view.fault is not None:
+        return tr("Reports not understood: {count}. The latest: {fault}").format(
+            count=view.faults, fault=spoken(view.fault)
+        )
     return (
         ""
         if view.device.axes or view.device.buttons

@@ -5,11 +5,12 @@ from collections.abc import Callable
 from rotemina.app.motion.teleoperation.input_arbiter import DevicesView, DeviceView
 from rotemina.app.motion.teleoperation.input_devices import InputSnapshot
 from rotemina.app.motion.teleoperation.moved_control import Detected
-from rotemina.app.motion.teleoperation.profile import OperatorRole, Profile
+from rotemina.app.motion.teleoperation.profile import OperatorRole, Profile, SilencePolicy
 from rotemina.app.shell.engine_words import error_text, spoken
+from rotemina.app.shell.phase_words import Tone, set_tone
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button
-from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.labels import plain_text, show_text
 from rotemina.app.widgets.layouts import in_grid
 from rotemina.app.widgets.section import Section
 from rotemina.app.widgets.wheel_safe import SteadyChoice
@@ -26,6 +27,24 @@ _SEATS = {
     mark("Trainer"): OperatorRole.TRAINER,
     mark("Trainee"): OperatorRole.TRAINEE,
     mark("No action"): None,
+}
+
+
+#: What the choice says, and what it means.
+_SILENCE = {
+    SilencePolicy.STOP: (
+        mark("When silent: stop"),
+        mark(
+            "Held still, the device must report at least once a second, or it counts as released."
+        ),
+    ),
+    SilencePolicy.CONTINUE: (
+        mark("When silent: continue"),
+        mark(
+            "The robot continues while the device is silent, even if its link has failed. Only for "
+            "a device on a cable that reports nothing while it is held still."
+        ),
+    ),
 }
 
 
@@ -50,6 +69,12 @@ class MappingSection(Section):
         self.seat.activated.connect(lambda _: self._choose_seat())
         self.exchange = button(tr("Exchange seats"), self._exchange)
         self.add_row(self.seat, self.exchange, equal=False)
+        self.silence = SteadyChoice(tr("When the device is silent"), letters=8)
+        for policy, (name, _) in _SILENCE.items():
+            self.silence.addItem(tr(name), policy)
+        self.silence.activated.connect(lambda _: self._choose_silence())
+        self.add_row(self.silence)
+        self.silence_meaning = self.add_text()
         self.message = plain_text(wrap=True)  # placed where it stays in sight
         self.message.setText(tr(HINT))
         grid = in_grid(spacing=(5, 3), stretched=(0, 1))
@@ -92,12 +117,27 @@ class MappingSection(Section):
         self._look(now_s)
         edited = self._edited
         self.seat.select(None if edited.mapping is None else edited.mapping.seat)
+        self._show_silence(edited)
         profile = self._devices.profile
         seats = {each.seat for each in profile.devices} if profile is not None else set()
         alone = None if len(seats) > 1 else tr("all devices of the profile belong to one seat")
         allow(self.exchange, alone, tr("Exchange the devices of trainer and trainee"))
         for row in self._rows:
             row.show_edited(edited, self.message.text() if row is self._row else None)
+
+    def _show_silence(self, edited: Edited) -> None:
+        mapped = edited.mapping is not None
+        policy = SilencePolicy.STOP if edited.mapping is None else edited.mapping.when_silent
+        allow(
+            self.silence,
+            None if mapped else tr("the device has no action yet"),
+            tr("When the device is silent"),
+        )
+        self.silence.select(policy)
+        show_text(self.silence_meaning, tr(_SILENCE[policy][1]))
+        set_tone(
+            self.silence_meaning, Tone.WARNING if policy is SilencePolicy.CONTINUE else Tone.QUIET
+        )
 
     def receive(self, snapshot: InputSnapshot) -> None:
         """Take in what the devices have said."""
@@ -171,6 +211,12 @@ class MappingSection(Section):
         edited = self._edited
         if seat is not (None if edited.mapping is None else edited.mapping.seat):
             self._apply(lambda e: e.with_seat(seat))
+
+    def _choose_silence(self) -> None:
+        policy = self.silence.currentData()
+        edited = self._edited
+        if edited.mapping is not None and policy is not edited.mapping.when_silent:
+            self._apply(lambda e: e.with_silence(policy))
 
     def _exchange(self) -> None:
         profile = self._devices.profile

@@ -16,6 +16,7 @@ from rotemina.app.motion.teleoperation.profile import (
     OperatorRole,
     Profile,
     ProfileError,
+    SilencePolicy,
 )
 from rotemina.app.motion.teleoperation.profile_check import PluggedDevice, assigned
 from rotemina.plugins.inputs import tr
@@ -116,6 +117,10 @@ class Edited:
                 actions=tuple(each for each in mapping.actions if each.action is not action),
             )
         )
+
+    def with_silence(self, policy: SilencePolicy) -> Profile:
+        """Return the profile with another rule for the silence of this device."""
+        return self._with(lambda mapping: replace(mapping, when_silent=policy))
 
     def with_seat(self, seat: OperatorRole | None) -> Profile:
         """Return the profile with this device at a seat; None: it does nothing.

@@ -6,6 +6,8 @@ import pytest
 from PySide6.QtCore import Qt
 
 from rotemina.app.motion.teleoperation.intent import Action
+from rotemina.app.motion.teleoperation.profile import SilencePolicy
+from rotemina.drivers.inputs.device import InputReading
 from rotemina.plugins.inputs.panel import Page
 from rotemina.plugins.inputs.profiles import SETTING
 from rotemina.plugins.inputs.words import NOTHING_SENT
@@ -84,6 +86,11 @@ def shown_live(hand, stick):
     stick.release_all()
     hand.until(lambda: panel.live.rows["X"].about.text() == "→ Stick X")
     assert "stick may control" in panel.headline.text()
+    device = hand.devices.device(stick.key)
+    device.waiting.append(InputReading.unusable(stick.clock(), device, "a strange report"))
+    stick.release_all()
+    hand.until(lambda: panel.live.said.text().startswith("Reports not understood: 1."))
+    assert "a strange report" in panel.live.said.text()
 
 
 def set_up(hand, stick):
@@ -131,6 +138,17 @@ def mapped(hand):
     hand.until(lambda: rows["y"].control.text() == "–")
 
 
+def made_to_continue(hand):
+    """What silence means is chosen by the operator, and said plainly."""
+    mapping = hand.panel.mapping
+    assert "or it counts as released" in mapping.silence_meaning.text()
+    index = mapping.silence.findData(SilencePolicy.CONTINUE)
+    mapping.silence.setCurrentIndex(index)
+    mapping.silence.activated.emit(index)
+    assert hand.devices.profile.devices[0].when_silent is SilencePolicy.CONTINUE
+    hand.until(lambda: "even if its link has failed" in mapping.silence_meaning.text())
+
+
 def saved(hand):
     """What was changed is kept under a name."""
     profile = hand.panel.profile
@@ -170,6 +188,7 @@ def test_a_stick_is_seen_and_mapped_by_moving_it(make_hand, stick):
     shown_live(hand, stick)
     set_up(hand, stick)
     found(hand)
+    made_to_continue(hand)
     hand.press(hand.panel.set_up)
     hand.until(lambda: hand.operation.intent.deflections == {"x": 0.0, "y": 0.0, "zn": 0.0})
     hand.until(lambda: "not saved: set up, and save it" in hand.panel.profile.state.text())

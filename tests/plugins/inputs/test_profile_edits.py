@@ -12,6 +12,7 @@ from rotemina.app.motion.teleoperation.profile import (
     OperatorRole,
     Profile,
     ProfileError,
+    SilencePolicy,
 )
 from rotemina.app.motion.teleoperation.profile_check import PluggedDevice, check_profile
 from rotemina.drivers.inputs.device import InputIdentity
@@ -85,6 +86,14 @@ def test_without_a_profile_one_is_made():
     changed = Edited(None, STICK, (STICK,)).with_axis("x", "X")
     assert changed.devices[0].axes == (AxisMapping(control="X", drives="x"),)
     check_profile(changed, ROBOT)
+
+
+def test_a_device_continues_while_silent_only_if_that_was_chosen():
+    assert edited().mapping.when_silent is SilencePolicy.STOP
+    changed = edited().with_silence(SilencePolicy.CONTINUE)
+    assert edited(changed).mapping.when_silent is SilencePolicy.CONTINUE
+    assert edited(changed).axis("x") == edited().axis("x")
+    assert changed.devices[1] == BENCH.devices[1]
 
 
 def test_a_device_takes_a_seat_or_none():
