@@ -29,6 +29,10 @@ class Bench:
     block_port, unblock_port : callable, optional
         Let the device's end of the line take no more bytes, and take them again, while what the
         device says still arrives. Without them nothing is checked about blocked ports.
+    misreport : callable, optional
+        Let the next report of the open device carry a position that cannot be true.
+    delay_line : callable, optional
+        Let each byte from now on take so many seconds, each way.
     cause_fault : callable, optional
         Bring about a fault of the open device that can be cleared at once.
     touched : callable, optional
@@ -44,6 +48,8 @@ class Bench:
     restore_link: Callable[[], None] | None = None
     block_port: Callable[[], None] | None = None
     unblock_port: Callable[[], None] | None = None
+    misreport: Callable[[], None] | None = None
+    delay_line: Callable[[float], None] | None = None
     cause_fault: Callable[[Driver], None] | None = None
     touched: Callable[[], bool] | None = None
     short_loss_s: float = 0.1

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotemina.drivers.abilities import Homer
+from rotemina.drivers.abilities import Homer, Linked
 from rotemina.drivers.conformance.findings import Inapplicable, Unmet, at_most, demand
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.samples import DeviceState, Samples
@@ -80,8 +80,6 @@ class Subject:
         self.driver = driver
         self.advance = advance
         self.step_s = _STEP_S if driver.virtual_time else driver.service_period_s
-        #: How old the latest sample may be, s: nothing, or what a real line and its reading take.
-        self.late_s = 0.0 if driver.virtual_time else 2.0 * driver.service_period_s
         limits = SetpointLimits.of(driver.robot)
         self.axes = tuple(
             Motion(
@@ -91,8 +89,8 @@ class Subject:
                 max(one.low, float(limits.low[index])),
                 min(one.high, float(limits.high[index])),
                 one.resolution,
-                float(limits.speed[index]),
-                float(limits.acceleration[index]),
+                one.max_speed or float(limits.speed[index]),
+                one.max_acceleration or float(limits.acceleration[index]),
             )
             for index, one in enumerate(driver.descriptions)
         )
@@ -106,6 +104,19 @@ class Subject:
     def quick(self) -> Motion:
         """The axis that is soonest at an end of its range."""
         return min(self.axes, key=lambda axis: axis.crossing_s)
+
+    @property
+    def late_s(self) -> float:
+        """How old the latest sample may be, s: nothing, or what a real line and its reading take.
+
+        A stop takes as long to the device as its answer takes back: that is the round trip.
+        """
+        if self.driver.virtual_time:
+            return 0.0
+        round_trip_s = 0.0
+        if isinstance(self.driver, Linked):
+            round_trip_s = self.driver.link_quality().round_trip_s or 0.0
+        return 2.0 * self.driver.service_period_s + round_trip_s
 
     @property
     def state(self) -> DeviceState:

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 
 from rotemina.drivers.conformance import (
     captures,
+    first_contact,
     links,
     moves,
     opening,
@@ -16,7 +17,17 @@ from rotemina.drivers.conformance.bench import Bench
 from rotemina.drivers.conformance.check import Check, Result, Verdict
 from rotemina.sim.errors import InputError
 
-_MODULES = (opening, sampling, moves, speeds, playing, service_checks, captures, links)
+_MODULES = (
+    opening,
+    sampling,
+    moves,
+    speeds,
+    playing,
+    service_checks,
+    captures,
+    links,
+    first_contact,
+)
 CHECKS = tuple(
     each for module in _MODULES for each in vars(module).values() if isinstance(each, Check)
 )

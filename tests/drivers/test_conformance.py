@@ -42,6 +42,8 @@ class Cabled(Simulator):
     """The simulator at the end of a cable that can be pulled; the device's lease is 0.5 s."""
 
     cable = True  # of the class: it is the device's, whoever drives it
+    damaged = False  # its next report
+    delay_s = 0.0
     room = threading.Event()  # in its port
     touches = 0
 
@@ -62,13 +64,20 @@ class Cabled(Simulator):
         is_blocked = self.clock() - self._took_s > LOST_S
         if type(self).cable and not self._lost and not is_blocked:
             self._heard_s = self.clock()
-            return super()._read()
+            return self._check_report(super()._read())
         if (is_blocked or self.clock() - self._heard_s > LOST_S) and not self._lost:
             self._lost = True
             super()._stop()
         if self._lost:
             raise ConnectionLostError("nothing heard for 1 s; check the cable and connect again")
         return Samples.none(len(self.axes))
+
+    def _check_report(self, samples):
+        """Discard a damaged report."""
+        if not len(samples):
+            return samples
+        damaged, type(self).damaged = type(self).damaged, False
+        return Samples.none(len(self.axes)) if damaged else samples
 
     def _require_sound(self, action):
         if self._is_open and self._lost:
@@ -93,6 +102,8 @@ def bench(driver):
         restore_link=lambda: setattr(device, "cable", True),
         block_port=room.clear,
         unblock_port=room.set,
+        misreport=lambda: setattr(device, "damaged", True),
+        delay_line=lambda seconds: setattr(device, "delay_s", seconds),
         cause_fault=cause_fault,
         touched=lambda: device.touches > 0,
         long_loss_s=2.0,
@@ -520,6 +531,30 @@ class SilentWhenBlockedOnce(Cabled):
             super()._move_to(*given)
 
 
+class BelievesDamagedReports(Cabled):
+    def _check_report(self, samples):
+        if not len(samples):
+            return samples
+        damaged, type(self).damaged = type(self).damaged, False
+        return altered(samples, measured=samples.measured + 1.0) if damaged else samples
+
+
+class SilentOnASlowLine(Cabled):
+    def _status(self):
+        status = super()._status()
+        return replace(status, silent_s=0.2) if self.delay_s and self.gate.epoch.stops else status
+
+    def _move_to(self, *given):
+        super()._move_to(*given)
+        self.gate.stop()
+
+
+class ResumesAfterAPause(Cabled):
+    """Goes on with what it was told, whoever watches."""
+
+    virtual_time = False
+
+
 MUTANTS = {
     TouchesWhenMade: "making",
     ClosesBadly: "reopening",
@@ -563,6 +598,8 @@ MUTANTS = {
     StopWaitsForThePort: "blocked-port",
     WritesForEver: "blocked-port",
     SilentWhenBlockedOnce: "blocked-port",
+    BelievesDamagedReports: "damaged-report",
+    SilentOnASlowLine: "slow-line",
 }
 
 
@@ -608,7 +645,9 @@ def line_bench(driver, robot, device, settings):
 
 def test_a_driver_that_keeps_the_contract_passes_every_check():
     results = list(run_checks(bench(Cabled)))
-    assert [(one.name, one.note) for one in results if one.verdict is not Verdict.PASSED] == []
+    # A simulator lives on the time that it is given: there is no pause.
+    others = [one for one in results if one.name != "paused-program"]
+    assert [(one.name, one.note) for one in others if one.verdict is not Verdict.PASSED] == []
 
 
 def test_the_boards_driver_survives_a_port_that_takes_no_bytes():
@@ -633,6 +672,13 @@ def test_a_driver_that_does_one_thing_wrong_fails_the_check_meant_for_it(mutant)
     results = run_checks(bench(mutant))
     failed = {one.name: one.note for one in results if one.verdict is Verdict.FAILED}
     assert set(failed) == {MUTANTS[mutant]}, failed
+
+
+def test_a_driver_that_goes_on_after_a_pause_fails():
+    (check,) = checks_named(["paused-program"])
+    result = check.run(bench(ResumesAfterAPause))
+    assert result.verdict is Verdict.FAILED
+    assert "was to hold" in result.note
 
 
 def test_what_moves_nothing_can_be_checked_alone():

@@ -22,7 +22,7 @@ class MemoryPort:
 
     def __init__(self, stage, clock, began_s, delay_s=0.0, alter=None, echo=False):
         self._stage, self._clock, self._began_s = stage, clock, began_s
-        self._delay_s, self._echo = delay_s, echo
+        self.delay_s, self._echo = delay_s, echo
         self.alter = alter
         self._turn = threading.Lock()
         self._to, self._back = [], []
@@ -45,7 +45,7 @@ class MemoryPort:
         with self._turn:
             self.written += data
             if not self.cut:
-                self._to.append((self._clock() - self._began_s + self._delay_s, data))
+                self._to.append((self._clock() - self._began_s + self.delay_s, data))
             self._deliver()
 
     def _deliver(self):
@@ -54,10 +54,10 @@ class MemoryPort:
             at_s, data = self._to.pop(0)
             self._stage.receive(data, at_s)
             if self._echo:
-                self._back.append((at_s + self._delay_s, data))
+                self._back.append((at_s + self.delay_s, data))
         reply = self._stage.advance(now_s)
         if reply:
-            self._back.append((now_s + self._delay_s, reply))
+            self._back.append((now_s + self.delay_s, reply))
         return now_s
 
     def waiting(self):
@@ -115,6 +115,11 @@ class Bench:
             written = written.replace(byte, b"")
         return [line.decode() for line in written.split(b"\n") if line]
 
+    def delay(self, seconds):
+        self.line = {"delay_s": seconds}
+        for port in self.ports:
+            port.delay_s = seconds
+
     def cut(self, is_cut):
         for port in self.ports:
             port.cut = is_cut
@@ -151,6 +156,8 @@ class Bench:
             advance=self.clock.advance,
             cut_link=lambda: self.cut(True),
             restore_link=lambda: self.cut(False),
+            misreport=lambda: self.alter_once(lambda data: data.replace(b".", b"", 1)),
+            delay_line=self.delay,
             cause_fault=lambda _: self.stage.hit_limit(),
             touched=lambda: bool(self.ports),
         )
