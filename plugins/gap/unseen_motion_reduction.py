@@ -5,23 +5,28 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from rotemina.app.display_units import label
 from rotemina.app.motion.command_memory import CommandMemory
 from rotemina.app.motion.compared_run import Run, compared_again
 from rotemina.app.motion.model_in_use import ModelInUse
+from rotemina.plugins.gap import tr
 from rotemina.sim.comparison.gap import GapFigure, moving
 from rotemina.sim.excitation.generator import Kind, excite
 from rotemina.sim.excitation.sines_and_chirps import Multisine
 from rotemina.sim.excitation.staircase_steps_prbs import Staircase
 from rotemina.sim.excitation.triangles_and_sweeps import DecayingTriangle
 from rotemina.sim.gap.diagnosis import Diagnosis
+from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.fit.row_blocks import block_numbers, drawn_means, summed
 from rotemina.sim.gap.output.report.traces import Trace
 from rotemina.sim.plant.response import nominal_response
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Robot
+from rotemina.sim.trajectory.motion_envelope import AxisMotion, MotionEnvelope
 
 _SHARE_OF_WAY = 0.8  # of where the records went: beyond it nothing was examined
 _MOTION_S = 6.0
+_LONGEST_S = 60.0  # of a motion that is slow because the records are
 SAME = 0.95  # times smaller, from which a gap is as large as before
 _ATOM = 1e-6  # of the range, where a sensor's floor is not known
 _SEED = 20_261  # of its phases: no other motion has it by chance
@@ -117,28 +122,36 @@ def new_motion(diagnosis: Diagnosis, records: Sequence[Record], axes: Sequence[s
     """Return a motion of these axes, where the records went, that none of them holds.
 
     Of a few kinds, the one on which the model and the corrected model differ most: what creeps
-    shows in holds, what rings in fast ways.
+    shows in holds, what rings in fast ways. None exceeds the speed or acceleration of the records.
 
     Raises
     ------
     InputError
-        If the limits of the robot allow none, or the corrected model cannot be simulated.
+        If the records do not move these axes, the limits of the robot allow no motion, or the
+        corrected model cannot be simulated.
     """
-    robot = diagnosis.robot
+    robot, envelope = diagnosis.robot, MotionEnvelope.of(records)
     twin = replace(robot, effects=(*robot.effects, *diagnosis.fitted))
-    ways = {axis: _way(axis, records) for axis in axes}
+    moved = [axis for axis in axes if envelope.has_motion(axis)]
+    if not moved:
+        raise GapError(
+            tr("the records move none of these axes: {axes}; play a motion of your own").format(
+                axes=", ".join(map(label, axes))
+            )
+        )
+    limited = envelope.narrow(robot)
+    ways = {axis: _way(envelope.axes[axis]) for axis in moved}
     made = [
-        excite(robot, {axis: kind(*way) for axis, way in ways.items()}, seed=_SEED).record
+        excite(limited, {axis: kind(*way) for axis, way in ways.items()}, seed=_SEED).record
         for kind in (_fast, _held, _swinging)
     ]
-    return max(made, key=lambda motion: _difference(robot, twin, motion))
+    short = [motion for motion in made if motion.duration_s <= _LONGEST_S]
+    return max(short, key=lambda motion: _difference(robot, twin, motion))
 
 
-def _way(axis: str, records: Sequence[Record]) -> tuple[float, float]:
+def _way(motion: AxisMotion) -> tuple[float, float]:
     """Return amplitude and middle of most of where an axis went."""
-    ways = [one.signal(axis, Tap.CMD) for one in records if one.has(axis, Tap.CMD)]
-    low, high = min(float(way.min()) for way in ways), max(float(way.max()) for way in ways)
-    return _SHARE_OF_WAY * (high - low) / 2.0, (low + high) / 2.0
+    return _SHARE_OF_WAY * (motion.high - motion.low) / 2.0, (motion.low + motion.high) / 2.0
 
 
 def _fast(amplitude: float, middle: float) -> Kind:

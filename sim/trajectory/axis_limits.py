@@ -6,8 +6,10 @@ against it.
 """
 
 from collections.abc import Mapping
-from math import isfinite
+from dataclasses import replace
+from math import inf, isfinite
 from numbers import Real
+from types import MappingProxyType
 
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import AxisName, message
@@ -120,6 +122,28 @@ def reachable(axis: Axis) -> tuple[float, float]:
         return low, high
     ends = sorted(voltage * axis.gain for voltage in bounds)
     return max(low, ends[0]), min(high, ends[1])
+
+
+def with_limits(
+    robot: Robot,
+    speeds: Mapping[str, float],
+    accelerations: Mapping[str, float] = MappingProxyType({}),
+) -> Robot:
+    """Return a robot whose axes have these limits, or their own ones where those are stricter.
+
+    Parameters
+    ----------
+    robot : Robot
+    speeds, accelerations : mapping axis -> float
+        m/s or rad/s, and m/s² or rad/s², above 0. Other axes keep their limits.
+    """
+    axes = dict(robot.axes)
+    for name, most in speeds.items():
+        axes[name] = replace(axes[name], max_speed=min(most, axes[name].max_speed or inf))
+    for name, most in accelerations.items():
+        axis = axes[name]
+        axes[name] = replace(axis, max_acceleration=min(most, axis.max_acceleration or inf))
+    return replace(robot, axes=axes)
 
 
 def resolution_of(axis: Axis) -> float:

@@ -90,7 +90,7 @@ def accelerations(
         path = _staircase(time_s[first:last], command[first:last], period_s, 2 * n)
         before = 2 * n if first == 0 else 0
         after = 2 * n if last == rows else 0
-        yield _second_differences(_at_rest(path, before, after, interval), n)
+        yield second_differences(*_at_rest(path, before, after, interval), n)
 
 
 def _staircase(time_s: FloatArray, command: FloatArray, period_s: float, keep: int) -> _Path:
@@ -128,8 +128,8 @@ def _at_rest(path: _Path, before: int, after: int, interval_s: float) -> _Path:
     )
 
 
-def _second_differences(path: _Path, n: int) -> Accelerations:
-    time_s, command = path
+def second_differences(time_s: FloatArray, command: FloatArray, n: int) -> Accelerations:
+    """Return the accelerations of positions (m,), from speeds that are taken over ``n`` rows."""
     width = time_s[n:] - time_s[:-n]
     speed = (command[n:] - command[:-n]) / width
     value = (speed[n:] - speed[:-n]) / (0.5 * (width[n:] + width[:-n]))

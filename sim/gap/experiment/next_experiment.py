@@ -6,15 +6,16 @@ after each rival has also been fitted to that test:
 see :mod:`~rotemina.sim.gap.experiment.separation`.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cache, partial
 
 import numpy as np
 
 from rotemina.sim.gap.compare.rivals import Rival, not_ruled_out
 from rotemina.sim.gap.diagnosis import CORRECTING, Experiment, Verdict
 from rotemina.sim.gap.examination import Examination
-from rotemina.sim.gap.experiment.safe_tests import RICH, Trial, trials
+from rotemina.sim.gap.experiment.safe_tests import RICH, Trial, has_declared_limits, trials
 from rotemina.sim.gap.experiment.separation import (
     Answer,
     Player,
@@ -45,6 +46,9 @@ Floors = Mapping[Tap, float]
 def experiments(robot: Robot, examination: Examination) -> tuple[Experiment, ...]:
     """Return a test for each set of effects that the records of an axis cannot distinguish.
 
+    A test stays inside the motion that the records show. It goes up to the limits of the robot file
+    only if no such test is enough, and the file states limits of speed and acceleration.
+
     Parameters
     ----------
     robot : Robot
@@ -63,9 +67,12 @@ def experiments(robot: Robot, examination: Examination) -> tuple[Experiment, ...
     sources = [one.from_axis for own in sets for one in own if one.from_axis is not None]
     records = [one.record for one in evidence.observations]
     able = trials(robot, evidence.axis, records, sources)
+    beyond = cache(partial(trials, robot, evidence.axis, records, sources, beyond_records=True))
     if not sets:
-        return tuple(_rich(evidence.axis, one) for one in able if one.name == RICH)
-    found = [_experiment(examination, own, able) for own in sets]
+        # Motion like that of the records is known to be too little.
+        rich = [one for one in (*beyond(), *able) if one.name == RICH]
+        return tuple(_rich(evidence.axis, one) for one in rich[:1])
+    found = [_experiment(examination, own, able, beyond) for own in sets]
     return tuple(one for one in found if one is not None)
 
 
@@ -147,34 +154,58 @@ class _Choice:
         return alike(yielding, len(self.trial.record.time_s), least)
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _Separation:
+    """The best test for some rivals, without those that it does not separate."""
+
+    choice: _Choice
+    rivals: Sequence[Rival]
+    left_out: Sequence[Rival]
+
+
 def _experiment(
-    examination: Examination, rivals: Sequence[Rival], able: Sequence[Trial]
+    examination: Examination,
+    rivals: Sequence[Rival],
+    able: Sequence[Trial],
+    beyond: Callable[[], Sequence[Trial]],
 ) -> Experiment | None:
-    """Return the best test for a set; members that no test separates are left out."""
+    """Return the best test for a set; one that goes beyond the records if no other is enough."""
     evidence = examination.evidence
-    player = Player(evidence.robot, evidence.axis, evidence.heartbeat)
     enough = _ENOUGH * float(np.sqrt(max(examination.best.score, 1.0)))
+    found = _separation(evidence, rivals, able, enough)
+    if found is None or found.left_out or found.choice.apart < enough:
+        other = _separation(evidence, rivals, beyond(), enough)
+        if found is None or (other is not None and other.choice.apart > found.choice.apart):
+            found = other
+    if found is None or found.choice.apart < _NOTHING:
+        return None
+    choice, record = found.choice, found.choice.trial.record
+    return Experiment(
+        axis=evidence.axis,
+        splits=tuple(one.effect for one in found.rivals),
+        why=_why(evidence, found, doubtful=choice.apart < enough),
+        time_s=tuple(record.time_s.tolist()),
+        commands={name: tuple(record.signal(name, Tap.CMD).tolist()) for name in record.axes},
+        predictions={
+            one.effect: tuple(answer[choice.tap].tolist())
+            for one, answer in zip(found.rivals, choice.answers, strict=True)
+        },
+        tap=choice.tap,
+    )
+
+
+def _separation(
+    evidence: Evidence, rivals: Sequence[Rival], able: Sequence[Trial], enough: float
+) -> _Separation | None:
+    """Return the best of some tests; members of the set that none separates are left out."""
+    player = Player(evidence.robot, evidence.axis, evidence.heartbeat)
     rivals, left_out = list(rivals), []
     choice = _choice(player, evidence, rivals, able, enough)
     while choice is not None and choice.apart < enough and len(rivals) > 2:
         close = choice.alike(player, rivals, choice.floors, enough)
         left_out.append(rivals.pop(max(close, default=0) or len(rivals) - 1))
         choice = _choice(player, evidence, rivals, able, enough)
-    if choice is None or choice.apart < _NOTHING:
-        return None
-    record = choice.trial.record
-    return Experiment(
-        axis=evidence.axis,
-        splits=tuple(one.effect for one in rivals),
-        why=_why(evidence.axis, rivals, choice, left_out, doubtful=choice.apart < enough),
-        time_s=tuple(record.time_s.tolist()),
-        commands={name: tuple(record.signal(name, Tap.CMD).tolist()) for name in record.axes},
-        predictions={
-            one.effect: tuple(answer[choice.tap].tolist())
-            for one, answer in zip(rivals, choice.answers, strict=True)
-        },
-        tap=choice.tap,
-    )
+    return None if choice is None else _Separation(choice, rivals, left_out)
 
 
 def _choice(
@@ -266,22 +297,22 @@ def _floor_of_reference(evidence: Evidence, floors: Floors) -> float:
     return declared or floors.get(Tap.MEAS) or min(floors.values())
 
 
-def _why(
-    axis: str,
-    rivals: Sequence[Rival],
-    choice: _Choice,
-    left_out: Sequence[Rival],
-    *,
-    doubtful: bool,
-) -> Message:
+def _why(evidence: Evidence, found: _Separation, *, doubtful: bool) -> Message:
+    axis, choice, rivals = evidence.axis, found.choice, found.rivals
     said = message(
         "gap",
         "To distinguish {effects}, play this: {test}; it separates them{closest} by"
         " {n} noise floors (rms), even after each is fitted to "
-        "it{doubt}{reference}{others}.",
+        "it{doubt}{limits}{reference}{others}.",
     )
     closest = message("gap", ", the closest two of them,")
     doubt = message("gap", ", which may be too little")
+    limits = message(
+        "gap",
+        ": it is no faster than the records, because the robot file states no max_speed and "
+        "max_acceleration for {axis}",
+    ).fill(axis=AxisName(axis))
+    bounded = has_declared_limits(evidence.robot, axis)
     reference = message(
         "gap",
         ", if the reference (ref) of {axis} is recorded too: without it, the test "
@@ -294,8 +325,9 @@ def _why(
         closest=closest if len(rivals) > 2 else "",
         n=rounded(choice.apart, 2),
         doubt=doubt if doubtful else "",
+        limits=limits if doubtful and not bounded else "",
         reference=reference if choice.need_reference else "",
-        others=others.fill(any=_listed(left_out, one_of_them=True)) if left_out else "",
+        others=others.fill(any=_listed(found.left_out, one_of_them=True)) if found.left_out else "",
     )
 
 

@@ -1,13 +1,15 @@
 """Safe tests of one axis, from which the next experiment is chosen.
 
-They move about the middle of what the records commanded, with amplitudes like theirs, and larger
-ones where the axis has room; around a keep-out only where the records have been. All are made by
-:mod:`~rotemina.sim.excitation`, inside every limit of the robot.
+They stay inside the travel, the speed and the acceleration that the records show, and inside every
+limit of the robot. Only if a robot file states both a speed and an acceleration limit, tests up to
+these are available too: then they are larger where the axis has room, but around a keep-out they
+stay where the records have been. All are made by :mod:`~rotemina.sim.excitation`, from rest to
+rest.
 """
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from math import inf, pi, sqrt
+from math import pi, sqrt
 
 import numpy as np
 
@@ -22,6 +24,7 @@ from rotemina.sim.quantities import rounded
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import KeepOut, Robot, StepperAxis
 from rotemina.sim.trajectory.dry_run import mode_of
+from rotemina.sim.trajectory.motion_envelope import MotionEnvelope
 from rotemina.sim.trajectory.speed_and_acceleration import SETPOINT_PERIOD_S
 
 LONGEST_S = 25.0
@@ -36,7 +39,6 @@ _LEAST_SHARE = 1e-4  # of the range, as an amplitude where the records hardly mo
 _FAST, _SLOW = message("gap", "fast {size}triangle"), message("gap", "slow {size}triangle")
 _ROW_OF_STEPS, _MULTISINE = message("gap", "series of steps"), message("gap", "multisine")
 _OF_OTHERS = (_FAST.fill(size=""), _SLOW.fill(size=""), _ROW_OF_STEPS, _MULTISINE)
-_CROSSING_S = 1.0  # for its range, that an axis without declared speed is given
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -65,10 +67,21 @@ class _Room:
         return _HASTE * min(by_speed, sqrt(self.acceleration / self.large) / (2.0 * pi))
 
 
+def has_declared_limits(robot: Robot, axis: str) -> bool:
+    """Whether a robot file states how fast an axis may move, and how quickly it may start."""
+    described = robot.axes[axis]
+    return described.max_speed is not None and described.max_acceleration is not None
+
+
 def trials(
-    robot: Robot, axis: str, records: Sequence[Record], sources: Sequence[str] = ()
+    robot: Robot,
+    axis: str,
+    records: Sequence[Record],
+    sources: Sequence[str] = (),
+    *,
+    beyond_records: bool = False,
 ) -> list[Trial]:
-    """Return the tests that the limits of a robot allow; none where nothing makes the axis follow.
+    """Return the safe tests of an axis; none where it never moved, or nothing makes it follow.
 
     Parameters
     ----------
@@ -76,15 +89,26 @@ def trials(
     axis : str
         That is examined.
     records : sequence of Record
-        Near what they commanded the tests stay.
+        Inside the motion that they show the tests stay.
     sources : sequence of str
         Other axes, each of which moves in tests of its own while the axis is held.
+    beyond_records : bool
+        Go up to the limits of the robot file instead, with the axes for which it states them.
     """
-    moving = [one for one in dict.fromkeys((axis, *sources)) if _commanded(one, records)]
+    envelope = MotionEnvelope.of(records)
+    commanded = [one for one in dict.fromkeys((axis, *sources)) if one in envelope.axes]
+    if beyond_records:
+        limited = robot
+        moving = [one for one in commanded if has_declared_limits(robot, one)]
+    else:
+        limited = envelope.narrow(robot)
+        moving = [one for one in commanded if envelope.has_motion(one)]
     rate = _rate(robot, axis, records)
     found = []
     for name in moving:
-        room = _room(robot, name, records)
+        room = _room(limited, name, envelope, beyond_records=beyond_records)
+        if room.usual <= 0.0:
+            continue
         for title, kind in _kinds(room, min(1.0, _MOST_ROWS / (rate * LONGEST_S))):
             if name != axis:
                 if title not in _OF_OTHERS:
@@ -92,11 +116,11 @@ def trials(
                 held = message("gap", "{name} of {moved} while {held} is held")
                 title = held.fill(name=title, moved=AxisName(name), held=AxisName(axis))
             try:
-                record = excite(robot, {name: kind}, rate_hz=rate).record
+                record = excite(limited, {name: kind}, rate_hz=rate).record
             except InputError:
                 continue  # this axis cannot do it
             if name != axis:
-                record = _held(robot, record, axis, records)
+                record = _held(robot, record, axis, envelope)
             if len(record.time_s) <= _MOST_ROWS:
                 found.append(Trial(title, _as_played(robot, record)))
     return found
@@ -161,16 +185,15 @@ def _tones(room: _Room, pace: float) -> Iterator[tuple[Message, Kind]]:
                 duration_s=seconds * pace,
             ),
         )
-    if room.hasty_hz < inf:
-        yield (
-            message("gap", "fast {hz} Hz sine").fill(hz=rounded(room.hasty_hz, 3)),
-            Sine(
-                amplitude=room.large,
-                offset=centre,
-                frequency_hz=room.hasty_hz,
-                duration_s=max(4.0 * pace, 3.0 / room.hasty_hz),
-            ),
-        )
+    yield (
+        message("gap", "fast {hz} Hz sine").fill(hz=rounded(room.hasty_hz, 3)),
+        Sine(
+            amplitude=room.large,
+            offset=centre,
+            frequency_hz=room.hasty_hz,
+            duration_s=max(4.0 * pace, 3.0 / room.hasty_hz),
+        ),
+    )
     yield (
         message("gap", "chirp"),
         Chirp(amplitude=room.usual, offset=centre, low_hz=1.0 / pace, duration_s=10.0 * pace),
@@ -197,49 +220,48 @@ def _amplitudes(room: _Room) -> Iterator[tuple[str | Message, float]]:
         yield message("gap", "large "), room.large
 
 
-def _commanded(axis: str, records: Sequence[Record]) -> bool:
-    return any(record.has(axis, Tap.CMD) for record in records)
-
-
-def _room(robot: Robot, axis: str, records: Sequence[Record]) -> _Room:
-    described = robot.axes[axis]
-    commands = [record.signal(axis, Tap.CMD) for record in records if record.has(axis, Tap.CMD)]
+def _room(robot: Robot, axis: str, envelope: MotionEnvelope, *, beyond_records: bool) -> _Room:
+    """Return where an axis of a robot, whose limits are stated, may be moved."""
+    described, motion = robot.axes[axis], envelope.axes[axis]
+    assert described.max_speed is not None
+    assert described.max_acceleration is not None
     low, high = described.range
-    lowest = max(min(float(one.min()) for one in commands), low)
-    highest = min(max(float(one.max()) for one in commands), high)
-    least = _LEAST_SHARE * described.span
-    centre = float(np.clip((lowest + highest) / 2.0, low + 2.0 * least, high - 2.0 * least))
-    most = min(centre - low, high - centre)
-    usual = min(max((highest - lowest) / 2.0, least), most)
-    speed = described.max_speed or described.span / _CROSSING_S
-    large = min(max(usual, min(AMPLITUDE * described.span, 0.5 * speed)), most)
-    if robot.keep_out != KeepOut():
-        large = usual  # where the tip is known to have been without harm
-    pitch = described.pitch if isinstance(described, StepperAxis) else None
-    acceleration = described.max_acceleration or inf
-    return _Room(centre, usual, large, speed, acceleration, pitch)
+    lowest, highest = max(motion.low, low), min(motion.high, high)
+    centre, usual = (lowest + highest) / 2.0, (highest - lowest) / 2.0
+    large, pitch = usual, None
+    if beyond_records:
+        least = _LEAST_SHARE * described.span
+        centre = float(np.clip(centre, low + 2.0 * least, high - 2.0 * least))
+        most = min(centre - low, high - centre)
+        usual = large = min(max(usual, least), most)
+        if robot.keep_out == KeepOut():  # else only where the tip is known to do no harm
+            large = min(
+                max(usual, min(AMPLITUDE * described.span, 0.5 * described.max_speed)), most
+            )
+        pitch = described.pitch if isinstance(described, StepperAxis) else None
+    return _Room(centre, usual, large, described.max_speed, described.max_acceleration, pitch)
 
 
 def _rate(robot: Robot, axis: str, records: Sequence[Record]) -> float:
-    """Return the rate of the tests, Hz: the records', at most as devices take set-points.
+    """Return the rate of the tests, Hz: the rate at which devices take set-points.
 
-    It is higher only where the axis' resonance would be missed.
+    Rows farther apart are jumps to a device, beyond any limit of speed. It is higher, at most the
+    records' rate, only where the axis' resonance would be missed.
     """
-    described = robot.axes[axis]
-    steps = [float(np.median(np.diff(one.time_s))) for one in records if len(one.time_s) > 1]
-    recorded = 1.0 / min(steps)
-    natural = natural_frequency(described) or 0.0
-    most = _USUAL_HZ
-    if _PER_RESONANCE * natural >= _USUAL_HZ:
-        most = default_rate(robot, {axis: Triangle()})
-    limited = described.max_speed is not None or described.max_acceleration is not None
-    # Rows farther apart than set-points are jumps to a device, and beyond its limits.
-    return max(min(recorded, most), _USUAL_HZ if limited else 0.0)
+    natural = natural_frequency(robot.axes[axis]) or 0.0
+    if _PER_RESONANCE * natural < _USUAL_HZ:
+        return _USUAL_HZ
+    recorded = 1.0 / min(
+        float(np.median(np.diff(one.time_s))) for one in records if len(one.time_s) > 1
+    )
+    return max(min(recorded, default_rate(robot, {axis: Triangle()})), _USUAL_HZ)
 
 
-def _held(robot: Robot, record: Record, axis: str, records: Sequence[Record]) -> Record:
+def _held(robot: Robot, record: Record, axis: str, envelope: MotionEnvelope) -> Record:
     """Return a test of another axis in which this one is commanded to stay."""
-    still = np.full(len(record.time_s), _room(robot, axis, records).centre)
+    motion, (low, high) = envelope.axes[axis], robot.axes[axis].range
+    place = float(np.clip((motion.low + motion.high) / 2.0, low, high))
+    still = np.full(len(record.time_s), place)
     unit = robot.unit(axis) or "m"
     (source,) = record.axes
     return Record.from_signals(

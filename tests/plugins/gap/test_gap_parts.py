@@ -15,11 +15,15 @@ from rotemina.plugins.gap.requested_motion import told
 from rotemina.plugins.gap.unseen_motion_reduction import Shrunk, new_motion, prove
 from rotemina.plugins.gap.verdict_advice import advice, readiness
 from rotemina.sim.comparison.comparison import compare
+from rotemina.sim.excitation.generator import excite
+from rotemina.sim.excitation.sines_and_chirps import Multisine
 from rotemina.sim.gap.diagnosis import Verdict
+from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.location.regimes import Regime
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.simulation.simulation import simulate
 
 ROBOT = load_robot("rotemina")
 
@@ -83,7 +87,14 @@ def test_a_run_played_with_the_model_keeps_its_figure(diagnosis, record):
     assert first.figure != fresh.gaps["thx", Tap.MEAS]
 
 
-def test_the_new_motion_is_of_the_kind_on_which_the_two_models_differ_most(diagnosis, record):
+def lively_record():
+    """Return a record of thx that shows fast motion as well as slow motion."""
+    motion = excite(ROBOT, {"thx": Multisine(amplitude=100e-6, high_hz=200.0)}).record
+    return simulate(ROBOT, [], motion, np.random.default_rng(0))
+
+
+def test_the_new_motion_is_of_the_kind_on_which_the_two_models_differ_most(diagnosis):
+    record = lively_record()
     creep = AxisEffect(axis="thx", id="creep")
     lag = AxisEffect(axis="thx", id="amplifier_lag")
     asked = {}
@@ -92,6 +103,24 @@ def test_the_new_motion_is_of_the_kind_on_which_the_two_models_differ_most(diagn
         motion = new_motion(replace(diagnosis, axes=axes), [record], ["thx"])
         asked[effect.id] = motion.metadata["excitation"]
     assert asked == {"creep": "staircase", "amplifier_lag": "multisine"}
+
+
+def test_the_new_motion_stays_inside_the_motion_of_the_records(diagnosis, record):
+    motion = new_motion(diagnosis, [record], ["thx"])
+    asked, known = (each.signal("thx", Tap.CMD) for each in (motion, record))
+    assert known.min() <= asked.min() < asked.max() <= known.max()
+    for order in (1, 2):
+        most = np.abs(np.diff(known, order)).max() / np.diff(record.time_s).mean() ** order
+        rested = np.pad(asked, 2, mode="edge")
+        new = np.abs(np.diff(rested, order)).max() / np.diff(motion.time_s).mean() ** order
+        assert new <= most * (1.0 + 1e-6)
+
+
+def test_records_at_rest_lead_to_no_new_motion(diagnosis, record):
+    still = np.full(len(record.time_s), 1e-4)
+    resting = Record.from_signals(record.time_s, {("thx", Tap.CMD): still}, {"thx": "rad"})
+    with pytest.raises(GapError, match="the records move none of these axes: θx"):
+        new_motion(diagnosis, [resting], ["thx"])
 
 
 # --- words ------------------------------------------------------------------------------------

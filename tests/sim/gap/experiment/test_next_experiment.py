@@ -102,6 +102,21 @@ def test_the_same_records_give_the_same_test(delay_or_lag):
     assert experiments(ROBOT, delay_or_lag) == experiments(ROBOT, delay_or_lag)
 
 
+def test_without_limits_in_the_robot_file_it_asks_for_no_more_than_the_records_show():
+    own = replace(ROBOT.axes["zn"], max_speed=None, max_acceleration=None)
+    free = replace(ROBOT, axes={**ROBOT.axes, "zn": own})
+    record = measured([TRUE_DELAY], commands())
+    (found,) = experiments(free, examined(record, on_zn("delay", "amplifier_lag"), robot=free))
+    asked, known = np.array(found.commands["zn"]), record.signal("zn", Tap.CMD)
+    assert known.min() <= asked.min() < asked.max() <= known.max()
+    for order in (1, 2):
+        most = np.abs(np.diff(known, order)).max() * 1e3**order
+        rested = np.pad(asked, 2, mode="edge")
+        new = np.abs(np.diff(rested, order)).max() / found.time_s[1] ** order
+        assert new <= most * (1.0 + 1e-6)
+    assert "because the robot file states no max_speed and max_acceleration for zn" in found.why
+
+
 @pytest.mark.parametrize("verdict", [Verdict.NONE, Verdict.UNKNOWN])
 def test_where_nothing_is_to_be_split_there_is_no_test(delay_or_lag, verdict):
     assert experiments(ROBOT, replace(delay_or_lag, verdict=verdict)) == ()
