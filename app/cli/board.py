@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Literal
 
 from rotemina.app.cli.board_ports import HostPort, PseudoTerminal, Socket
-from rotemina.app.cli.options import add_robot, robot_of
+from rotemina.app.cli.options import add_robot, robot_of, tell_model
 from rotemina.app.cli.termination import termination_requested
 from rotemina.drivers.mc68hc11.axes import board_axes
 from rotemina.drivers.mc68hc11.line_budget import BAUDS
@@ -102,6 +102,7 @@ def run(options: argparse.Namespace) -> int:
             stack.callback(ports[-1].close)
         ended = stack.enter_context(termination_requested())
         _boards(options, robot, count).rehearse()
+        tell_model(options, robot.name)
         for port, line in zip(ports, boards.lines, strict=True):
             who = " and ".join(f"board {number}" for number in line.numbers)
             _tell(f"listening on {port.name}: {who}")

@@ -17,7 +17,14 @@ from rotemina.app.calibration.words import (
     remark_lines,
     summary,
 )
-from rotemina.app.cli.options import add_columns, add_robot, robot_of, tell
+from rotemina.app.cli.options import (
+    add_columns,
+    add_robot,
+    records_of_model,
+    robot_of,
+    tell,
+    tell_model,
+)
 from rotemina.app.files import json_text
 from rotemina.app.motion.player import play_offline
 from rotemina.sim.calibration.comparable_parts import compared
@@ -170,8 +177,10 @@ def _motion(robot: Robot, options: argparse.Namespace) -> Record:
 
 
 def _plan(options: argparse.Namespace) -> int:
-    motion = _motion(robot_of(options), options)
+    robot = robot_of(options)
+    motion = _motion(robot, options)
     write_record(motion, options.output)
+    tell_model(options, robot.name)
     said = message("cli", "{output}: {motion}, {duration}").fill(
         output=options.output,
         motion=motion.metadata["calibration"],
@@ -183,7 +192,7 @@ def _plan(options: argparse.Namespace) -> int:
 
 def _fit(options: argparse.Namespace) -> int:
     robot = robot_of(options)
-    records = [read_record(path, columns=options.columns, robot=robot) for path in options.records]
+    records = records_of_model(options, robot, options.records)
     names = [path.name for path in options.records]
     if options.laser:
         if len(options.laser) != len(records):
@@ -231,6 +240,7 @@ def _tell(
         answer["written"] = [str(path) for path in written]
         said = message("cli", "{file}: written")
         lines += [options.wording.of(said.fill(file=path)) for path in written]
+    tell_model(options, robot.name)
     print(json_text(answer) if options.json else "\n".join(lines))
     return 0
 

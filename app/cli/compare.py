@@ -5,7 +5,13 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
-from rotemina.app.cli.options import add_columns, add_robot, robot_of
+from rotemina.app.cli.options import (
+    add_columns,
+    add_robot,
+    records_of_model,
+    robot_of,
+    tell_model,
+)
 from rotemina.app.files import json_text
 from rotemina.sim.comparison.comparison import Comparison, compare
 from rotemina.sim.comparison.comparison_picture import draw_figure, format_of
@@ -53,7 +59,7 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
 def run(options: argparse.Namespace) -> int:
     """Compare, print a table, and write the requested files."""
     robot = robot_of(options)
-    record = read_record(options.record, columns=options.columns, robot=robot)
+    record = _record(options, robot)
     comparison, found, text = _compared(options, robot, record)
     # Both files appear together or neither: a failure at one leaves the other's place alone.
     with ExitStack() as files:
@@ -62,8 +68,18 @@ def run(options: argparse.Namespace) -> int:
             draw_figure(comparison, files.enter_context(replaced(options.plot)), picture_format)
         if options.json not in (None, "-"):
             files.enter_context(replaced(options.json)).write(json_text(found).encode("utf-8"))
+    if options.other is None:
+        tell_model(options, robot.name)
     print(json_text(found) if options.json == "-" else text)
     return 0
+
+
+def _record(options: argparse.Namespace, robot: Robot) -> Record:
+    """Read the record; one that is compared with another run may leave the model's range."""
+    if options.other is None:
+        (record,) = records_of_model(options, robot, [options.record])
+        return record
+    return read_record(options.record, columns=options.columns, robot=robot)
 
 
 def _compared(

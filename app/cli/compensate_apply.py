@@ -4,10 +4,17 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rotemina.app.cli.options import add_columns, add_robot, robot_of, tell, tell_written
+from rotemina.app.cli.options import (
+    add_columns,
+    add_robot,
+    records_of_model,
+    robot_of,
+    tell,
+    tell_model,
+    tell_written,
+)
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
-from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.trajectory.speed_and_acceleration import SETPOINT_PERIOD_S
@@ -46,10 +53,11 @@ def run(options: argparse.Namespace) -> int:
             )
     robot = robot_of(options)
     inverse = named_inverse(options.inverse, robot)
-    trajectory = read_record(options.trajectory, columns=options.columns, robot=robot)
+    (trajectory,) = records_of_model(options, robot, [options.trajectory])
     axis = inverse.model.axis
     sent = compensated_trajectory(robot, trajectory, {axis: inverse}, SETPOINT_PERIOD_S).commands
     write_record(sent, options.output)
+    tell_model(options, robot.name)
     tell_written(options, options.output, len(sent.time_s), sent.duration_s)
     said = message("cli", "axis {axis}: commands of {inverse}; other axes unchanged")
     tell(options, said.fill(axis=axis, inverse=inverse.name))

@@ -5,13 +5,19 @@ import sys
 from pathlib import Path
 
 from rotemina.app.cli.compensate_table import document, table
-from rotemina.app.cli.options import add_columns, add_robot, robot_of, tell
+from rotemina.app.cli.options import (
+    add_columns,
+    add_robot,
+    records_of_model,
+    robot_of,
+    tell,
+    tell_model,
+)
 from rotemina.app.cli.progress import ProgressLine
 from rotemina.app.files import json_text, write_text
 from rotemina.sim.errors import InputError
 from rotemina.sim.gap.compare.diagnosis_progress import Progress
 from rotemina.sim.messages import message
-from rotemina.sim.records.reading import read_record
 
 
 def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -48,13 +54,14 @@ def run(options: argparse.Namespace) -> int:
             ).fill(inverse=options.inverse, robot=repr(provenance.robot), name=repr(robot.name))
         )
     model = trained.models[trained.chosen]
-    records = [read_record(p, columns=options.columns, robot=robot) for p in options.records]
+    records = records_of_model(options, robot, options.records)
     samples = [
         samples_of(robot, model.axis, record, str(path))
         for record, path in zip(records, options.records, strict=True)
     ]
     runs = [(each, each.first) for each in samples]
     residuals = {}
+    tell_model(options, robot.name)
     with ProgressLine(sys.stderr, options.wording) as line:
         for number, (kind, one) in enumerate(trained.models.items(), start=1):
             residuals[kind] = residual(one, runs)

@@ -9,14 +9,20 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rotemina.app.cli.compensate_table import document, table
-from rotemina.app.cli.options import add_columns, add_robot, robot_of, tell
+from rotemina.app.cli.options import (
+    add_columns,
+    add_robot,
+    records_of_model,
+    robot_of,
+    tell,
+    tell_model,
+)
 from rotemina.app.cli.progress import ProgressLine
 from rotemina.app.files import json_text, write_text
 from rotemina.sim.errors import InputError
 from rotemina.sim.gap.compare.diagnosis_progress import Progress
 from rotemina.sim.input_files import open_file
 from rotemina.sim.messages import message
-from rotemina.sim.records.reading import read_record
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import PiezoAxis, Robot
 
@@ -85,6 +91,7 @@ def run(options: argparse.Namespace) -> int:
             for each, path in zip(samples, paths, strict=bool(paths))
         ]
 
+    tell_model(options, robot.name)
     with ProgressLine(sys.stderr, options.wording) as line:
         trained = train(
             robot,
@@ -145,7 +152,7 @@ def _recorded(options: argparse.Namespace, robot: Robot) -> tuple[list["Samples"
     from rotemina.sim.compensate.samples import samples_of
 
     paths = [*options.records, *options.held_out]
-    records = [read_record(path, columns=options.columns, robot=robot) for path in paths]
+    records = records_of_model(options, robot, paths)
     axis = options.axis or _only([n for n in records[0].axes if _is_piezo(robot, n)], paths[0])
     samples = [
         samples_of(robot, axis, record, str(path))

@@ -4,7 +4,7 @@ import argparse
 import time
 from collections.abc import Iterable
 
-from rotemina.app.cli.options import add_robot, robot_of, tell
+from rotemina.app.cli.options import add_robot, robot_of, tell, tell_model
 from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.effects.facts import Facts
 from rotemina.sim.effects.formulation import Effect, Formulation, Parameter
@@ -74,6 +74,7 @@ def _show(options: argparse.Namespace) -> int:
     effect = effect_named(options.id)
     robot = robot_of(options)
     wording = options.wording
+    tell_model(options, robot.name)
     print(f"{wording.text('effects', effect.title)} ({effect.id}), {effect.stage}")
     print(wording.text("effects", effect.summary))
     kinds = ", ".join(sorted(effect.kinds))

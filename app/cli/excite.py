@@ -5,7 +5,14 @@ from collections.abc import Callable
 from dataclasses import dataclass, fields
 from pathlib import Path
 
-from rotemina.app.cli.options import add_robot, robot_of
+from rotemina.app.cli.options import (
+    add_max_speed,
+    add_robot,
+    check_speed_limits,
+    robot_of,
+    tell_model,
+    with_max_speeds,
+)
 from rotemina.sim.excitation.generator import KINDS, Excitation, Kind, excite
 from rotemina.sim.excitation.quantity import ExcitationError, amount_of
 from rotemina.sim.messages import Wording, message
@@ -160,6 +167,7 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     for each in PARAMETERS:
         help_text = each.help.replace("%", "%%")
         parser.add_argument(f"--{each.option}", metavar=each.metavar, help=help_text)
+    add_max_speed(parser)
     for name, meaning in SWITCHES.items():
         parser.add_argument(
             f"--{name}", action=argparse.BooleanOptionalAction, default=None, help=meaning
@@ -182,14 +190,18 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
 def run(options: argparse.Namespace) -> int:
     """Make the trajectory, write it, and describe it and all reductions."""
     robot = robot_of(options)
+    plan = _plan(robot, options)
+    robot = with_max_speeds(options, robot, list(plan))
+    check_speed_limits(options, robot, list(plan))
     made = excite(
         robot,
-        _plan(robot, options),
+        plan,
         rate_hz=options.rate,
         seed=options.seed,
         strict=options.strict,
     )
     write_record(made.record, options.output)
+    tell_model(options, robot.name)
     print(f"{options.output}: {_summary(made, options.wording)}")
     return 0
 

@@ -8,7 +8,7 @@ import argparse
 from pathlib import Path
 
 from rotemina.app.cli import gap_bench, gap_blind, gap_diagnose
-from rotemina.app.cli.options import add_columns, tell, tell_written
+from rotemina.app.cli.options import add_columns, tell, tell_model, tell_written
 from rotemina.sim.errors import InputError
 from rotemina.sim.gap.output.digital_twin import twin_text, write_twin
 from rotemina.sim.gap.output.document_reader import read_document
@@ -16,6 +16,7 @@ from rotemina.sim.gap.output.prediction import predict
 from rotemina.sim.messages import joined, message
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.writing import write_record
+from rotemina.sim.trajectory.axis_limits import check_commands_of_model
 
 
 def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -105,6 +106,8 @@ def run_predict(options: argparse.Namespace) -> int:
     document = read_document(options.document)
     robot = document.corrected
     commands = read_record(options.commands, columns=options.columns, robot=robot)
+    remedy = message("cli", "diagnose the records of that machine")
+    check_commands_of_model(robot, commands, options.commands, remedy)
     output = options.output or _free_name(options.commands)
     for source in (options.document, options.commands, options.after):
         if source is not None and output.exists() and output.samefile(source):
@@ -118,6 +121,7 @@ def run_predict(options: argparse.Namespace) -> int:
         after = read_record(options.after, columns=options.columns, robot=robot)
     elif options.pause:
         raise InputError(message("cli", "--pause: name the previous motion by --after"))
+    tell_model(options, robot.name, options.document)
     record = predict(robot, commands, document.offsets, after=after, pause_s=options.pause)
     write_record(record, output)
     tell_written(options, output, len(record.time_s), record.duration_s)

@@ -7,7 +7,13 @@ from contextlib import ExitStack
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from rotemina.app.cli.options import add_columns, add_robot, robot_of
+from rotemina.app.cli.options import (
+    add_columns,
+    add_robot,
+    records_of_model,
+    robot_of,
+    tell_model,
+)
 from rotemina.app.cli.progress import ProgressLine
 from rotemina.app.cli.workers import add_workers, workers
 from rotemina.app.files import json_text
@@ -19,7 +25,6 @@ from rotemina.sim.gap.intake.record_checks import check
 from rotemina.sim.gap.output.document import as_json
 from rotemina.sim.gap.output.summary import summary
 from rotemina.sim.messages import Wording, message
-from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.robot.model import Robot
@@ -65,8 +70,9 @@ def run(options: argparse.Namespace) -> int:
     document = Path(options.json) if options.json not in (None, "-") else None
     _check_files(options, document)
     robot = robot_of(options)
-    records = [read_record(path, columns=options.columns, robot=robot) for path in options.records]
+    records = records_of_model(options, robot, options.records)
     cautions = check(robot, records, list(map(str, options.records)))
+    tell_model(options, robot.name)
     _tell(cautions, options.records, options.wording)
     with (
         workers(options.jobs, options.cluster) as jobs,

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from rotemina.app.cli.options import add_robot, robot_of
+from rotemina.app.cli.options import add_robot, robot_of, tell_model
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
 from rotemina.sim.plate.errors import PlateError
@@ -122,6 +122,7 @@ def _solve(options: argparse.Namespace) -> int:
         write_vtu(options.vtu, solutions, ramp.hub[STEPS], modes)
     if options.ramp is not None:
         _write_ramp(ramp, options.ramp)
+    tell_model(options, robot.name)
     for lines in (
         plate_lines(solutions),
         ramp_lines(solutions, ramp),
@@ -176,6 +177,7 @@ def _apply(options: argparse.Namespace) -> int:
     solutions: UnitSolutions = solve(hold(robot.plate, options.divisions))
     made, entries = applied(robot, solutions)
     write_robot(made, options.output)
+    tell_model(options, robot.name)
     print("\n".join(plate_lines(solutions)))
     print(f"{options.output}: entries, and how far they are from those of {robot.name}")
     print("\n".join(f"  {entry_text(entry)}" for entry in entries))

@@ -7,15 +7,25 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rotemina.app.cli.compensate_apply import named_inverse
-from rotemina.app.cli.options import add_columns, add_robot, robot_of, tell, tell_written
+from rotemina.app.cli.options import (
+    add_columns,
+    add_max_speed,
+    add_robot,
+    check_speed_limits,
+    records_of_model,
+    robot_of,
+    tell,
+    tell_model,
+    tell_written,
+    with_max_speeds,
+)
 from rotemina.app.motion.player import play_offline
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import Wording, message
 from rotemina.sim.quantities import exact
-from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.robot.model import Robot
-from rotemina.sim.trajectory.dry_run import DryRun, dry_run
+from rotemina.sim.trajectory.dry_run import DryRun, dry_run, moved_axes
 
 if TYPE_CHECKING:
     from rotemina.app.motion.regulation import NamedRegulation
@@ -39,6 +49,7 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     )
     add_robot(parser)
     add_columns(parser)
+    add_max_speed(parser)
     parser.add_argument(
         "--compensate",
         type=Path,
@@ -64,8 +75,9 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
 def run(options: argparse.Namespace) -> int:
     """Check, play, and write the record."""
     robot = robot_of(options)
-    trajectory = read_record(options.trajectory, columns=options.columns, robot=robot)
-    checked = dry_run(robot, trajectory)
+    (trajectory,) = records_of_model(options, robot, [options.trajectory])
+    limited = with_max_speeds(options, robot, moved_axes(trajectory))
+    checked = dry_run(limited, trajectory)
     if not checked.allowed:
         raise InputError(
             message("cli", "{trajectory}: {objections}{more}").fill(
@@ -73,19 +85,23 @@ def run(options: argparse.Namespace) -> int:
             )
         )
     if options.dry_run:
-        said = message("cli", "{trajectory}: {duration}, {rows} rows, within the limits").fill(
+        said = message("cli", "{trajectory}: {duration}, {rows} rows, {verdict}").fill(
             trajectory=options.trajectory,
             duration=exact(checked.duration_s, "s"),
             rows=checked.rows,
+            verdict=checked.verdict,
         )
+        tell_model(options, robot.name)
         tell(options, said)
         return 0
+    check_speed_limits(options, limited, checked.moved_axes)
     inverse = None if options.compensate is None else named_inverse(options.compensate, robot)
     loop = None if options.tuning is None else _loop(options.tuning, robot)
     output = options.output or _free_name(options.trajectory)
+    tell_model(options, robot.name)
     record = play_offline(
         robot,
-        checked.require(),
+        checked.require().commands,  # the limit is the operator's, not the device's
         seed=options.seed,
         progress=_progress(options.wording),
         inverse=inverse,

@@ -4,7 +4,14 @@ import argparse
 import webbrowser
 from pathlib import Path
 
-from rotemina.app.cli.options import add_columns, add_robot, robot_of, tell
+from rotemina.app.cli.options import (
+    add_columns,
+    add_robot,
+    records_of_model,
+    robot_of,
+    tell,
+    tell_model,
+)
 from rotemina.app.files import write_text
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
@@ -173,7 +180,6 @@ def report(options: argparse.Namespace) -> int:
     from rotemina.app.records.database import RecordStore
     from rotemina.app.records.run_report import RunReport, report_text
     from rotemina.sim.comparison.comparison import compare
-    from rotemina.sim.records.reading import read_record
 
     path, own = options.record.absolute(), user_data_path("rotemina", appauthor=False)
     _require_other(options.output, path)
@@ -184,7 +190,8 @@ def report(options: argparse.Namespace) -> int:
         told = RunReport.of_recording(path, entry, penetrations)
     else:
         robot = robot_of(options)
-        record = read_record(path, columns=options.columns, robot=robot)
+        (record,) = records_of_model(options, robot, [path])
+        tell_model(options, robot.name)
         told = RunReport.of_run(Run(path.name, compare(robot, record)), robot, entry)
     write_text(options.output, report_text(told, options.wording))
     print(options.output)

@@ -10,7 +10,14 @@ from pathlib import Path
 
 import numpy as np
 
-from rotemina.app.cli.options import add_columns, add_robot, robot_with_effects, tell_written
+from rotemina.app.cli.options import (
+    ANOTHER_MODEL,
+    add_columns,
+    add_robot,
+    robot_with_effects,
+    tell_model,
+    tell_written,
+)
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import Field, Message, Wording, message
 from rotemina.sim.plant.assembly import assemble
@@ -23,6 +30,7 @@ from rotemina.sim.records.writing import write_pieces
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.simulation.loads_table import LoadsTable, loads_table
 from rotemina.sim.simulation.simulation import Simulation, needs_whole
+from rotemina.sim.trajectory.axis_limits import check_commands_of_model
 
 _PREFIX = "simulated "  # of the metadata that say how a record came about
 _SLACK = 1e-9  # share of its range by which a command may lie outside unnoticed
@@ -80,11 +88,18 @@ def run(options: argparse.Namespace) -> int:
             units = _units(robot, first)
             table = loads_table(options.loads, simulation.plant, units)
             run_.write_loads(files.enter_context(table))
-        write_pieces(run_.records(chain([first], commands)), options.output)
+        pieces = _named(options, robot, chain([first], commands))
+        write_pieces(run_.records(pieces), options.output)
     for warning in chain(_idle(robot, simulation), run_.outside.warnings()):
         print(f"rotemina: {options.commands}: {options.wording.of(warning)}", file=sys.stderr)
     tell_written(options, options.output, run_.rows, run_.duration_s)
     return 0
+
+
+def _named(options: argparse.Namespace, robot: Robot, pieces: Iterator[Record]) -> Iterator[Record]:
+    """Name the model once the files are open, before any progress is shown."""
+    tell_model(options, robot.name)
+    yield from pieces
 
 
 def _idle(robot: Robot, simulation: Simulation) -> Iterator[Message]:
@@ -103,6 +118,14 @@ def _check_files(options: argparse.Namespace) -> None:
     for output in (options.output, options.loads):
         if output is None:
             continue
+        if not output.parent.is_dir():  # told before the work, not after it
+            raise InputError(
+                message(
+                    "cli",
+                    "{output} cannot be written: there is no folder {parent}; create it, or "
+                    "choose another",
+                ).fill(output=output, parent=output.parent)
+            )
         if any(output.absolute() == source.absolute() for source in sources) or (
             output.exists() and any(s.exists() and output.samefile(s) for s in sources)
         ):
@@ -125,7 +148,10 @@ def _commands(options: argparse.Namespace, robot: Robot) -> Iterator[Record]:
         first = read_record(options.commands, columns=options.columns, robot=robot)
         pieces = iter(())
     metadata = _metadata(options, robot, first)
+    rows = 0
     for piece in chain([first], pieces):
+        check_commands_of_model(robot, piece, options.commands, ANOTHER_MODEL, rows + 1)
+        rows += len(piece.time_s)
         yield replace(piece, metadata=metadata)
 
 

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from rotemina.app.cli.board_ports import PseudoTerminal
-from rotemina.app.cli.options import add_robot, robot_of
+from rotemina.app.cli.options import add_robot, robot_of, tell_model
 from rotemina.app.cli.termination import termination_requested
 from rotemina.drivers.gcode.emulator import EmulatedStage
 
@@ -37,8 +37,10 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
 
 def run(options: argparse.Namespace) -> int:
     """Serve until termination is requested."""
-    stage = EmulatedStage(robot_of(options), single_homing=not options.all_at_once)
+    robot = robot_of(options)
+    stage = EmulatedStage(robot, single_homing=not options.all_at_once)
     port = PseudoTerminal(options.port)
+    tell_model(options, robot.name)
     try:
         with termination_requested() as ended:
             print(f"listening on {port.name}", flush=True)

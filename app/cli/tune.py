@@ -7,7 +7,7 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from rotemina.app.cli.options import add_robot, robot_with_effects, tell
+from rotemina.app.cli.options import add_robot, robot_with_effects, tell, tell_model
 from rotemina.app.cli.progress import ProgressLine
 from rotemina.app.cli.workers import workers
 from rotemina.app.files import json_text, write_text
@@ -125,6 +125,7 @@ def _search(options: argparse.Namespace) -> int:
         delay=options.delay,
         inverse=_inverse(options),
     )
+    tell_model(options, problem.robot.name)
     last: Generation | None = None
     with (
         workers(options.jobs, None) as jobs,
@@ -175,6 +176,7 @@ def _choose(options: argparse.Namespace) -> int:
     loop = AxisLoop(robot, tuning.axis, tuning.rate_hz, delay=tuning.delay)
     check_stability(loop.sampled, tuning.best.gains, tuning.provenance.peak_sensitivity)
     save_tuning(tuning, options.output)
+    tell_model(options, robot.name)
     _tell(tuning, options)
     return 0
 

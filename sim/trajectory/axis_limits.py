@@ -11,12 +11,16 @@ from math import inf, isfinite
 from numbers import Real
 from types import MappingProxyType
 
+import numpy as np
+
 from rotemina.sim.errors import InputError
-from rotemina.sim.messages import AxisName, message
+from rotemina.sim.messages import AxisName, Message, message
 from rotemina.sim.quantities import exact, rounded
+from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import VOLTAGE_SLACK, Axis, PiezoAxis, Robot
 
 RANGE_SLACK = 1e-9  # of the range's length: units are converted with rounding
+FOREIGN_SHARE = 0.05  # of the travel, by which no machine is commanded beyond its own range
 
 
 class OutOfLimitsError(InputError):
@@ -100,6 +104,63 @@ def check_target(robot: Robot, axis: str, position: float) -> None:
                 voltage=rounded(voltage, 6),
                 low=rounded(bounds[0], 6),
                 high=rounded(bounds[1], 6),
+            )
+        )
+
+
+def check_commands_of_model(
+    robot: Robot, record: Record, name: object, remedy: Message, first_row: int = 1
+) -> None:
+    """Refuse a record that another machine than the model must have made.
+
+    Only commands count. A machine may swing or read beyond its range, but nobody commands it far
+    outside.
+
+    Parameters
+    ----------
+    robot : Robot
+    record : Record
+    name : object
+        What messages call the record.
+    remedy : Message
+        How to choose another model here.
+    first_row : int
+        Number of the first row, where the record is a part of a longer one.
+
+    Raises
+    ------
+    OutOfLimitsError
+        If a command is outside the range by more than ``FOREIGN_SHARE`` of the travel.
+    """
+    for axis in record.axes:
+        if axis not in robot.axes or not record.has(axis, Tap.CMD):
+            continue
+        command, model = record.signal(axis, Tap.CMD), robot.axes[axis]
+        low, high = model.range
+        outside = np.maximum(low - command, command - high)
+        row = int(np.argmax(outside))
+        slack = FOREIGN_SHARE * model.span
+        if outside[row] <= slack:
+            continue
+        unit = record.units[axis]
+        bound = low - slack if command[row] < low else high + slack
+        raise OutOfLimitsError(
+            message(
+                "engine",
+                "{name}: {axis}.cmd = {value} at row {row} is outside the range {low} to {high} of "
+                "the model {model} by more than 5 % of the travel (bound {bound}). If this is a "
+                "record of another machine, {remedy}; otherwise correct the unit in the record or "
+                "the range in the robot file",
+            ).fill(
+                name=str(name),
+                axis=axis,
+                value=exact(float(command[row]), unit, size=bound),
+                row=first_row + row,
+                low=exact(low, unit, size=high),
+                high=exact(high, unit),
+                model=robot.name,
+                bound=exact(bound, unit, size=high),
+                remedy=remedy,
             )
         )
 

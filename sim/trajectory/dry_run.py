@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.messages import Message, lines, message
+from rotemina.sim.messages import AxisName, Listed, Message, lines, message
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Axis, Robot
 from rotemina.sim.trajectory.axis_limits import (
@@ -84,6 +84,42 @@ class DryRun:
         return (*found, unknown.fill(fault=self.prediction_fault))
 
     @property
+    def moved_axes(self) -> tuple[str, ...]:
+        """The axes that do not stay where they begin."""
+        return tuple(name for name, axis in self.axes.items() if axis.highest > axis.lowest)
+
+    @property
+    def axes_without_speed_limit(self) -> tuple[str, ...]:
+        """The axes that move, but whose speed nothing limits."""
+        return tuple(axis for axis in self.moved_axes if self.axes[axis].bounds.max_speed is None)
+
+    @property
+    def verdict(self) -> Message:
+        """What was checked, and which limits are missing, where the machine may play."""
+        speed, acceleration = message("engine", "the speed"), message("engine", "the acceleration")
+        checked: list[Message] = [message("engine", "the range")]
+        missing: list[Message] = []
+        bounds = {axis: self.axes[axis].bounds for axis in self.moved_axes}
+        if any(one.voltage_range is not None for one in bounds.values()):
+            checked.append(message("engine", "the voltage"))
+        for quantity, limits in (
+            (speed, {axis: one.max_speed for axis, one in bounds.items()}),
+            (acceleration, {axis: one.max_acceleration for axis, one in bounds.items()}),
+        ):
+            for into, is_missing in ((checked, False), (missing, True)):
+                axes = [
+                    AxisName(axis) for axis, most in limits.items() if (most is None) is is_missing
+                ]
+                if axes:
+                    said = message("engine", "{quantity} of {axes}")
+                    into.append(said.fill(quantity=quantity, axes=Listed(tuple(axes))))
+        if not missing:
+            return message("engine", "within the limits")
+        return message("engine", "inside {checked}; no limit is stated for {missing}").fill(
+            checked=Listed(tuple(checked)), missing=Listed(tuple(missing))
+        )
+
+    @property
     def allowed(self) -> bool:
         """Whether the machine may play the trajectory."""
         return self.checked is not None
@@ -140,6 +176,15 @@ def dry_run(
         violations,
         prediction.fault,
         sealed if sound else None,
+    )
+
+
+def moved_axes(trajectory: Record) -> tuple[str, ...]:
+    """Return the axes whose commands change in a trajectory."""
+    return tuple(
+        axis
+        for axis in trajectory.axes
+        if trajectory.has(axis, Tap.CMD) and np.ptp(trajectory.signal(axis, Tap.CMD)) > 0.0
     )
 
 

@@ -53,7 +53,7 @@ class Violation:
     """The worst excess of one axis over one bound; ``value`` and ``bound`` in ``unit`` (SI).
 
     ``time_s`` is on the trajectory's own time; the bound is signed like the value. ``advice`` says
-    what to do.
+    what to do. ``row`` counts from 1; None where it lies between rows.
     """
 
     axis: str
@@ -63,6 +63,7 @@ class Violation:
     bound: float
     unit: str
     advice: Message
+    row: int | None = None
 
     @property
     def message(self) -> Message:
@@ -72,12 +73,15 @@ class Violation:
         what = "position" if self.quantity is Quantity.RANGE else self.quantity
         said = message(
             "engine",
-            "axis {axis}: {what} {value} at t = {time} s is beyond the limit {bound}; {advice}",
+            "axis {axis}: {what} {value} at {row}t = {time} s is beyond the limit {bound}; "
+            "{advice}",
         )
+        row = message("engine", "row {row}, ")
         return said.fill(
             axis=AxisName(self.axis),
             what=str(what),
             value=value,
+            row="" if self.row is None else row.fill(row=self.row),
             time=self.time_s,
             bound=bound,
             advice=self.advice,
@@ -223,7 +227,7 @@ def _range_violation(path: _Path) -> Violation | None:
         "engine", "move or shrink the trajectory so that it stays inside the axis range"
     )
     time_s = float(path.time_s[row])
-    return Violation(path.name, Quantity.RANGE, time_s, value, bound, path.unit, advice)
+    return Violation(path.name, Quantity.RANGE, time_s, value, bound, path.unit, advice, row + 1)
 
 
 def _voltage_violation(path: _Path) -> Violation | None:
@@ -237,7 +241,8 @@ def _voltage_violation(path: _Path) -> Violation | None:
     row, bound = worst
     advice = message("engine", "move or shrink the trajectory so that the amplifier can follow")
     time_s = float(path.time_s[row])
-    return Violation(path.name, Quantity.VOLTAGE, time_s, float(voltage[row]), bound, "V", advice)
+    value = float(voltage[row])
+    return Violation(path.name, Quantity.VOLTAGE, time_s, value, bound, "V", advice, row + 1)
 
 
 def _speed_violation(path: _Path) -> Violation | None:
@@ -262,7 +267,9 @@ def _speed_violation(path: _Path) -> Violation | None:
             both = message("engine", "{one}, and {other}")
             advice = both.fill(one=advice, other=_stretch(straight))
     time_s = float(path.time_s[row + 1])
-    return Violation(path.name, Quantity.SPEED, time_s, value, bound, f"{path.unit}/s", advice)
+    return Violation(
+        path.name, Quantity.SPEED, time_s, value, bound, f"{path.unit}/s", advice, row + 2
+    )
 
 
 def _acceleration_violation(path: _Path) -> Violation | None:
@@ -289,7 +296,7 @@ def _acceleration_violation(path: _Path) -> Violation | None:
     if held.any():
         advice = _resample(float(np.diff(around).max()), path.period_s)
     unit = f"{path.unit}/s²"
-    return Violation(path.name, Quantity.ACCELERATION, time_s, value, bound, unit, advice)
+    return Violation(path.name, Quantity.ACCELERATION, time_s, value, bound, unit, advice, row + 1)
 
 
 def _stretch(factor: float) -> Message:

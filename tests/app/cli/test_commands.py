@@ -83,7 +83,7 @@ def test_a_record_holds_what_the_device_did_and_what_was_asked(
     time_s = 7.0 + np.arange(rate_hz + 1) / rate_hz
     command = centre * (1.0 + 0.05 * np.sin(np.pi * (time_s - 7.0)) ** 2)
     asked = write_trajectory("hum", axis, time_s, command)
-    assert main(["play", "hum.csv", "--robot", robot]) == 0
+    assert main(["play", "hum.csv", "--robot", robot, "--max-speed", "1m/s"]) == 0
     record = read_record("hum-record.csv")
     assert record.time_s[0] == 0.0
     assert np.diff(record.time_s).max() <= 1e-3 * (1 + 1e-9)
@@ -120,7 +120,8 @@ def test_a_robot_under_a_controller_is_played_in_closed_loop(in_tmp):
     command = 0.05 + 0.02 * np.sin(np.pi * time_s) ** 2
     trajectory = Record.from_signals(time_s, {("q", Tap.CMD): command}, {"q": "m"})
     write_record(trajectory, "slow.csv")
-    assert main(["play", "slow.csv", "--robot", "emps", "-o", "run.csv"]) == 0
+    asked = ["play", "slow.csv", "--robot", "emps", "--max-speed", "1m/s", "-o", "run.csv"]
+    assert main(asked) == 0
     record = read_record("run.csv")
     assert record.closed_loop
     assert np.ptp(record.signal("q", Tap.U)) > 0.1

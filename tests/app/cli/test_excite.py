@@ -20,7 +20,8 @@ def in_tmp(tmp_path, monkeypatch):
 @pytest.mark.parametrize("robot", ["rotemina", "fsm", "picma", "emps"])
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_kind_is_a_file_that_says_what_it_is(kind, robot, capsys):
-    assert main(["excite", kind, "--robot", robot, "-o", "it.csv"]) == 0
+    limits = [] if robot == "rotemina" else ["--max-speed", "100mm/s"]
+    assert main(["excite", kind, "--robot", robot, *limits, "-o", "it.csv"]) == 0
     record = read_record("it.csv")
     assert record.metadata["excitation"] == kind
     said = capsys.readouterr().out
@@ -125,6 +126,40 @@ def test_a_bad_request_is_one_clear_line_and_status_2(arguments, message, capsys
     assert error.count("\n") == 1
     assert message in error
     assert not list(Path().iterdir())
+
+
+def test_without_a_speed_limit_it_asks_for_one_and_keeps_it(capsys):
+    asked = ["excite", "triangle", "--robot", "fsm", "--axes", "m1,m2", "-o", "it.csv"]
+    asked += ["--frequency", "1", "--amplitude", "1um"]
+    assert main(asked) == 2
+    error = capsys.readouterr().err
+    assert "states no speed limit (max_speed) of m1 and m2" in error
+    assert "--max-speed m1=1mm/s,m2=1mm/s" in error
+    assert not Path("it.csv").exists()
+    assert main([*asked, "--max-speed", "m1=2um/s,1um/s"]) == 0
+    assert "for the speed limit 2 µm/s" in capsys.readouterr().out
+    record = read_record("it.csv")
+    speeds = [np.abs(np.diff(record.signal(axis, Tap.CMD))).max() for axis in ("m1", "m2")]
+    rate_hz = float(record.metadata["rate_hz"])
+    assert np.multiply(speeds, rate_hz) == pytest.approx([2e-6, 1e-6], rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("speed", "message"),
+    [
+        ("fast", "--max-speed fast: 'fast' is not an amount"),
+        ("10%", "--max-speed 10%: must be a speed above 0, such as 10mm/s"),
+        ("-1mm/s", "--max-speed -1mm/s: must be a speed above 0"),
+        ("5mm", "--max-speed 5mm: is in m, not in m/s"),
+        ("m1=1mrad/s", "--max-speed m1=1mrad/s: is in rad/s, not in m/s"),
+        ("m2=1mm/s", "--max-speed m2=1mm/s: axis 'm2' does not move; use one of m1"),
+        ("1mm/s,2mm/s", "--max-speed 1mm/s,2mm/s: has two values for m/s"),
+    ],
+)
+def test_a_speed_limit_that_is_none_is_refused(speed, message, capsys):
+    asked = ["excite", "sine", "--robot", "fsm", "--axes", "m1", f"--max-speed={speed}"]
+    assert main([*asked, "-o", "it.csv"]) == 2
+    assert message in capsys.readouterr().err
 
 
 def test_it_does_not_go_without_an_output(capsys):

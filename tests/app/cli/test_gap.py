@@ -103,7 +103,8 @@ def test_cautions_are_told_once_for_all_axes_and_files_are_named(asked, capsys):
         Record(short.time_s[kept], short.columns, short.values[kept], short.units), "a.csv"
     )
     assert main(["gap", "diagnose", "a.csv", "b.csv"]) == 0
-    assert capsys.readouterr().err.splitlines()[:2] == [
+    assert capsys.readouterr().err.splitlines()[:3] == [
+        "Model: RoTeMiNa (built in); choose another with --robot",
         "rotemina: a.csv: Rows are missing at 1 places of a record; the commands are assumed "
         "constant there.",
         "rotemina: x, zn: No independent reference (ref) was recorded: effects of the sensor "
@@ -189,6 +190,7 @@ def test_what_cannot_be_diagnosed_is_one_clear_line_and_no_file(asked, monkeypat
     monkeypatch.setattr(gap_diagnose, "diagnose", refuse)
     assert main(["gap", "diagnose", "r.csv", "--json", "out.json"]) == 2
     assert capsys.readouterr().err == (
+        "Model: RoTeMiNa (built in); choose another with --robot\n"
         "rotemina: axis 'thx': no record holds a measured channel of it\n"
     )
     assert files() == ["r.csv"]
@@ -198,7 +200,7 @@ def test_an_interrupt_leaves_no_file_and_status_130(monkeypatch, capsys):
     write_measured()
     monkeypatch.setattr(gap_diagnose, "diagnose", interrupt)
     assert main(["gap", "diagnose", "r.csv", "--json", "out.json"]) == 130
-    assert capsys.readouterr().err == "rotemina: interrupted\n"
+    assert capsys.readouterr().err.splitlines()[-1] == "rotemina: interrupted"
     assert files() == ["r.csv"]
 
 

@@ -49,7 +49,7 @@ def test_a_sine_alone_is_too_poor_and_the_suggested_test_then_tells(capsys):
 
     capsys.readouterr()
     assert main(["play", experiment["commands"], "-o", "played.csv"]) == 0
-    assert capsys.readouterr().err == ""
+    assert capsys.readouterr().err == "Model: RoTeMiNa (built in); choose another with --robot\n"
     assert read_record("played.csv", robot=ROBOT).has("zn", Tap.MEAS)
 
     write_measured(read_record(experiment["commands"], robot=ROBOT), "suggested.csv")

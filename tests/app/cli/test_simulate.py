@@ -166,6 +166,7 @@ def test_a_command_outside_its_range_is_simulated_and_said(capsys):
     write_record(Record.from_signals(time_s, signals, {"x": "m"}), "c.csv")
     assert main(["simulate", "c.csv", "-o", "r.csv"]) == 0
     assert capsys.readouterr().err == (
+        "Model: RoTeMiNa (built in); choose another with --robot\n"
         "rotemina: c.csv: x.cmd = 0.0551 at row 2 (t = 0.001 s) is outside 0 … 0.055 m; "
         "2 such rows\n"
     )
@@ -175,11 +176,11 @@ def test_a_command_outside_its_range_is_simulated_and_said(capsys):
 def test_the_row_outside_is_counted_from_the_first_piece(capsys):
     rows = PIECE_ROWS + 10
     command = np.full(rows, 0.02)
-    command[-3:] = -1.0
+    command[-3:] = -0.001
     signals = {("x", Tap.CMD): command}
     write_record(Record.from_signals(np.arange(rows) / 1000, signals, {"x": "m"}), "c.csv")
     assert main(["simulate", "c.csv", "-o", "r.csv"]) == 0
-    said = f"x.cmd = -1 at row {rows - 2} (t = {(rows - 3) / 1000:.9g} s)"
+    said = f"x.cmd = -0.001 at row {rows - 2} (t = {(rows - 3) / 1000:.9g} s)"
     assert said in capsys.readouterr().err
 
 
@@ -316,7 +317,7 @@ def test_an_interrupt_leaves_no_file(capsys, monkeypatch):
 
     monkeypatch.setattr(Simulation, "respond", interrupted)
     assert main(["simulate", "c.csv", "--loads", "l.csv", "-o", "r.csv"]) == 130
-    assert capsys.readouterr().err == "rotemina: interrupted\n"
+    assert capsys.readouterr().err.splitlines()[-1] == "rotemina: interrupted"
     assert calls == [PIECE_ROWS, 10]
     assert [path.name for path in Path().iterdir()] == ["c.csv"]
 
@@ -325,7 +326,9 @@ def test_progress_is_told_on_a_terminal(capsys, monkeypatch):
     write_commands(axes=("thx",))
     monkeypatch.setattr("sys.stderr.isatty", lambda: True, raising=False)
     assert main(["simulate", "c.csv", "-o", "r.csv"]) == 0
-    assert capsys.readouterr().err == "\rsimulated 2.0 s\n"
+    model, progress = capsys.readouterr().err.split("\n", 1)
+    assert model == "Model: RoTeMiNa (built in); choose another with --robot"
+    assert progress == "\rsimulated 2.0 s\n"
 
 
 def test_an_effect_without_a_part_is_said_and_not_claimed(capsys, tmp_path):
