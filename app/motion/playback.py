@@ -19,7 +19,10 @@ from rotemina.drivers.gate import Permit
 from rotemina.drivers.samples import DeviceState, Samples
 from rotemina.sim.messages import message
 from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.trajectory.axis_limits import check_speeds, with_limits
 from rotemina.sim.trajectory.checked_trajectory import CheckedTrajectory
+from rotemina.sim.trajectory.dry_run import moved_axes
+from rotemina.sim.trajectory.trajectory_excesses import check_trajectory
 
 _ROUNDING_S = 1e-6  # of times that came from a device
 _PLAYING = message("engine", "a trajectory is playing; pause or stop it first")
@@ -87,6 +90,7 @@ class Playback:
         self._piece: Piece | None = None
         self._watch: DeviationWatch | None = None
         self._pausing = False
+        self._most_speeds: dict[str, dict[str, float]] = {}  # by the digest of a trajectory
         self._state = PlaybackState()
         self._ends = (session.subscribe(self._on_event), session.tap(self._on_samples))
 
@@ -109,6 +113,36 @@ class Playback:
             elapsed_s = share * piece_.trajectory.duration_s
             state = self._at(state, whole, piece_.path_time(elapsed_s))
         return replace(state, gaps=MappingProxyType(gaps))
+
+    def limit_speeds(self, trajectory: CheckedTrajectory, speeds: Mapping[str, float]) -> None:
+        """Limit how fast axes play a trajectory, for as long as this object lives.
+
+        Parameters
+        ----------
+        trajectory : CheckedTrajectory
+            The limits hold for every trajectory with the same times and commands.
+        speeds : mapping axis -> float
+            Greatest speed, m/s or rad/s.
+
+        Raises
+        ------
+        OutOfLimitsError
+            If a speed is no finite number above 0, or of an axis that the trajectory lacks.
+        """
+        check_speeds(dict.fromkeys(trajectory.commands.axes, 0.0), speeds)
+        with self._lock:
+            self._most_speeds.setdefault(trajectory.digest, {}).update(speeds)
+
+    def axes_without_speed_limit(self, trajectory: CheckedTrajectory) -> tuple[str, ...]:
+        """Return the axes that a trajectory moves, whose speed nobody has limited."""
+        axes = self._session.robot.axes
+        with self._lock:
+            given = dict(self._most_speeds.get(trajectory.digest, {}))
+        return tuple(
+            axis
+            for axis in moved_axes(trajectory.commands)
+            if axes[axis].max_speed is None and axis not in given
+        )
 
     def play(
         self,
@@ -134,7 +168,8 @@ class Playback:
         Raises
         ------
         InputError
-            If speed or bounds are none, or as :meth:`MotionSession.play`.
+            If speed or bounds are none, an axis would be faster than :meth:`limit_speeds` allows,
+            or as :meth:`MotionSession.play`.
         """
         permit = self._session.permit() if permit is None else permit
         commands = trajectory.commands
@@ -240,6 +275,11 @@ class Playback:
         part = piece(whole.commands, row=row, speed=state.speed, setpoint_period_s=period_s)
         if row or state.speed != 1.0:
             played = part.trajectory
+        with self._lock:
+            most = dict(self._most_speeds.get(whole.digest, {}))
+        if most:
+            limited = with_limits(self._session.robot, most)
+            check_trajectory(limited, part.trajectory, setpoint_period_s=period_s)
         with self._lock:
             if self._state.phase is PlaybackPhase.PLAYING:
                 raise RefusedError(_PLAYING)

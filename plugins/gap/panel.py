@@ -28,6 +28,9 @@ from rotemina.plugins.gap.start_section import StartSection
 from rotemina.plugins.gap.unseen_motion import UnseenMotion
 from rotemina.plugins.gap.unseen_motion_reduction import Proof
 from rotemina.plugins.gap.words import stage_name
+from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
+from rotemina.sim.trajectory.axis_limits import check_commands_of_model
 
 _HEIGHT = 240
 _UPRIGHT_FROM = (1400, 420)  # px of width and height, from which the rail stands at the side
@@ -150,6 +153,14 @@ class GapPanel(Panel):
             )
             return
         names = [each.full for each in chosen]
+        try:
+            for name, each in zip(names, chosen, strict=True):
+                if each.record is not None:
+                    remedy = message("gap", "choose its model under Model")
+                    check_commands_of_model(self.robots.robot, each.record, name, remedy)
+        except InputError as error:
+            self.workbench.notify(Level.ERROR, str(error), about=self)
+            return
         doing = (
             tr("waiting for the stopped work to end")
             if self.diagnosing.busy

@@ -59,7 +59,14 @@ class Playing(QObject):
         if plan.name != self._waiting.what:
             return  # one from before, planned anew for another model
         self._waiting.take()
-        if plan.dry_run.allowed:
+        checked = plan.dry_run.checked
+        if checked is not None:
+            # The motion was made within what the records show, so it needs no question. A higher
+            # pace would go beyond that.
+            playback = self._workbench.playback
+            figures = plan.dry_run.axes
+            missing = playback.axes_without_speed_limit(checked)
+            playback.limit_speeds(checked, {axis: figures[axis].peak_speed for axis in missing})
             self._under_way = plan.name
             self._workbench.play(self._waiting.permit)
 

@@ -38,6 +38,7 @@ from rotemina.plugins.trajectory.dry_run_table import (
 from rotemina.plugins.trajectory.path_view import PathView
 from rotemina.plugins.trajectory.playback_controls import Transport
 from rotemina.plugins.trajectory.resampling import ResamplingDialog
+from rotemina.plugins.trajectory.speed_limit_dialog import SpeedLimitDialog
 from rotemina.plugins.trajectory.teach_view import TeachView
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record
@@ -92,6 +93,7 @@ class TrajectoryPanel(Panel):
         self._lay_out()
         workbench.plan_changed.connect(self._show_plan)
         workbench.plan_checked.connect(self._show_verdict)
+        workbench.speed_limit_asked.connect(self._ask_speed_limit)
         workbench.theme_changed.connect(self.path.set_theme)
         self.follow(self._refresh)
 
@@ -137,6 +139,9 @@ class TrajectoryPanel(Panel):
             self.verdict.setText(
                 tr("Not playable from here: {why}").format(why=spoken(plan.refusal))
             )
+        elif run.allowed and run.axes_without_limit:
+            text = tr("Dry run: {verdict}. The tip stays inside its bounds.")
+            self.verdict.setText(text.format(verdict=spoken(run.verdict)))
         elif run.allowed:
             self.verdict.setText(tr("Dry run: within all limits of the axes and of the tip."))
         else:
@@ -223,6 +228,24 @@ class TrajectoryPanel(Panel):
                 )
 
         dialog.accepted.connect(use)
+        dialog.show()
+
+    def _ask_speed_limit(self, plan: Plan) -> None:
+        """Ask how fast the axes without a speed limit may move, then play."""
+        if any(one.isVisible() for one in self.window().findChildren(SpeedLimitDialog)):
+            return  # it was asked for twice
+        bench, run = self.workbench, plan.dry_run
+        checked = run.require()
+        missing = bench.playback.axes_without_speed_limit(checked)
+        dialog = SpeedLimitDialog(missing, run.axes, self.window())
+
+        def play(speeds: dict[str, float]) -> None:
+            bench.playback.limit_speeds(checked, speeds)
+            bench.play()
+
+        dialog.limited.connect(play)
+        bench.stopped.connect(dialog.reject)
+        bench.plan_changed.connect(dialog.reject)
         dialog.show()
 
     def _fill(self, plan: Plan) -> None:

@@ -89,9 +89,14 @@ class DryRun:
         return tuple(name for name, axis in self.axes.items() if axis.highest > axis.lowest)
 
     @property
-    def axes_without_speed_limit(self) -> tuple[str, ...]:
-        """The axes that move, but whose speed nothing limits."""
-        return tuple(axis for axis in self.moved_axes if self.axes[axis].bounds.max_speed is None)
+    def axes_without_limit(self) -> tuple[str, ...]:
+        """The axes that move, but whose speed or acceleration nothing limits."""
+        bounds = {axis: self.axes[axis].bounds for axis in self.moved_axes}
+        return tuple(
+            axis
+            for axis, one in bounds.items()
+            if one.max_speed is None or one.max_acceleration is None
+        )
 
     @property
     def verdict(self) -> Message:

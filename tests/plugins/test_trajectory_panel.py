@@ -1,5 +1,7 @@
 """The trajectory panel: playing by hand, and the bounds beyond which it stops."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
@@ -7,9 +9,12 @@ from PySide6.QtCore import Qt
 from rotemina.app.motion.playback import PlaybackPhase
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.trajectory.dry_run_table import BOUND, bound_text, read_bound
+from rotemina.plugins.trajectory.speed_limit_dialog import SpeedLimitDialog
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.robot.writing import write_robot
 
 PANELS = ("comparison",)
 
@@ -228,3 +233,56 @@ def test_points_are_taken_typed_and_made_a_trajectory_of(qtbot, window, panel):
     view.table.selectRow(0)
     click(qtbot, view.remove)
     assert len(view.points) == 1
+
+
+@pytest.fixture
+def unlimited(qtbot, make_robot_window, tmp_path):
+    """A window on a machine whose robot file limits the speed of no axis."""
+    robot = load_robot("rotemina")
+    zn = replace(robot.axes["zn"], max_speed=None)
+    write_robot(replace(robot, axes={**robot.axes, "zn": zn}), tmp_path / "unlimited.toml")
+    window = make_robot_window(tmp_path / "unlimited.toml")
+    with qtbot.waitSignal(window.workbench.plan_changed, timeout=LONG_MS):
+        window.workbench.plan_trajectory("swing", swing())
+    qtbot.waitUntil(window.panels["trajectory"].transport.play.isEnabled, timeout=LONG_MS)
+    return window
+
+
+def speed_question(window):
+    shown = [one for one in window.findChildren(SpeedLimitDialog) if one.isVisible()]
+    return shown[0] if shown else None
+
+
+def test_a_speed_that_nothing_limits_is_asked_for_once_and_kept(qtbot, unlimited):
+    bench, panel = unlimited.workbench, unlimited.panels["trajectory"]
+    assert "no limit is stated for the speed of Z nano" in panel.verdict.text()
+    click(qtbot, panel.transport.play)
+    dialog = speed_question(unlimited)
+    assert phase(panel) is PlaybackPhase.IDLE
+    assert "the trajectory reaches 54" in dialog.fields["zn"].placeholderText()
+    for text in ("", "fast", "0", "-5"):
+        dialog.fields["zn"].setText(text)
+        assert not dialog.play.isEnabled()
+    dialog.fields["zn"].setText("60")  # µm/s
+    with qtbot.waitSignal(bench.run_changed, timeout=LONG_MS):
+        click(qtbot, dialog.play)
+    # It is remembered, and holds at a higher pace too.
+    panel.transport.speed.setValue(4.0)
+    click(qtbot, panel.transport.play)
+    qtbot.waitUntil(lambda: bool(notices(unlimited)), timeout=LONG_MS)
+    assert speed_question(unlimited) is None
+    assert "beyond the limit 60 µm/s" in notices(unlimited)[-1]
+    assert phase(panel) is PlaybackPhase.IDLE
+
+
+def test_who_gives_no_speed_moves_nothing(qtbot, unlimited):
+    panel = unlimited.panels["trajectory"]
+    click(qtbot, panel.transport.play)
+    click(qtbot, panel.transport.play)
+    dialog = speed_question(unlimited)
+    dialog.reject()
+    assert speed_question(unlimited) is None
+    assert phase(panel) is PlaybackPhase.IDLE
+    click(qtbot, panel.transport.play)
+    unlimited.workbench.session.stop()
+    qtbot.waitUntil(lambda: speed_question(unlimited) is None, timeout=LONG_MS)

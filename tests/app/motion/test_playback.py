@@ -1,5 +1,7 @@
 """Playback by hand: a pace, pauses, steps, and a stop where model and machine part."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -9,6 +11,7 @@ from rotemina.app.motion.state import PlaybackFinished
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
 from rotemina.sim.trajectory.checked_trajectory import check
@@ -235,3 +238,37 @@ def test_a_path_into_the_floor_is_refused_as_in_any_playback(stepped, playback):
     with pytest.raises(OutOfLimitsError):
         playback.play(dive)
     assert playback.state.phase is PlaybackPhase.IDLE
+
+
+@pytest.fixture
+def unlimited(make_stepped):
+    robot = load_robot("rotemina")
+    free = replace(robot.axes["x"], max_speed=None)
+    return make_stepped(replace(robot, axes={**robot.axes, "x": free}), settings={"settle_s": 0.1})
+
+
+def test_a_trajectory_keeps_the_speed_limit_that_it_was_given_at_any_pace(unlimited):
+    playback = Playback(unlimited.session)
+    trajectory = swing(unlimited.session.robot)  # up to 2.04 mm/s
+    assert playback.axes_without_speed_limit(trajectory) == ("x",)
+    playback.limit_speeds(trajectory, {"x": 2.1e-3})
+    assert playback.axes_without_speed_limit(trajectory) == ()
+    with pytest.raises(OutOfLimitsError, match=r"axis x: speed .* at row .* limit 2\.1 mm/s"):
+        playback.play(trajectory, speed=1.5)
+    assert playback.state.phase is PlaybackPhase.IDLE
+    playback.play(trajectory)
+    until_row(unlimited, playback, 100)
+    playback.pause()
+    unlimited.until_idle()
+    with pytest.raises(OutOfLimitsError, match=r"limit 2\.1 mm/s"):
+        playback.resume(speed=1.5)
+    playback.resume()
+    unlimited.until_idle()
+    assert playback.state.row == ROWS - 1
+    playback.close()
+
+
+@pytest.mark.parametrize("speeds", [{"x": 0.0}, {"x": float("nan")}, {"y": 1e-3}])
+def test_a_speed_limit_that_is_none_is_refused(stepped, playback, speeds):
+    with pytest.raises(OutOfLimitsError, match="must be a finite number above 0"):
+        playback.limit_speeds(swing(stepped.session.robot), speeds)

@@ -26,7 +26,7 @@ from rotemina.sim.gap.diagnosis import Experiment
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.output.document import as_json
 from rotemina.sim.messages import message
-from rotemina.sim.records.record import Tap
+from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
@@ -192,6 +192,18 @@ def test_another_robot_is_chosen_and_a_broken_one_refused(qtbot, window, panel, 
     with qtbot.waitSignal(panel.robots.changed, timeout=LONG_MS):
         panel.robots.activated.emit(0)
     assert panel.robots.robot is window.workbench.robot
+
+
+def test_a_record_of_another_machine_is_not_diagnosed(window, chosen, record):
+    time_s = record.time_s
+    far = 1.2 * ROBOT.axes["thx"].range[1] * np.linspace(0.0, 1.0, len(time_s))
+    signals = {("thx", Tap.CMD): far, ("thx", Tap.MEAS): far}
+    stranger = Record.from_signals(time_s, signals, {"thx": "rad"})
+    chosen.records.take(Run("stranger.csv", compare(ROBOT, stranger)))
+    chosen.diagnose()
+    assert not chosen.diagnosing.running
+    assert "stranger.csv: thx.cmd" in newest(window)
+    assert "choose its model under Model" in newest(window)
 
 
 # --- running ----------------------------------------------------------------------------------
