@@ -95,7 +95,8 @@ class Workbench(Requests):
     busy_changed(str) : what is being worked on in the background, or "".
     noticed(Level, Explained) : something to tell the operator, a text with its page of the help.
     diagnosis_asked() : the records that are chosen are to be diagnosed.
-    speed_limit_asked(Plan) : it is to be played, but nothing limits the speed of an axis.
+    speed_limit_asked(Plan, callable) : it is to be played by a call, but nothing limits the speed
+        of an axis.
     stopped() : someone asked for a stop; what waits for an answer is withdrawn.
     theme_changed(Theme)
     closing() : the window goes; what a panel has under way must end before this returns.
@@ -111,7 +112,7 @@ class Workbench(Requests):
     noticed = Signal(object, object)
     theme_changed = Signal(object)
     diagnosis_asked = Signal()
-    speed_limit_asked = Signal(object)
+    speed_limit_asked = Signal(object, object)
     stopped = Signal()
     closing = Signal()
     _happened = Signal(object)
@@ -277,14 +278,16 @@ class Workbench(Requests):
         elif phase is PlaybackPhase.PAUSED:
             permit, pace = self.session.permit(), self.pace
             self.ask_aside(lambda: self.playback.resume(speed=pace, permit=permit))
-        elif self._lacks_speed_limit():
-            self.speed_limit_asked.emit(self.plan)
         else:
-            self.play()
+            self.play_limited(self.plan, self.play)
 
-    def _lacks_speed_limit(self) -> bool:
-        checked = None if self.plan is None else self.plan.dry_run.checked
-        return checked is not None and bool(self.playback.axes_without_speed_limit(checked))
+    def play_limited(self, plan: Plan | None, play: Callable[[], object]) -> None:
+        """Call ``play``, after the operator has limited axes whose speed nothing limits."""
+        checked = None if plan is None else plan.dry_run.checked
+        if checked is not None and self.playback.axes_without_speed_limit(checked):
+            self.speed_limit_asked.emit(plan, play)
+        else:
+            play()
 
     def step_playback(self, rows: int) -> None:
         """Go some rows on, or back, and rest there."""

@@ -153,7 +153,12 @@ class ExciteView(QWidget):
             # the motion is to show. All limits hold as ever.
             if self._workbench.ask(plan.dry_run.require):
                 checked = plan.dry_run.require()
-                self._workbench.ask_aside(lambda: playback.play(checked, permit=permit))
+                self._workbench.play_limited(
+                    plan,
+                    lambda: self._workbench.ask_aside(
+                        lambda: playback.play(checked, permit=permit)
+                    ),
+                )
             self.begun.emit()
         if not self.isVisible():
             return

@@ -1,5 +1,6 @@
 """Trajectories: load one, see what it asks of each axis, play it."""
 
+from collections.abc import Callable
 from math import floor
 
 from PySide6.QtCore import QSignalBlocker, Qt
@@ -230,7 +231,7 @@ class TrajectoryPanel(Panel):
         dialog.accepted.connect(use)
         dialog.show()
 
-    def _ask_speed_limit(self, plan: Plan) -> None:
+    def _ask_speed_limit(self, plan: Plan, play: Callable[[], object]) -> None:
         """Ask how fast the axes without a speed limit may move, then play."""
         if any(one.isVisible() for one in self.window().findChildren(SpeedLimitDialog)):
             return  # it was asked for twice
@@ -239,11 +240,11 @@ class TrajectoryPanel(Panel):
         missing = bench.playback.axes_without_speed_limit(checked)
         dialog = SpeedLimitDialog(missing, run.axes, self.window())
 
-        def play(speeds: dict[str, float]) -> None:
+        def limit_and_play(speeds: dict[str, float]) -> None:
             bench.playback.limit_speeds(checked, speeds)
-            bench.play()
+            play()
 
-        dialog.limited.connect(play)
+        dialog.limited.connect(limit_and_play)
         bench.stopped.connect(dialog.reject)
         bench.plan_changed.connect(dialog.reject)
         dialog.show()

@@ -2,11 +2,13 @@
 
 import csv
 import threading
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from PySide6.QtGui import QGuiApplication
 
+from rotemina.app.motion.playback import PlaybackPhase
 from rotemina.app.widgets.controls import why_not
 from rotemina.plugins.identification.excitation import Wave
 from rotemina.plugins.identification.excite_view import CHECKING
@@ -14,11 +16,13 @@ from rotemina.plugins.identification.export import as_csv
 from rotemina.plugins.identification.findings import Findings
 from rotemina.plugins.identification.panel import EXCITE_WIDTH
 from rotemina.plugins.identification.views import LOOKS, View
+from rotemina.plugins.trajectory.speed_limit_dialog import SpeedLimitDialog
 from rotemina.sim.plant.response import nominal_response
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.robot.writing import write_robot
 
 LONG_MS = 30_000
 RATE_HZ = 12_800.0
@@ -321,6 +325,30 @@ def test_what_may_not_be_played_says_why(qtbot, exciting):
     assert why_not(excite.stop) == "the motion is not playing"
     assert excite.minimumSizeHint().width() <= EXCITE_WIDTH
     assert exciting.minimumSizeHint().width() <= 720  # beside the control panel
+
+
+def test_a_speed_that_nothing_limits_is_asked_for_before_an_excitation(
+    qtbot, make_robot_window, tmp_path
+):
+    robot = load_robot("rotemina")
+    zn = replace(robot.axes["zn"], max_speed=None)
+    write_robot(replace(robot, axes={**robot.axes, "zn": zn}), tmp_path / "unlimited.toml")
+    window = make_robot_window(tmp_path / "unlimited.toml")
+    panel = window.panels["identification"]
+    window.bring_up("identification")
+    panel.controls.excite.setChecked(True)
+    qtbot.waitUntil(lambda: panel.excite.motion is not None, timeout=LONG_MS)
+    set_up(qtbot, panel.excite, Wave.TRIANGLE, amplitude="5um", time="2 s")
+    qtbot.waitUntil(panel.excite.play.isEnabled, timeout=LONG_MS)
+    panel.excite.play.click()
+    qtbot.waitUntil(lambda: bool(window.findChildren(SpeedLimitDialog)), timeout=LONG_MS)
+    (dialog,) = window.findChildren(SpeedLimitDialog)
+    playback = panel.workbench.playback
+    assert playback.state.phase is PlaybackPhase.IDLE
+    dialog.fields["zn"].setText("500")  # µm/s
+    dialog.play.click()
+    qtbot.waitUntil(lambda: playback.state.phase is PlaybackPhase.PLAYING, timeout=LONG_MS)
+    panel.workbench.session.stop()
 
 
 @pytest.mark.slow
