@@ -1,8 +1,10 @@
 """Getting to know the boards: who is there, what they are, and their samples in step."""
 
+import logging
 from collections.abc import Callable, Sequence
 from functools import partial
 from math import ceil
+from typing import NamedTuple, Self
 
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.errors import DriverError, DriverTimeoutError, ProtocolError
@@ -25,12 +27,21 @@ from rotemina.drivers.mc68hc11.parameter_check import Trust
 from rotemina.drivers.mc68hc11.payload import Message
 from rotemina.drivers.mc68hc11.protocol_codes import VERSION, Ability, Fault, State
 from rotemina.drivers.mc68hc11.sampling_grid import Grid
+from rotemina.drivers.mc68hc11.serial_link import Link
 from rotemina.sim.messages import joined, marked, message
+from rotemina.sim.quantities import exact, rounded
 from rotemina.sim.robot.model import Robot
 
+_LOG = logging.getLogger(__name__)
 _PAUSE_S = 5e-4
-_IDENTIFY_S = 0.6
+_PATIENCE_S = 1.5  # for the first answer of a board, at last; from `answer_s` on twice as long each
+_TRIPS_A_WATCH = 3  # the longest that a board hears nothing while it is opened, in round trips
+_TRIPS_A_SAMPLE = 4  # on a shared bus, where boards are polled and requests take turns with polls
+_MAX_SAMPLE_S = 0.5  # between two samples: longer is a lost connection
+_SLOW_S = 0.1  # from such a round trip on a warning says that a stop takes longer
+_TRIPS = 3  # of which the quickest counts: one may be late on a busy computer
 _ASK_S = 1.0
+_REQUESTS, _PARAMETERS = 12, 30  # one after the other, of the boards of a line
 _READ_S = 2.5
 _REST_S = 2.0
 _UNDER_WAY = State.MOVING | State.PLAYING | State.HOMING
@@ -95,10 +106,17 @@ class Opening:
             self._check(board)
             board.link.half_duplex = board.able(Ability.HALF_DUPLEX)
             board.clock.drifts = not board.link.half_duplex
+        for board in self._boards:
+            self._measure(board)
         self._ask()
         trust = Trust(self._robot, self._boards)
         trust.compare()
-        self._wait(self._quiet, _READ_S, marked("engine", "to report all parameters"))
+        self._wait(
+            self._quiet,
+            _READ_S,
+            marked("engine", "to report all parameters"),
+            requests=_PARAMETERS * len(self._boards),
+        )
         self._look()
         self._settle()
         self._begin_telemetry()
@@ -107,24 +125,82 @@ class Opening:
         return trust
 
     def _identify(self, board: Board) -> None:
-        rejected = board.link.rejected
-        end_s = self._clock() + _IDENTIFY_S + 2.0 * board.link.answer_s
+        link, dialogue = board.link, board.dialogue
+        begin = _Heard.on(link)
+        refusals: list[int | None] = []
+        wait_s = link.answer_s
         while board.identity is None:
-            now_s = self._clock()
-            if now_s > end_s:
-                raise _nobody(board, self._baud, garbage=board.link.rejected > rejected)
-            if not board.dialogue.busy:
+            if not dialogue.busy:
+                if wait_s > max(_PATIENCE_S, 2.0 * link.answer_s):
+                    raise _nobody(board, self._baud, _Heard.on(link) - begin, any(refusals))
                 # Never repeated: a board that counts the same number would repeat another answer.
-                board.dialogue.ask(
+                dialogue.answer_s = wait_s
+                dialogue.ask(
                     Request(
                         message=Identify(VERSION),
                         answer=Identity,
                         answered=partial(_identified, board),
-                        expires_s=now_s + board.link.answer_s,
+                        refused=refusals.append,
+                        expires_s=self._clock() + wait_s,
                     )
                 )
+                wait_s *= 2.0
             self._exchange()
             self._pause(_PAUSE_S)
+        dialogue.answer_s = link.answer_s
+
+    def _measure(self, board: Board) -> None:
+        """Learn how long the line takes to a board and back, and wait as long from now on."""
+        trips: list[float] = []
+        board.dialogue.answer_s = _PATIENCE_S  # never repeated, so that the answer is to this one
+        while not trips or (min(trips) > board.link.answer_s and len(trips) < _TRIPS):
+            begin_s = self._clock()
+            board.dialogue.ask(
+                Request(message=AskRates(), answer=Rates, answered=partial(_rated, board))
+            )
+            self._wait(self._quiet, 2.0 * _PATIENCE_S, marked("engine", "to tell its rates"))
+            trips.append(self._clock() - begin_s)
+        board.dialogue.answer_s = board.link.answer_s
+        board.round_trip_s = min(trips)
+        self._require_quick(board)
+        if board.round_trip_s > _SLOW_S:
+            trip = exact(board.round_trip_s, "s")
+            _LOG.warning("%s answers after %s: a stop takes half as long", board.where, trip)
+        board.link.await_answers(board.round_trip_s)
+
+    def _require_quick(self, board: Board) -> None:
+        """Refuse a line that is too slow to be worked with."""
+        trip_s = board.round_trip_s
+        sample_s = _TRIPS_A_SAMPLE * trip_s
+        if board.link.half_duplex and sample_s > _MAX_SAMPLE_S:
+            raise DriverError(
+                message(
+                    "engine",
+                    "{where} answers, but after {trip}: on a shared bus that is a sample every "
+                    "{sample} at best, and at least one every {limit} is needed. Use a faster "
+                    "connection, or a line for each board",
+                ).fill(
+                    where=board.where,
+                    trip=exact(trip_s, "s"),
+                    sample=exact(sample_s, "s"),
+                    limit=exact(_MAX_SAMPLE_S, "s"),
+                )
+            )
+        watch_s, least_s = 1e-3 * self._watch_ms, _TRIPS_A_WATCH * trip_s
+        if watch_s < least_s:
+            raise DriverError(
+                message(
+                    "engine",
+                    "{where} answers, but after {trip}: with watchdog_s = {watch} it would halt "
+                    "between two messages. Use a faster connection, or set watchdog_s to {least} "
+                    "or more: the axes go on for as long when the connection is lost",
+                ).fill(
+                    where=board.where,
+                    trip=exact(trip_s, "s"),
+                    watch=rounded(watch_s),
+                    least=rounded(least_s, 2),
+                )
+            )
 
     def _check(self, board: Board) -> None:
         told = board.identity
@@ -162,9 +238,6 @@ class Opening:
         wrong: list[str] = []
         for board in self._boards:
             board.dialogue.ask(Request(message=Watch(self._watch_ms)))
-            board.dialogue.ask(
-                Request(message=AskRates(), answer=Rates, answered=partial(_rated, board))
-            )
             for axis in board.axes:
                 board.dialogue.ask(
                     Request(
@@ -174,7 +247,9 @@ class Opening:
                         answered=partial(self._described, board, wrong),
                     )
                 )
-        self._wait(self._quiet, _ASK_S, marked("engine", "to describe its axes"))
+        self._wait(
+            self._quiet, _ASK_S, marked("engine", "to describe its axes"), requests=_REQUESTS
+        )
         if wrong:
             raise DriverError(
                 message("engine", "{wrong}; choose the robot file of this machine").fill(
@@ -301,7 +376,10 @@ class Opening:
         limit_s: float,
         what: str,
         meanwhile: Callable[[], None] = lambda: None,
+        requests: int = _TRIPS,
     ) -> None:
+        """Go on until something is done; the limit grows with the time that answers may take."""
+        limit_s += requests * max(board.link.answer_s for board in self._boards)
         end_s = self._clock() + limit_s
         while not done():
             if self._clock() > end_s:
@@ -311,7 +389,7 @@ class Opening:
                     message(
                         "engine",
                         "{who} took longer than {limit_s} s {what}; check cable and supply",
-                    ).fill(who=who, limit_s=limit_s, what=what)
+                    ).fill(who=who, limit_s=rounded(limit_s, 2), what=what)
                 )
             meanwhile()
             self._exchange()
@@ -332,17 +410,66 @@ def _describes(axis: int, told: Message) -> bool:
     return isinstance(told, AxisDescription) and told.axis == axis
 
 
-def _nobody(board: Board, baud: int, *, garbage: bool) -> DriverError:
-    """Return what to say about a board that did not answer."""
+class _Heard(NamedTuple):
+    """What has come over a line, counted."""
+
+    received_bytes: int
+    echoes: int
+    unknown_messages: int
+    strangers: frozenset[int]
+
+    @classmethod
+    def on(cls, link: Link) -> Self:
+        """Return what has come so far."""
+        return cls(
+            link.received_bytes, link.echoes, link.unknown_messages, frozenset(link.strangers)
+        )
+
+    def __sub__(self, earlier: Self) -> Self:
+        """Return what has come since."""
+        return self._replace(
+            received_bytes=self.received_bytes - earlier.received_bytes,
+            echoes=self.echoes - earlier.echoes,
+            unknown_messages=self.unknown_messages - earlier.unknown_messages,
+        )
+
+
+def _nobody(board: Board, baud: int, heard: _Heard, is_refused: bool) -> DriverError:
+    """Return what to say about a board that did not tell who it is."""
     others = ", ".join(f"{one}" for one in BAUDS if one != baud)
-    if garbage:
+    if is_refused or heard.unknown_messages:
         return ProtocolError(
             message(
                 "engine",
-                "{where}: at {baud} baud no valid frame of a board arrives; check the baud "
-                "rate (others: {others}), and whether an MC68HC11 board is connected to "
-                "this port",
-            ).fill(where=board.where, baud=baud, others=others)
+                "{where} answers, but not in version {own} of the protocol, which this program "
+                "uses; update the board's program",
+            ).fill(where=board.where, own=VERSION)
+        )
+    if heard.strangers:
+        return ProtocolError(
+            message(
+                "engine",
+                "{where}: board {other} answers there instead; exchange the cables, or the "
+                "settings port and second_port",
+            ).fill(where=board.where, other=", ".join(map(str, sorted(heard.strangers))))
+        )
+    if heard.echoes:
+        return DriverTimeoutError(
+            message(
+                "engine",
+                "{where}: what this program sends comes back ({count} frames), and no board "
+                "answers; check the power of the board, and whether transmit and receive lines "
+                "are connected to each other",
+            ).fill(where=board.where, count=heard.echoes)
+        )
+    if heard.received_bytes:
+        return ProtocolError(
+            message(
+                "engine",
+                "{where}: {count} bytes arrive at {baud} baud, but no valid frame of a board; "
+                "check the baud rate (others: {others}), and whether an MC68HC11 board is "
+                "connected to this port",
+            ).fill(where=board.where, count=heard.received_bytes, baud=baud, others=others)
         )
     return DriverTimeoutError(
         message(

@@ -14,7 +14,8 @@ class MC68HC11(Moving, Extras):
     Settings: ``port``, a device or a URL of pyserial; ``second_port`` of the second board, empty
     for a robot of up to three axes, or for both boards on one shared bus; ``baud``; ``settle_s`` at
     the first row of a trajectory; ``watchdog_s``, after what silence of this program a board halts;
-    ``latency_s``, what the operating system and adapters may add to a round trip.
+    ``latency_s``, what the operating system and adapters may add to a round trip, unless a longer
+    one is measured when the boards are opened.
 
     Parameters
     ----------

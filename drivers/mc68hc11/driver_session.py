@@ -248,7 +248,11 @@ class Session:
     @property
     def _short_s(self) -> float:
         slowest_ms = max(board.telemetry_ms for board in self.boards)
-        return max(_SHORT_S, _SHORT_PERIODS * 1e-3 * slowest_ms)
+        # On a shared bus boards speak only when they are polled, one after the other.
+        polled_s = max(
+            len(link.dialogues) * link.answer_s if link.half_duplex else 0.0 for link in self.links
+        )
+        return max(_SHORT_S, _SHORT_PERIODS * 1e-3 * slowest_ms, 2.0 * polled_s)
 
     def _judge(self) -> None:
         for board in self.boards:

@@ -25,7 +25,7 @@ from rotemina.drivers.mc68hc11.host_messages import BeginStream, MoveTo, SetPoin
 from rotemina.drivers.mc68hc11.line_budget import ROWS
 from rotemina.drivers.mc68hc11.payload import Message
 from rotemina.drivers.mc68hc11.protocol_codes import QUEUE
-from rotemina.drivers.mc68hc11.segment_window import MOST_WAY, ROUNDING, SetpointWindow
+from rotemina.drivers.mc68hc11.segment_window import MOST_WAY, ROUNDING, UNDER_WAY, SetpointWindow
 from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.messages import AxisName, message
 from rotemina.sim.quantities import exact, rounded
@@ -72,7 +72,8 @@ class Player:
     Raises
     ------
     LimitError
-        If a board would refuse a set-point; nothing was asked of any board then.
+        If a board would refuse a set-point, or the line is too slow for them; nothing was asked of
+        any board then.
     """
 
     def __init__(
@@ -101,6 +102,7 @@ class Player:
             for index, at in self._schedule.first.items()
         }
         self._check(trajectory, speeds, period_s)
+        self._check_round_trips(period_s)
         self._settle_s = settle_s
         self._phase = _Phase.APPROACH
         self._rested_s = 0.0
@@ -317,6 +319,30 @@ class Player:
                             factor=rounded(way / bound, 3),
                         )
                     )
+
+    def _check_round_trips(self, period_s: float) -> None:
+        """Refuse to play over a line on which set-points would come too late."""
+        moved = [self._boards[b] for b in sorted({self._places[i][0] for i in self._first})]
+        for board in moved:
+            if board.link.half_duplex:
+                # Each segment waits for its answer; polls and the boards of the line take turns.
+                turns = 1 + sum(one.link is board.link for one in moved)
+                limit_s = ROWS * period_s / turns
+            else:
+                limit_s = UNDER_WAY * ROWS * period_s - 2e-3 * board.telemetry_ms
+            if board.round_trip_s > limit_s:
+                raise LimitError(
+                    message(
+                        "engine",
+                        "{where} answers after {trip}: for a set-point every {period} it must not "
+                        "take longer than {limit}; use a faster connection to play trajectories",
+                    ).fill(
+                        where=board.where,
+                        trip=exact(board.round_trip_s, "s"),
+                        period=exact(period_s, "s"),
+                        limit=exact(limit_s, "s"),
+                    )
+                )
 
 
 def _is_told(part: BoardSample, sent: tuple[int, ...]) -> bool:

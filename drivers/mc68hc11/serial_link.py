@@ -86,6 +86,10 @@ class Link:
         self.windows: dict[int, SetpointWindow] = {}
         self.said_s = dict.fromkeys(addresses, clock())
         self._decoder = Decoder()
+        # What tells apart why no board answers: any bytes, own frames that came back, frames of
+        # boards that nobody asked.
+        self.received_bytes = self.echoes = 0
+        self.strangers: set[int] = set()
         self._number = int(1e3 * clock()) & 0xFF
         self._free_s = float("-inf")
         self._awaited: set[int] = set()
@@ -103,6 +107,18 @@ class Link:
     def rejected(self) -> int:
         """Stretches of bytes that were no frame, or no message."""
         return self._decoder.rejected + self._refused
+
+    @property
+    def unknown_messages(self) -> int:
+        """Valid frames of boards whose message is none of this version of the protocol."""
+        return self._refused
+
+    def await_answers(self, round_trip_s: float) -> None:
+        """Let an answer take at least as long as one took that was measured."""
+        least_s = round_trip_s + self._line.seconds(_IN_THE_WAY)
+        self.answer_s = max(self.answer_s, least_s)
+        for dialogue in self.dialogues.values():
+            dialogue.answer_s = self.answer_s
 
     def seconds(self, count: int) -> float:
         """Return how long some bytes are on the line."""
@@ -142,6 +158,7 @@ class Link:
         if not received:
             return
         self._bytes[1] += len(received)
+        self.received_bytes += len(received)
         now_s = self._clock()
         for frame in self._decoder.feed(received):
             self._hear(frame, now_s)
@@ -266,8 +283,12 @@ class Link:
 
     def _hear(self, frame: Frame, now_s: float) -> None:
         dialogue = self.dialogues.get(frame.address)
-        if not frame.from_board or dialogue is None:
-            return  # an adapter's echo, or a board that nobody asked
+        if not frame.from_board:
+            self.echoes += 1
+            return
+        if dialogue is None:
+            self.strangers.add(frame.address)
+            return
         try:
             message = message_of(frame.type, frame.payload)
         except ProtocolError:

@@ -4,9 +4,10 @@ import pytest
 
 from rotemina.drivers.clock import VirtualClock
 from rotemina.drivers.errors import DriverError, DriverTimeoutError, ProtocolError
-from rotemina.drivers.mc68hc11.board_messages import Identity
+from rotemina.drivers.mc68hc11.board_messages import Identity, Refused, Telemetry
 from rotemina.drivers.mc68hc11.driver import MC68HC11
 from rotemina.drivers.mc68hc11.framing import Decoder, Frame, encoded
+from rotemina.drivers.mc68hc11.protocol_codes import Refusal
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.robot.file import load_robot
 
@@ -55,11 +56,38 @@ def identity(version=2, axes=3):
     )
 
 
+def echo(frame):
+    return encoded(frame)
+
+
+def older_identity(frame):
+    return encoded(Frame(frame.address, 0, Identity.TYPE, b"\x01\xff", from_board=True))
+
+
+def refusal(frame):
+    refused = Refused(frame.number, Refusal.WRONG_LENGTH)
+    return encoded(Frame(frame.address, 0, Refused.TYPE, refused.packed(), from_board=True))
+
+
+def board_3(_frame):
+    telemetry = Telemetry(1, 0, 0, 0, 0, bytes(15))
+    return encoded(Frame(3, 0, Telemetry.TYPE, telemetry.packed(), from_board=True))
+
+
 @pytest.mark.parametrize(
     ("answer", "error", "match"),
     [
+        (lambda _: b"Grbl", ProtocolError, r"\d+ bytes arrive at 125000 baud, but no valid"),
+        (echo, DriverTimeoutError, r"what this program sends comes back \(7 frames\)"),
+        (older_identity, ProtocolError, "not in version 2 of the protocol.*update the board's"),
+        (refusal, ProtocolError, "not in version 2 of the protocol.*update the board's"),
+        (board_3, ProtocolError, "board 3 answers there instead; exchange the cables"),
         (lambda _: b"", DriverTimeoutError, "no answer at 125000 baud.*9600"),
-        (lambda _: b"\xf3\x81\x00\x9c\x1e\x00", ProtocolError, "no valid frame of a board.*baud"),
+        (
+            lambda _: b"\xf3\x81\x00\x9c\x1e\x00",
+            ProtocolError,
+            r"\d+ bytes arrive at 125000 baud, but no valid frame",
+        ),
         (lambda _: b"ok\r\n\x00ok\r\n\x00", ProtocolError, "whether an MC68HC11 board"),
         (identity(version=3), ProtocolError, "version 3 .* this program 2; update the program"),
         (identity(version=1), ProtocolError, "update the board's program"),
