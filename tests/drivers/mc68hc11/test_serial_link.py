@@ -283,3 +283,31 @@ def test_qualities_of_lines_are_joined():
         link.send()
     assert total_quality([link.quality() for link in links]).sent == 2
     assert total_quality([]).round_trip_s is None
+
+
+@pytest.mark.parametrize("late", [Done(7), Refused(7, Refusal.BUSY)], ids=["done", "refused"])
+def test_an_answer_to_a_request_that_a_stop_has_dropped_answers_no_later_one(late):
+    dialogue, answers, refusals = Dialogue(1, 0.01), [], []
+    dialogue.ask(Request(message=MoveTo(0, 1, 1)))
+    dialogue.take(0.0, 7, 0.002)
+    dialogue.drop()
+    later = Request(
+        message=MoveTo(0, 2, 1),
+        answered=lambda told, at_s: answers.append(told),
+        refused=refusals.append,
+    )
+    dialogue.ask(later)
+    dialogue.take(0.01, 8, 0.002)
+    assert not dialogue.receive(late, 0.02)
+    assert (dialogue.waiting, answers, refusals) == (True, [], [])
+    assert dialogue.receive(Done(8), 0.03)
+    assert answers == [Done(8)]
+
+
+def test_answers_are_told_apart_over_the_turn_of_their_numbers():
+    dialogue = Dialogue(1, 0.01)
+    for number in range(250, 520):
+        dialogue.ask(Request(message=Watch(100)))
+        dialogue.take(0.0, number % 256, 0.0)
+        assert not dialogue.receive(Done((number - 1) % 256), 0.001)
+        assert dialogue.receive(Done(number % 256), 0.002)
