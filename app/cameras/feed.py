@@ -194,9 +194,15 @@ class CameraFeed:
                     self._take(frame, check.judge(frame))
         except DriverError as error:
             self._lose(str(error))
-        except Exception as error:  # a plugin may raise anything
+        except Exception:  # a plugin may raise anything
             _LOG.exception("%s failed", self.camera.name)
-            self._lose(f"{self.camera.name}: {type(error).__name__}: {error}")
+            self._lose(
+                message(
+                    "engine",
+                    "{name} failed; the log has the cause. Check the camera and its cable, and "
+                    "open it again",
+                ).fill(name=self.camera.name)
+            )
         else:
             self._publish(state=FeedState.CLOSED, reason="", description=None)
         finally:

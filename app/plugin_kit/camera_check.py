@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from rotemina.app.plugin_kit.findings import results
 from rotemina.drivers.cameras.camera import Camera, CameraIdentity
+from rotemina.drivers.cameras.errors import CameraLostError
 from rotemina.drivers.cameras.frame import Frame
 from rotemina.drivers.cameras.settings import CameraSettings, Trigger
 from rotemina.drivers.cameras.source import CameraSource
@@ -122,7 +123,11 @@ def closed(bench: _Bench) -> None:
 def _next(camera: Camera) -> Frame:
     """Return the next picture; the camera's base class has looked at its size."""
     for _ in range(_TRIES):
-        frame = camera.grab(_TIMEOUT_S)
+        try:
+            frame = camera.grab(_TIMEOUT_S)
+        except CameraLostError as error:
+            # What failed at every read is what the author of the plugin needs to know.
+            raise error.__cause__ or error from None
         if frame is not None:
             return frame
     waited_s = _TRIES * _TIMEOUT_S

@@ -9,12 +9,14 @@ import time
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from math import ceil
 from types import MappingProxyType
 from typing import final
 
-from rotemina.drivers.cameras.errors import CameraLostError
+from rotemina.drivers.cameras.errors import CameraLostError, CameraReadError
+from rotemina.drivers.cameras.failed_reads import RETRY_S, FailedReads
 from rotemina.drivers.cameras.frame import Frame, Pixels, Region, Remark
-from rotemina.drivers.cameras.pixels import as_mono8, pixel_type_of
+from rotemina.drivers.cameras.pixels import are_pixels, as_mono8, pixel_type_of
 from rotemina.drivers.cameras.settings import (
     CameraDescription,
     CameraSettings,
@@ -92,6 +94,7 @@ class Camera(ABC):
         self._settings = CameraSettings()
         self._count = 0
         self._triggered = False
+        self._failed_reads = FailedReads(identity.name, clock)
 
     def __init_subclass__(cls) -> None:
         """Refuse a subclass that overrides a rule of the contract instead of a hook."""
@@ -144,6 +147,7 @@ class Camera(ABC):
             )
         self._count = 0
         self._triggered = False
+        self._failed_reads = FailedReads(self.name, self.clock)
         self._settings = CameraSettings()
         self._description = self._open()
 
@@ -192,25 +196,96 @@ class Camera(ABC):
     def grab(self, timeout_s: float) -> Frame | None:
         """Return the newest picture that was not returned before; None if none comes in time.
 
+        A read that fails is counted as a lost picture, and repeated while there is time.
+
         Raises
         ------
         StateError
             If it is closed.
         CameraLostError
-            If it has gone, has ended, or gives pictures of another size; it is then to be closed.
+            If it has gone or has ended, or if every read failed for 1 s; it is then to be closed.
         """
         can = self.description
         if self._settings.trigger is Trigger.SOFTWARE and not self._triggered:
             self.wait(timeout_s)
             return None
-        picture = self._grab(timeout_s)
-        if picture is None:
-            return None
-        self._triggered = False
+        until_s = self.clock() + timeout_s
+        for _ in range(1 + ceil(timeout_s / RETRY_S)):
+            began_s = self.clock()
+            try:
+                picture = self._grab(max(until_s - began_s, 0.0))
+                frame = None if picture is None else self._frame(picture, can)
+            except CameraLostError:
+                raise
+            except Exception as error:  # what a library or a plugin raises for one picture
+                self._failed_reads.add(error, began_s)
+            else:
+                if frame is not None:
+                    self._failed_reads.end_row()
+                    self._triggered = False
+                    self._count += 1
+                return frame
+            self.wait(min(RETRY_S, max(until_s - self.clock(), 0.0)))
+            if self.clock() > until_s:
+                break
+        return None
+
+    @final
+    def read_first(self, read: Callable[[], Pixels]) -> Pixels:
+        """Return the first picture, for an ``_open`` that learns from it what the camera is.
+
+        A read that fails is repeated, as in :meth:`grab`.
+
+        Raises
+        ------
+        CameraLostError
+            If ``read`` raises it, or every read failed for 1 s.
+        """
+        while True:
+            began_s = self.clock()
+            try:
+                pixels = read()
+                self._check_pixels(pixels)
+            except CameraLostError:
+                raise
+            except Exception as error:  # as in grab
+                self._failed_reads.add(error, began_s)
+            else:
+                self._failed_reads.end_row()
+                return pixels
+            self.wait(RETRY_S)
+
+    def _frame(self, picture: Picture, can: CameraDescription) -> Frame:
         shown = picture.region or can.whole
+        self._check(picture, shown, can)
+        pixels, bits = picture.pixels, picture.bits
+        wanted = self._settings.region or shown
+        if wanted != shown:
+            left, top = wanted.left - shown.left, wanted.top - shown.top
+            pixels = pixels[top : top + wanted.height, left : left + wanted.width]
+        if (
+            self._settings.pixel_type is PixelType.MONO8
+            and pixel_type_of(pixels) is not PixelType.MONO8
+        ):
+            pixels, bits = as_mono8(pixels, bits), 8
+        lost = picture.lost + self._failed_reads.count
+        return Frame(
+            pixels,
+            picture.host_time_s,
+            self._count + lost,
+            bits,
+            wanted,
+            picture.exposure_s,
+            lost,
+            MappingProxyType(dict(picture.metadata)),
+        )
+
+    def _check(self, picture: Picture, shown: Region, can: CameraDescription) -> None:
+        """Refuse a picture that is not as the camera was described when it was opened."""
+        self._check_pixels(picture.pixels)
         rows, columns = picture.pixels.shape[:2]
         if (columns, rows) != (shown.width, shown.height):
-            raise CameraLostError(
+            raise CameraReadError(
                 message(
                     "engine",
                     "{name}: a picture of {columns} × {rows} px, expected {width} × {height}: its "
@@ -223,34 +298,36 @@ class Camera(ABC):
                     height=shown.height,
                 )
             )
-        self._count += 1
-        return self._frame(picture, shown)
+        expected = self._settings.pixel_type or can.pixel_types[0]
+        found = pixel_type_of(picture.pixels)
+        # MONO8 is made of the camera's own type where the camera does not have it.
+        if found is not expected and (expected, found) != (PixelType.MONO8, can.pixel_types[0]):
+            raise CameraReadError(
+                message(
+                    "engine",
+                    "{name}: a picture of type {found}, expected {expected}: its pixel type has "
+                    "changed; close it and open it again",
+                ).fill(name=self.name, found=found, expected=expected)
+            )
 
-    def _frame(self, picture: Picture, shown: Region) -> Frame:
-        pixels, bits = picture.pixels, picture.bits
-        wanted = self._settings.region or shown
-        if wanted != shown:
-            left, top = wanted.left - shown.left, wanted.top - shown.top
-            pixels = pixels[top : top + wanted.height, left : left + wanted.width]
-        if (
-            self._settings.pixel_type is PixelType.MONO8
-            and pixel_type_of(pixels) is not PixelType.MONO8
-        ):
-            pixels, bits = as_mono8(pixels, bits), 8
-        return Frame(
-            pixels,
-            picture.host_time_s,
-            self._count - 1 + picture.lost,
-            bits,
-            wanted,
-            picture.exposure_s,
-            picture.lost,
-            MappingProxyType(dict(picture.metadata)),
-        )
+    def _check_pixels(self, pixels: object) -> None:
+        """Refuse what is no picture at all."""
+        if not are_pixels(pixels):
+            dtype, shape = getattr(pixels, "dtype", "none"), getattr(pixels, "shape", ())
+            raise CameraReadError(
+                message(
+                    "engine",
+                    "{name} gives empty or unusable pictures (pixels: {dtype}, size: {size}); "
+                    "check the camera and its cable, and open it again",
+                ).fill(name=self.name, dtype=str(dtype), size=" × ".join(map(str, shape)) or "0")
+            )
 
     @abstractmethod
     def _open(self) -> CameraDescription:
-        """Connect and tell what it can do; on failure leave nothing open behind."""
+        """Connect and return what it can do; on failure leave nothing open behind.
+
+        Where that takes a picture, it comes from :meth:`read_first`.
+        """
 
     @abstractmethod
     def _close(self) -> None:
@@ -262,7 +339,11 @@ class Camera(ABC):
 
     @abstractmethod
     def _grab(self, timeout_s: float) -> Picture | None:
-        """Wait for the newest picture; with a software trigger, take one."""
+        """Wait for the newest picture; with a software trigger, take one.
+
+        It raises :class:`CameraReadError`, or what a library raises, if this one picture could not
+        be read, and :class:`CameraLostError` only if no other will follow.
+        """
 
 
 class FocusDrive(Camera, ABC):

@@ -8,6 +8,10 @@ class CameraLostError(DriverError, ConnectionError):
     """The camera was unplugged, has ended or gives something else than before; close it."""
 
 
+class CameraReadError(DriverError):
+    """One picture could not be read; the next one may be good."""
+
+
 class CameraRefusedError(DriverError, InputError):
     """What was named is no camera, no video or no picture, or cannot be opened."""
 

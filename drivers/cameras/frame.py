@@ -42,7 +42,8 @@ class Frame:
     exposure_s : float or None
         None where the camera does not tell it.
     lost : int
-        How many the camera has taken since it was opened that nobody can have any more.
+        How many the camera has taken since it was opened that nobody can have any more, and reads
+        that failed.
     metadata : mapping
         What else the camera tells, by name.
     """

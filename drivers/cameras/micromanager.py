@@ -3,6 +3,7 @@
 A camera is named by the configuration file that Micro-Manager's own wizard has written for it.
 """
 
+import logging
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
@@ -13,13 +14,19 @@ from pathlib import Path
 from typing import Any
 
 from rotemina.drivers.cameras.camera import Camera, CameraIdentity, Picture, Wait
-from rotemina.drivers.cameras.errors import CameraLostError, CameraRefusedError, CameraSettingError
+from rotemina.drivers.cameras.errors import (
+    CameraLostError,
+    CameraReadError,
+    CameraRefusedError,
+    CameraSettingError,
+)
 from rotemina.drivers.cameras.frame import Region
 from rotemina.drivers.cameras.settings import CameraDescription, CameraSettings, PixelType, Trigger
 from rotemina.drivers.cameras.source import CameraSource
 from rotemina.drivers.clock import Clock
 from rotemina.sim.messages import marked, message
 
+_LOG = logging.getLogger(__name__)
 _INSTALL = message("engine", "pip install 'rotemina[micromanager]', then mmcore install")
 _LOOK_S = 0.002  # between two looks into Micro-Manager's buffer
 _EXPOSURES_S = (1e-5, 100.0)
@@ -33,10 +40,11 @@ def installed_core() -> Any:
     try:
         return import_module("pymmcore_plus").CMMCorePlus()
     except (ImportError, OSError, RuntimeError) as error:
+        _LOG.warning("Micro-Manager cannot be loaded", exc_info=error)
         raise CameraRefusedError(
-            message("engine", "Micro-Manager cannot be used: {error}; {install}").fill(
-                error=str(error), install=_INSTALL
-            )
+            message(
+                "engine", "Micro-Manager cannot be loaded; the log has the cause. {install}"
+            ).fill(install=_INSTALL)
         ) from error
 
 
@@ -116,10 +124,14 @@ class MicroManagerCamera(Camera):
             self._core.startContinuousSequenceAcquisition(0)
         except (RuntimeError, OSError) as error:
             self._close()
+            _LOG.warning("%s: Micro-Manager cannot open it", path, exc_info=error)
             raise CameraLostError(
-                message("engine", "{path}: Micro-Manager cannot open it: {error}").fill(
-                    path=path, error=str(error)
-                )
+                message(
+                    "engine",
+                    "{path}: Micro-Manager cannot open it; the log has the cause. Check the "
+                    "configuration with Micro-Manager's wizard, and whether the camera is on and "
+                    "connected",
+                ).fill(path=path)
             ) from error
         except CameraRefusedError:
             self._close()
@@ -175,10 +187,13 @@ class MicroManagerCamera(Camera):
             with self._translated():
                 self._set(self.settings)
                 self._run(self.settings)
+            _LOG.warning("%s rejected %s", self.name, settings, exc_info=error)
             raise CameraSettingError(
-                message("engine", "{name} rejected the settings: {error}").fill(
-                    name=self.name, error=str(error)
-                )
+                message(
+                    "engine",
+                    "{name} rejected the settings, and keeps those it had; the log has the cause. "
+                    "Choose other values",
+                ).fill(name=self.name)
             ) from error
         with self._translated():
             self._run(settings)
@@ -204,32 +219,32 @@ class MicroManagerCamera(Camera):
 
     def _grab(self, timeout_s: float) -> Picture | None:
         core = self._core
-        with self._translated():
-            if self.settings.trigger is Trigger.SOFTWARE:
-                core.snapImage()
-                pixels = core.getImage()
-            else:
-                count = self._arrived(timeout_s)
-                if not count:
-                    return None
-                for _ in range(count):  # the last one is the newest
-                    pixels = core.popNextImage()
-                self._lost += count - 1
-            return Picture(
-                pixels,
-                8 if pixels.ndim == 3 else int(core.getImageBitDepth()),
-                self.clock(),
-                Region(*core.getROI()),
-                core.getExposure() / 1e3,
-                self._lost,
-            )
+        if self.settings.trigger is Trigger.SOFTWARE:
+            core.snapImage()
+            pixels = core.getImage()
+        else:
+            count = self._arrived(timeout_s)
+            if not count:
+                return None
+            for _ in range(count - 1):  # the last one is the newest
+                core.popNextImage()
+                self._lost += 1
+            pixels = core.popNextImage()
+        return Picture(
+            pixels,
+            8 if pixels.ndim == 3 else int(core.getImageBitDepth()),
+            self.clock(),
+            Region(*core.getROI()),
+            core.getExposure() / 1e3,
+            self._lost,
+        )
 
     def _arrived(self, timeout_s: float) -> int:
         """Return how many pictures wait, after waiting for the first."""
         core, until_s = self._core, self.clock() + timeout_s
         while not (count := int(core.getRemainingImageCount())):
             if not core.isSequenceRunning():
-                raise CameraLostError(
+                raise CameraReadError(
                     message(
                         "engine",
                         "{name} no longer takes pictures; check whether it is plugged in, "
@@ -247,8 +262,11 @@ class MicroManagerCamera(Camera):
         try:
             yield
         except RuntimeError as error:
+            _LOG.warning("%s: Micro-Manager has lost the camera", self.name, exc_info=error)
             raise CameraLostError(
                 message(
-                    "engine", "{name}: Micro-Manager has lost the camera: {error}; open it again"
-                ).fill(name=self.name, error=str(error))
+                    "engine",
+                    "{name}: Micro-Manager has lost the camera; the log has the cause. Check "
+                    "whether it is on and connected, and open it again",
+                ).fill(name=self.name)
             ) from error

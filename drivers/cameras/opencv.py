@@ -15,7 +15,12 @@ from rotemina.drivers.cameras.camera import (
     Picture,
     Wait,
 )
-from rotemina.drivers.cameras.errors import CameraLostError, CameraRefusedError, CameraSettingError
+from rotemina.drivers.cameras.errors import (
+    CameraLostError,
+    CameraReadError,
+    CameraRefusedError,
+    CameraSettingError,
+)
 from rotemina.drivers.cameras.frame import Pixels
 from rotemina.drivers.cameras.pace import Pace
 from rotemina.drivers.cameras.settings import CameraDescription, CameraSettings, PixelType
@@ -127,17 +132,35 @@ class _OpenCvCamera(Camera):
         return CameraDescription(width, height, own, **abilities)
 
     def _next(self) -> Pixels | None:
-        """Return the next picture of the stream, or None if there is none any more."""
+        """Return the next picture of the stream, or None if it gives none."""
         with _silence():
             there, pixels = self._stream.read()
         if not there or pixels is None:
             return None
-        if pixels.ndim == 3:
+        if pixels.ndim == 3 and pixels.size:
             pixels = cv2.cvtColor(pixels, cv2.COLOR_BGR2RGB)
         return pixels  # type: ignore[no-any-return]  # OpenCV's arrays have no types of use
 
-    def _picture(self, pixels: Pixels) -> Picture:
-        return Picture(pixels, 8, self.clock(), exposure_s=self.settings.exposure_s)
+    def _read(self) -> Pixels:
+        """Return the next picture of the stream.
+
+        Raises
+        ------
+        CameraReadError
+            If it gives none.
+        """
+        pixels = self._next()
+        if pixels is None:
+            raise CameraReadError(
+                message(
+                    "engine",
+                    "{name} gives no pictures; check whether it is connected, and open it again",
+                ).fill(name=self.name)
+            )
+        return pixels
+
+    def _picture(self, pixels: Pixels, lost: int = 0) -> Picture:
+        return Picture(pixels, 8, self.clock(), exposure_s=self.settings.exposure_s, lost=lost)
 
     def _close(self) -> None:
         stream, self._stream = self._stream, None
@@ -160,14 +183,11 @@ class Device(_OpenCvCamera):
             )
         self._stream = stream
         stream.set(cv2.CAP_PROP_BUFFERSIZE, 1)  # the newest, never a backlog
-        pixels = self._next()
-        if pixels is None:
+        try:
+            pixels = self.read_first(self._read)
+        except CameraLostError:
             self._close()
-            raise CameraLostError(
-                message("engine", "{name} gives no picture; unplug it, and plug it in again").fill(
-                    name=self.name
-                )
-            )
+            raise
         return self._described(
             pixels,
             exposure_s=_EXPOSURES_S if stream.getBackendName() == "V4L2" else None,
@@ -202,16 +222,7 @@ class Device(_OpenCvCamera):
             )
 
     def _grab(self, timeout_s: float) -> Picture | None:
-        pixels = self._next()
-        if pixels is None:
-            raise CameraLostError(
-                message(
-                    "engine",
-                    "{name} no longer gives pictures; check whether it is plugged in, and "
-                    "open it again",
-                ).fill(name=self.name)
-            )
-        return self._picture(pixels)
+        return self._picture(self._read())
 
 
 class Film(_OpenCvCamera):
@@ -239,6 +250,7 @@ class Film(_OpenCvCamera):
             told = self._stream.get(cv2.CAP_PROP_FPS)
             self._own_hz = told if _RATES_HZ[0] <= told <= _RATES_HZ[1] else _USUAL_HZ
             self._pace = Pace(self._own_hz, clock=self.clock, wait=self.wait)
+        self._lost = 0
         return self._described(pixels, rate_hz=_RATES_HZ if self._is_file else None)
 
     def _opened_film(self) -> Any:
@@ -264,24 +276,31 @@ class Film(_OpenCvCamera):
 
     def _first(self) -> Pixels:
         """Return the first picture, of at least two, and begin before it."""
-        pixels = self._next()
+        try:
+            pixels = self.read_first(self._read)
+        except CameraLostError as error:
+            self._close()
+            if not self._is_file:
+                raise
+            raise self._refused("it is no video: it has no picture") from error
         reason = ""
-        if pixels is None:
-            reason = "it is no video: it has no picture"
-        elif self._is_file and int(self._stream.get(cv2.CAP_PROP_FOURCC)) == _TEXT:
+        if self._is_file and int(self._stream.get(cv2.CAP_PROP_FOURCC)) == _TEXT:
             reason = "it is no video but a text"
         elif self._is_file and self._next() is None:
             reason = "it is no video but one picture; open pictures as an image sequence"
-        if reason or pixels is None:
+        if reason:
             self._close()
-            raise CameraRefusedError(
-                message("engine", "{address}: {reason}; choose another file").fill(
-                    address=self.identity.address, reason=reason
-                )
-            )
+            raise self._refused(reason)
         if self._is_file:
             self._stream.set(cv2.CAP_PROP_POS_FRAMES, 0)
         return pixels
+
+    def _refused(self, reason: str) -> CameraRefusedError:
+        return CameraRefusedError(
+            message("engine", "{address}: {reason}; choose another file").fill(
+                address=self.identity.address, reason=reason
+            )
+        )
 
     def _configure(self, settings: CameraSettings) -> CameraSettings:
         if self._pace is not None:
@@ -291,19 +310,28 @@ class Film(_OpenCvCamera):
     def _grab(self, timeout_s: float) -> Picture | None:
         if self._pace is not None and not self._pace.beats(timeout_s):
             return None
+        return self._picture(self._of_file() if self._is_file else self._read(), self._lost)
+
+    def _of_file(self) -> Pixels:
+        """Return the next picture of a file, or its first one after the end.
+
+        A picture that cannot be read is followed by others, the end is not.
+        """
         pixels = self._next()
-        if pixels is None and self._is_file and self.settings.repeat:
-            self._stream.set(cv2.CAP_PROP_POS_FRAMES, 0)
-            pixels = self._next()
-        if pixels is None:
+        if pixels is not None:
+            return pixels
+        pixels = self._next()
+        if pixels is not None:
+            self._lost += 1
+            return pixels
+        if not self.settings.repeat:
             raise CameraLostError(
                 message("engine", "{name} has ended; open it again, or let it repeat").fill(
                     name=self.name
                 )
-                if self._is_file
-                else message("engine", "{name} has ended; open it again").fill(name=self.name)
             )
-        return self._picture(pixels)
+        self._stream.set(cv2.CAP_PROP_POS_FRAMES, 0)
+        return self._read()
 
 
 @contextmanager

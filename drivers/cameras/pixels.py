@@ -14,6 +14,15 @@ def pixel_type_of(pixels: Pixels) -> PixelType:
     return PixelType.MONO8 if pixels.dtype == np.uint8 else PixelType.MONO16
 
 
+def are_pixels(pixels: object) -> bool:
+    """Return whether something is a picture as :data:`Pixels` describes it."""
+    if not isinstance(pixels, np.ndarray) or not pixels.size:
+        return False
+    if pixels.ndim == 3:
+        return bool(pixels.shape[2] == 3 and pixels.dtype == np.uint8)
+    return pixels.ndim == 2 and pixels.dtype in (np.uint8, np.uint16)
+
+
 def as_mono8(pixels: Pixels, bits: int) -> Pixels:
     """Return grey (rows, columns) of 8 bits of pixels with so many significant ``bits``.
 

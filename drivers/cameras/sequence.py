@@ -7,7 +7,7 @@ import cv2
 import numpy as np
 
 from rotemina.drivers.cameras.camera import Camera, CameraIdentity, Picture
-from rotemina.drivers.cameras.errors import CameraLostError, CameraRefusedError
+from rotemina.drivers.cameras.errors import CameraLostError, CameraReadError, CameraRefusedError
 from rotemina.drivers.cameras.frame import Pixels
 from rotemina.drivers.cameras.pace import Pace
 from rotemina.drivers.cameras.pixels import pixel_type_of
@@ -59,7 +59,8 @@ class ImageSequence(Camera):
         self._pages = _pages(path)
         self._at = 0
         self._pace = Pace(_USUAL_HZ, clock=self.clock, wait=self.wait)
-        pixels = _read(*self._pages[0])
+        pixels = self.read_first(lambda: _read(*self._next_page()))
+        self._at -= 1
         own = pixel_type_of(pixels)
         types = (own, PixelType.MONO8) if own is not PixelType.MONO8 else (own,)
         return CameraDescription(
@@ -80,23 +81,17 @@ class ImageSequence(Camera):
     def _grab(self, timeout_s: float) -> Picture | None:
         if self.settings.trigger is Trigger.FREE and not self._pace.beats(timeout_s):
             return None
-        if self._at == len(self._pages):
-            if not self.settings.repeat:
-                raise CameraLostError(
-                    message(
-                        "engine",
-                        "{name} has ended after {count} pictures; open it again, or let it repeat",
-                    ).fill(name=self.name, count=len(self._pages))
-                )
-            self._at = 0
-        file, page = self._pages[self._at]
-        try:
-            pixels = _read(file, page)
-        except CameraRefusedError as error:
-            raise CameraLostError(str(error)) from error
-        self._at += 1
-        if pixel_type_of(pixels) is not self.description.pixel_types[0]:
+        if self._at == len(self._pages) and not self.settings.repeat:
             raise CameraLostError(
+                message(
+                    "engine",
+                    "{name} has ended after {count} pictures; open it again, or let it repeat",
+                ).fill(name=self.name, count=len(self._pages))
+            )
+        file, page = self._next_page()
+        pixels = _read(file, page)
+        if pixel_type_of(pixels) is not self.description.pixel_types[0]:
+            raise CameraReadError(
                 message(
                     "engine",
                     "{file}: a picture of type {pixel_type_of}, but the first has "
@@ -109,6 +104,12 @@ class ImageSequence(Camera):
             )
         bits = 16 if pixels.dtype == np.uint16 else 8
         return Picture(pixels, bits, self.clock(), metadata={"file": file.name, "page": page})
+
+    def _next_page(self) -> tuple[Path, int]:
+        """Go on to the next page, whether it can be read or not; the first follows the last."""
+        at = self._at % len(self._pages)
+        self._at = at + 1
+        return self._pages[at]
 
 
 def _pages(path: Path) -> tuple[tuple[Path, int], ...]:
@@ -148,30 +149,27 @@ def _natural(path: Path) -> list[tuple[bool, int, str]]:
 def _read(file: Path, page: int) -> Pixels:
     open_file(
         file,
-        CameraRefusedError,
+        CameraReadError,
         most_bytes=_MOST_BYTES,
         advice=marked("engine", "the file is truncated or missing"),
     ).close()
+    unreadable = CameraReadError(
+        message(
+            "engine", "{file}: page {page} cannot be read; the file is truncated or missing"
+        ).fill(file=file, page=page + 1)
+    )
     try:
         there, pages = cv2.imreadmulti(str(file), page, 1, flags=cv2.IMREAD_UNCHANGED)
     except cv2.error as error:
-        raise CameraRefusedError(
-            message("engine", "{file}: page {page} cannot be read: {error}").fill(
-                file=file, page=page + 1, error=str(error)
-            )
-        ) from error
-    if not there or not pages:
-        raise CameraRefusedError(
-            message(
-                "engine", "{file}: page {page} cannot be read; the file is truncated or missing"
-            ).fill(file=file, page=page + 1)
-        )
+        raise unreadable from error
+    if not there or not pages or not pages[0].size:
+        raise unreadable
     pixels = pages[0]
     if pixels.ndim == 3 and pixels.dtype == np.uint8:
         code = cv2.COLOR_BGRA2RGB if pixels.shape[2] == 4 else cv2.COLOR_BGR2RGB
         return np.asarray(cv2.cvtColor(pixels, code), dtype=np.uint8)
     if pixels.ndim != 2 or pixels.dtype not in (np.uint8, np.uint16):
-        raise CameraRefusedError(
+        raise CameraReadError(
             message(
                 "engine",
                 "{file}: pixels of type {dtype} with {ndim} dimensions: must be grey of 8 or 16 "

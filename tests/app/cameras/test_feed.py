@@ -150,15 +150,35 @@ def test_a_camera_that_cannot_be_opened(feed, camera):
     assert "plug it in" in feed.view.reason
 
 
-def test_a_bad_plugin_is_lost_and_named(feed, camera, caplog):
-    with caplog.at_level(logging.CRITICAL):
-        feed.start()
-        camera.next_asked()
-        camera.gives.put(ZeroDivisionError("oops"))
-        assert camera.closed.wait(PATIENCE_S)
-        feed.close(PATIENCE_S)
+def test_a_failed_read_is_a_lost_picture_and_a_second_of_them_the_end(feed, camera, clock, caplog):
+    feed.start()
+    camera.next_asked()
+    shown(camera, picture(seed=1))
+    for number, bad in enumerate((ZeroDivisionError("oops"), picture()[:0], picture()[1:]), 1):
+        shown(camera, bad)
+        assert (feed.view.state, feed.newest.number) == (FeedState.LIVE, 2 * number - 2)
+        shown(camera, picture(seed=1 + number))
+        assert (feed.newest.lost, feed.newest.number) == (number, 2 * number)
+    shown(camera, ZeroDivisionError("oops"))
+    clock.advance(1.0)
+    camera.gives.put(ZeroDivisionError("oops"))
+    assert camera.closed.wait(PATIENCE_S)
+    feed.close(PATIENCE_S)
     assert feed.view.state is FeedState.LOST
-    assert "ZeroDivisionError: oops" in feed.view.reason
+    assert feed.view.reason == (
+        "Puppet: no picture could be read for 1.0 s; the log has the cause. Check the camera and "
+        "its cable, and open it again"
+    )
+    assert "ZeroDivisionError: oops" in caplog.text
+
+
+def test_what_a_plugin_raises_when_it_is_opened_is_in_the_log_alone(feed, camera, caplog):
+    camera.refuses = ZeroDivisionError("oops")
+    feed.start()
+    assert feed.close(PATIENCE_S)
+    assert feed.view.state is FeedState.LOST
+    assert feed.view.reason.startswith("Puppet failed; the log has the cause. Check")
+    assert "ZeroDivisionError: oops" in caplog.text
 
 
 def test_frozen_and_black(feed, camera, clock):

@@ -1,6 +1,7 @@
 """A z-stack: where its pictures are taken, what ends it, and the file that is made of it."""
 
 import json
+from itertools import count
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from rotemina.app.microscope import stack_run
 from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.microscope.focus_run import Search
 from rotemina.app.microscope.stack_run import StackRun, places_of
+from rotemina.sim.microscope.renderer import Renderer
 
 UM = 1e-6
 
@@ -46,6 +48,21 @@ def test_places_are_even_and_never_beyond_the_last():
         MicroscopeError, match="1001 pictures: must be at most 1000; use a larger step"
     ):
         places_of(0.0, 1e-3, UM)
+
+
+def test_a_picture_is_of_its_place_though_reads_fail_among_them(bench, monkeypatch):
+    draw, read = Renderer.frame, count(1)
+
+    def draw_some(*args, **options):
+        if next(read) % 5:
+            raise MemoryError
+        return draw(*args, **options)
+
+    monkeypatch.setattr(Renderer, "frame", draw_some)
+    places = places_of(-20 * UM, 20 * UM, 20 * UM)
+    status = run_until_over(bench, started(bench, places))
+    assert status.search is Search.DONE, status.reason
+    assert [page.frame.metadata["focus_m"] for page in status.pages] == list(places)
 
 
 def test_a_picture_at_each_place_then_back_and_into_a_file_of_pages(bench, tmp_path):

@@ -1,91 +1,15 @@
 """One suite over every kind of camera; what is faked lies below the driver."""
 
-import shutil
-from dataclasses import dataclass
-from typing import Any
-
 import numpy as np
 import pytest
 
 from rotemina.drivers.cameras.camera import Camera
 from rotemina.drivers.cameras.errors import CameraLostError, CameraSettingError
 from rotemina.drivers.cameras.frame import Region
-from rotemina.drivers.cameras.micromanager import MicroManager
-from rotemina.drivers.cameras.opencv import OpenCvSource
-from rotemina.drivers.cameras.sequence import ImageSequences
 from rotemina.drivers.cameras.settings import CameraSettings, PixelType, Trigger
-from rotemina.drivers.cameras.simulated import SimulatedMicroscope
 from rotemina.drivers.errors import StateError
-from rotemina.drivers.simulator.driver import Simulator
-from rotemina.sim.robot.file import load_robot
 
 LONG_S = 1.0
-
-
-@dataclass
-class Bench:
-    """A camera, and how it is unplugged."""
-
-    camera: Any
-    unplug: Any
-
-
-def simulated_bench(request, clock):
-    drivers = [Simulator(load_robot("rotemina"), clock=clock)]
-    source = SimulatedMicroscope(lambda: drivers[0], clock=clock, wait=clock.advance)
-
-    def unplug():
-        drivers[0] = Simulator(load_robot("fsm"), clock=clock)
-
-    return Bench(source.camera(source.devices()[0]), unplug)
-
-
-def device_bench(request, clock):
-    capture = request.getfixturevalue("capture")
-    source = OpenCvSource(
-        clock=clock, wait=clock.advance, listed=lambda: {"0": "Cam"}, capture=capture
-    )
-    return Bench(source.camera(source.devices()[0]), lambda: setattr(capture, "there", False))
-
-
-def film_bench(request, clock):
-    file = request.getfixturevalue("write_film")(request.getfixturevalue("tmp_path") / "v.avi")
-    source = OpenCvSource(clock=clock, wait=clock.advance)
-    camera = source.camera(source.addressed(str(file)))
-
-    def unplug():  # a file ends
-        camera.configure(CameraSettings(repeat=False))
-
-    return Bench(camera, unplug)
-
-
-def sequence_bench(request, clock):
-    folder = request.getfixturevalue("write_sequence")(range(1, 12))
-    source = ImageSequences(clock=clock, wait=clock.advance)
-    return Bench(source.camera(source.addressed(str(folder))), lambda: shutil.rmtree(folder))
-
-
-def micromanager_bench(request, clock):
-    core, folder = request.getfixturevalue("core"), request.getfixturevalue("tmp_path")
-    (folder / "axiocam.cfg").write_text("Device,HRm,AxioCam,HRm")
-    source = MicroManager(clock=clock, wait=clock.advance, core=lambda: core)
-    camera = source.camera(source.addressed(str(folder / "axiocam.cfg")))
-    return Bench(camera, lambda: setattr(core, "there", False))
-
-
-BENCHES = [simulated_bench, device_bench, film_bench, sequence_bench, micromanager_bench]
-
-
-@pytest.fixture(params=BENCHES, ids=lambda make: make.__name__)
-def bench(request, clock):
-    return request.param(request, clock)
-
-
-@pytest.fixture
-def camera(bench):
-    bench.camera.open()
-    yield bench.camera
-    bench.camera.close()
 
 
 def grabbed(camera):

@@ -48,15 +48,23 @@ def test_colour_is_red_green_blue(source, tmp_path):
 
 
 @pytest.mark.parametrize(("size", "dtype"), [((32, 48), np.uint16), ((64, 48), np.uint8)])
-def test_a_picture_unlike_the_first(source, write_sequence, size, dtype):
-    folder = write_sequence([1])
-    camera = opened(source, write_sequence([2], size, dtype))
-    camera.grab(1.0)
+def test_pictures_unlike_the_first_are_passed_over(source, write_sequence, size, dtype):
+    write_sequence([1, 4])
+    camera = opened(source, write_sequence([2, 3], size, dtype))
+    frames = [camera.grab(1.0) for _ in range(3)]
+    assert [int(frame.pixels[0, 0]) for frame in frames] == [1, 4, 1]
+    assert [frame.lost for frame in frames] == [0, 2, 2]
+    write_sequence([1, 4], size, dtype)
     with pytest.raises(
         CameraLostError, match=r"32 × 48 px, expected 64|mono8, but the first has mono16"
     ):
-        camera.grab(1.0)
-    assert folder.is_dir()
+        [camera.grab(1.0) for _ in range(2)]
+
+
+def test_a_first_file_that_cannot_be_read_is_passed_over(source, write_sequence):
+    folder = write_sequence([1, 2])
+    (folder / "1.png").write_bytes(b"")
+    assert opened(source, folder).grab(1.0).pixels[0, 0] == 2
 
 
 def test_what_is_no_sequence(source, tmp_path):

@@ -1,0 +1,101 @@
+"""Reads that fail, over every kind of camera: one is a lost picture, a second of them the end."""
+
+import numpy as np
+import pytest
+from tests.drivers.cameras.camera_benches import RAW_TEXT, Fault
+
+from rotemina.drivers.cameras.errors import CameraLostError, CameraReadError, CameraRefusedError
+from rotemina.drivers.cameras.settings import CameraSettings, Trigger
+from rotemina.drivers.errors import StateError
+
+LONG_S, SHORT_S = 1.0, 0.1
+ADVICE = r"open it again|convert it|truncated or missing"
+
+
+def grab_until_lost(camera):
+    for _ in range(40):
+        camera.grab(SHORT_S)
+
+
+@pytest.mark.parametrize("fault", Fault)
+def test_one_bad_picture_is_passed_over_and_counted(bench, camera, fault):
+    before = camera.grab(LONG_S)
+    bench.tap.faults = [fault]
+    after = [camera.grab(LONG_S) for _ in range(3)]
+    assert [frame.lost - before.lost for frame in after] == [1, 1, 1]
+    assert [frame.number - before.number for frame in after] == [2, 3, 4]
+    assert {frame.pixels.shape for frame in after} == {before.pixels.shape}
+    assert {frame.pixels.dtype for frame in after} == {before.pixels.dtype}
+
+
+@pytest.mark.parametrize("fault", [Fault.FAILS, Fault.RAISES, Fault.EMPTY])
+def test_the_very_first_reads_may_fail(bench, fault):
+    bench.tap.faults = [fault, fault]
+    bench.camera.open()
+    frame = bench.camera.grab(LONG_S)
+    assert (frame.lost, frame.number) == (2, 2)
+    bench.camera.close()
+
+
+@pytest.mark.parametrize("fault", Fault)
+def test_a_second_of_nothing_but_bad_pictures_loses_the_camera(bench, camera, clock, fault, caplog):
+    camera.grab(LONG_S)
+    bench.tap.forever = fault
+    began_s = clock()
+    with pytest.raises(CameraLostError, match=ADVICE) as lost:
+        grab_until_lost(camera)
+    assert 0.999 < clock() - began_s < 1.3
+    assert RAW_TEXT not in str(lost.value)
+    assert (RAW_TEXT in caplog.text) == (fault is Fault.RAISES)
+
+
+@pytest.mark.parametrize("fault", [Fault.FAILS, Fault.RAISES, Fault.EMPTY])
+def test_bad_pictures_for_less_than_a_second_do_not(bench, camera, clock, fault):
+    camera.grab(LONG_S)
+    for _ in range(3):
+        bench.tap.forever, until_s = fault, clock() + 0.8
+        while clock() < until_s:
+            assert camera.grab(SHORT_S) is None
+        bench.tap.forever = None
+        assert camera.grab(LONG_S) is not None
+
+
+@pytest.mark.parametrize("fault", [Fault.FAILS, Fault.RAISES, Fault.EMPTY])
+def test_a_camera_that_gives_nothing_from_the_first_read_on_is_lost(bench, clock, fault):
+    bench.tap.forever = fault
+    began_s = clock()
+    with pytest.raises((CameraLostError, CameraRefusedError), match=rf"{ADVICE}|another file"):
+        bench.camera.open(), grab_until_lost(bench.camera)
+    assert 0.999 < clock() - began_s < 1.3
+    bench.camera.close()
+    with pytest.raises(StateError, match="is closed"):
+        bench.camera.grab(0.0)
+
+
+def test_a_trigger_gives_the_next_good_picture(bench, camera):
+    if Trigger.SOFTWARE not in camera.description.triggers:
+        assert camera.grab(LONG_S) is not None
+        return
+    camera.configure(CameraSettings(trigger=Trigger.SOFTWARE))
+    bench.tap.faults = [Fault.FAILS, Fault.EMPTY]
+    camera.trigger()
+    assert camera.grab(LONG_S).lost == 2
+    assert camera.grab(SHORT_S) is None
+
+
+@pytest.mark.parametrize("bench", ["plugin_bench"], indirect=True, ids=str)
+def test_one_read_that_times_out_is_not_the_end_however_long_it_took(bench, camera, clock):
+    camera._source.library = lambda: clock.advance(10.0)
+    assert camera.grab(SHORT_S) is None
+    camera._source.library = lambda: np.full((48, 64), 9, np.uint8)
+    assert camera.grab(SHORT_S).lost == 1
+
+
+@pytest.mark.parametrize("bench", ["plugin_bench"], indirect=True, ids=str)
+def test_the_last_failure_says_what_happened(bench, camera):
+    def library():
+        raise CameraReadError("Plugin: the shutter is closed; open it")
+
+    camera._source.library = library
+    with pytest.raises(CameraLostError, match="the shutter is closed; open it"):
+        grab_until_lost(camera)
