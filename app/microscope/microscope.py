@@ -330,10 +330,12 @@ class Microscope:
                 )
             )
 
-    def _failed(self, error: Exception) -> None:
+    def _failed(self, _: Exception) -> None:
         self._told(
-            message("engine", "The microscope failed: {name}: {error}").fill(
-                name=type(error).__name__, error=str(error)
+            message(
+                "engine",
+                "A step of the microscope failed; the log has the cause. If this repeats, open "
+                "the camera again",
             )
         )
 

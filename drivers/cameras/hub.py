@@ -1,5 +1,6 @@
 """All available cameras of every source, each made by its key."""
 
+import logging
 import time
 from collections.abc import Mapping
 from types import MappingProxyType
@@ -11,6 +12,8 @@ from rotemina.drivers.cameras.source import CameraSource
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.registry import make_sources
 from rotemina.sim.messages import message
+
+_LOG = logging.getLogger(__name__)
 
 CAMERAS = "rotemina.cameras"
 
@@ -34,6 +37,7 @@ class CameraHub:
         self.sources = MappingProxyType(dict(sources))
         self._broken = dict(broken)
         self._failed: dict[str, str] = {}
+        self._logged: dict[str, str] = {}
 
     @classmethod
     def installed(
@@ -61,11 +65,22 @@ class CameraHub:
                     found.setdefault(identity.key, identity)
                 problem = source.problem
             except Exception as error:  # a plugin may raise anything; the others are to be found
-                problem = f"it cannot look for cameras: {type(error).__name__}: {error}"
+                self._log(name, error)
+                problem = message(
+                    "engine",
+                    "it cannot look for cameras; the log has the cause. Update or remove this "
+                    "plugin",
+                )
             if problem is not None:
                 failed[name] = problem
         self._failed = failed
         return tuple(found.values())
+
+    def _log(self, name: str, error: Exception) -> None:
+        """Log why a source failed, unless it failed for the same reason at the last look."""
+        if self._logged.get(name) != repr(error):
+            self._logged[name] = repr(error)
+            _LOG.warning("cameras of %s cannot be looked for", name, exc_info=error)
 
     def camera(self, identity: CameraIdentity) -> Camera:
         """Return a camera, not yet open.

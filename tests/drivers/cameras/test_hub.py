@@ -23,11 +23,13 @@ def test_the_built_in_sources_are_installed():
     assert {"own", "opencv", "sequence", "micromanager"} <= hub.sources.keys()
 
 
-def test_a_bad_source_is_named_and_the_others_are_found(clock):
+def test_a_bad_source_is_named_and_the_others_are_found(clock, caplog):
     usb = OpenCvSource(clock=clock, listed=lambda: {"0": "Cam"})
     hub = CameraHub({"bad": Broken(), "opencv": usb}, {"worse": "cannot be imported"})
     assert hub.look() == (CameraIdentity("opencv:0", "Cam", "opencv"),)
-    assert "bus error" in hub.problems["bad"]
+    assert "the log has the cause" in hub.problems["bad"]
+    hub.look()
+    assert [record.exc_info[1].args for record in caplog.records] == [("bus error",)]
     assert hub.problems["worse"] == "cannot be imported"
 
 
