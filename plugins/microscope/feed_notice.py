@@ -62,7 +62,8 @@ def feed_notice(view: FeedView) -> FeedNotice:
     if state is FeedState.LIVE:
         # One picture has no rate yet.
         parts = [tr("live"), *([f"{fixed(view.rate_hz, 0)} Hz"] if view.rate_hz > 0.0 else [])]
-        return FeedNotice(tone, " · ".join((*parts, age(view.age_s))))
+        lost = [tr("{lost} lost").format(lost=view.frame.lost)] if view.frame.lost else []
+        return FeedNotice(tone, " · ".join((*parts, age(view.age_s), *lost)))
     badge = spoken(state)
     if view.frame is not None:
         badge = f"{badge} · {age(view.age_s)}"

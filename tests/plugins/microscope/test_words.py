@@ -70,6 +70,8 @@ def test_every_state_of_the_camera_is_said_and_an_old_picture_is_veiled(
 def test_the_age_of_a_live_picture_is_told(status):
     assert feed_notice(status.feed).badge == "live · 30 Hz · 12 ms old"
     assert feed_notice(feed(status, rate_hz=0.0).feed).badge == "live · 12 ms old"  # the first one
+    gaps = replace(status.feed.frame, lost=3)
+    assert feed_notice(feed(status, frame=gaps).feed).badge == "live · 30 Hz · 12 ms old · 3 lost"
     old = feed(status, state=FeedState.STALLED, age_s=3.21)
     assert feed_notice(old.feed).badge == "stalled · 3.2 s old"
 
