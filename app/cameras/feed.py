@@ -38,6 +38,9 @@ class FeedState(StrEnum):
     LOST = "lost"
 
 
+_FREE_RUNNING = (FeedState.LIVE, FeedState.FROZEN, FeedState.BLACK)
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class FeedView:
     """One moment of it.
@@ -48,11 +51,12 @@ class FeedView:
     reason : str
         What is wrong and what to do; empty while nothing is.
     frame : Frame or None
-        The newest picture, also of a camera that was lost.
+        The newest picture, also of a camera that was lost. One that a frozen camera gives again is
+        not new.
     age_s : float or None
         Since that came in.
     rate_hz : float
-        Of pictures that came in lately; 0 before there are two.
+        Of new pictures that came in lately; 0 before there are two.
     settings : CameraSettings
         In force.
     description : CameraDescription or None
@@ -86,6 +90,7 @@ class CameraFeed:
         self.camera = camera
         self._clock = clock
         self._latest = FeedView()  # exchanged as a whole, by the thread alone
+        self._arrived_s = 0.0  # when the latest picture came, also one that is not new
         self._wanted: CameraSettings | None = None
         self._triggers = 0
         self._listeners: tuple[Callable[[Frame], None], ...] = ()
@@ -100,16 +105,17 @@ class CameraFeed:
         if latest.frame is None:
             return latest
         age_s = max(self._clock() - latest.frame.host_time_s, 0.0)
-        if latest.state not in (FeedState.LIVE, FeedState.FROZEN, FeedState.BLACK):
+        if latest.state not in _FREE_RUNNING or latest.settings.trigger is Trigger.SOFTWARE:
             return replace(latest, age_s=age_s)
         longest_s = max(STALLED_S, 3.0 * (latest.settings.exposure_s or 0.0))
         if latest.rate_hz:
             longest_s = max(longest_s, 3.0 / latest.rate_hz)
-        if age_s <= longest_s:
+        silent_s = self._clock() - self._arrived_s
+        if silent_s <= longest_s:
             return replace(latest, age_s=age_s)
         reason = message(
             "engine", "no picture for {seconds} s; check the camera and its cable, or open it again"
-        ).fill(seconds=fixed(age_s, 1))
+        ).fill(seconds=fixed(silent_s, 1))
         return replace(latest, age_s=age_s, state=FeedState.STALLED, reason=reason)
 
     @property
@@ -191,7 +197,7 @@ class CameraFeed:
                 self._obey()
                 frame = self.camera.grab(_GRAB_S)
                 if frame is not None:
-                    self._take(frame, check.judge(frame))
+                    self._take(frame, check)
         except DriverError as error:
             self._lose(str(error))
         except Exception:  # a plugin may raise anything
@@ -238,7 +244,19 @@ class CameraFeed:
             if due:
                 self.camera.trigger()
 
-    def _take(self, frame: Frame, picture_state: PictureState) -> None:
+    def _take(self, frame: Frame, check: FrameCheck) -> None:
+        """Show a new picture; of one that is not new, only what it says about the camera."""
+        shown = check.judge(frame)
+        self._arrived_s = frame.host_time_s
+        if shown is PictureState.FROZEN:
+            frozen = message(
+                "engine",
+                "the camera has only repeated earlier pictures for more than {seconds} s; do not "
+                "trust them, and open the camera again",
+            ).fill(seconds=rounded(FROZEN_S, 6))
+            self._publish(state=FeedState.FROZEN, reason=frozen)
+        if check.is_repeated:
+            return
         rate_hz, before = self._latest.rate_hz, self._latest.frame
         if before is not None and frame.host_time_s > before.host_time_s:
             now_hz = 1.0 / (frame.host_time_s - before.host_time_s)
@@ -246,14 +264,7 @@ class CameraFeed:
         state, reason = FeedState.LIVE, ""
         if self.camera.settings.trigger is Trigger.SOFTWARE:
             state = FeedState.WAITING
-        elif picture_state is PictureState.FROZEN:
-            state = FeedState.FROZEN
-            reason = message(
-                "engine",
-                "every picture has been the same for more than {seconds} s; do not trust it, "
-                "and open the camera again",
-            ).fill(seconds=rounded(FROZEN_S, 6))
-        if picture_state is PictureState.BLACK:
+        if shown is PictureState.BLACK:
             state = FeedState.BLACK
             reason = message(
                 "engine", "the picture is black; check lamp, shutter, lens cap and exposure"

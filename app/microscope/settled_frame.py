@@ -77,7 +77,7 @@ class SettledFrameGrabber:
         self.permit = session.permit() if permit is None else permit
         self._begun_s = 0.0
         self._rested_s: float | None = None
-        self._same = False
+        self._frame_check = FrameCheck()  # also knows the pictures from before a move
         self._restart()
 
     def begin(self, now_s: float) -> None:
@@ -116,9 +116,8 @@ class SettledFrameGrabber:
             return self._seen()
         waited_s = now_s - self._rested_s
         if waited_s > SETTLE_S + PATIENCE_S:
-            what = (
-                marked("engine", "frozen: it repeats the same picture") if self._same else "stalled"
-            )
+            frozen = marked("engine", "frozen: it repeats earlier pictures")
+            what = frozen if self._frame_check.is_repeated else "stalled"
             raise MicroscopeError(
                 message(
                     "engine",
@@ -147,12 +146,10 @@ class SettledFrameGrabber:
 
     def _restart(self) -> None:
         self._rested_s = None
-        self._watch = FrameCheck()
         self._images: list[Image] = []
         self._commands: list[FloatArray] = []
         self._measured: list[FloatArray] = []
         self._latest: Frame | None = None
-        self._same = False
 
     def _take(self, state: SessionState) -> None:
         """Keep the newest picture, if it is a new one that was taken at rest."""
@@ -172,16 +169,15 @@ class SettledFrameGrabber:
                 ).fill(size=_size(frame.region), before=_size(self._region))
             )
         self._region = frame.region
-        if self._watch.judge(frame) is PictureState.BLACK:
+        if self._frame_check.judge(frame) is PictureState.BLACK:
             raise MicroscopeError(
                 message(
                     "engine",
                     "the picture is black; check lamp, shutter and exposure. Nothing moves",
                 )
             )
-        self._same = before is not None and np.array_equal(before.pixels, frame.pixels)
-        if self._same:
-            return  # a camera's noise never gives the same picture twice
+        if self._frame_check.is_repeated:
+            return
         axes = self._session.driver.axes
         self._images.append(grey(frame.pixels))
         self._commands.append(np.array([state.command[axis] for axis in axes]))

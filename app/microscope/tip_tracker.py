@@ -158,7 +158,11 @@ class TipTracker:
             self._tracked = Tracked(TipState.SEARCHED if on else TipState.OFF)
         view, before = self._view(), self._tracked
         frame = view.frame
-        if not on or frame is None or frame is before.frame:
+        if not on or frame is None:
+            return
+        if frame is before.frame:
+            if view.state not in _TRUSTED and before.state is TipState.TRACKED:
+                self._tracked = self._lost(before, _untrusted(view))
             return
         self._mind(frame)
         passed = before.skipped
@@ -168,12 +172,7 @@ class TipTracker:
             before, frame=frame, skipped=passed, processed=before.processed + 1, ground=False
         )
         if view.state not in _TRUSTED:
-            self._tracked = self._lost(
-                state,
-                message("engine", "the camera is {state}: {reason}").fill(
-                    state=view.state, reason=view.reason
-                ),
-            )
+            self._tracked = self._lost(state, _untrusted(view))
         elif state.track is None:
             self._tracked = self._found(state, frame)
         else:
@@ -286,3 +285,9 @@ class TipTracker:
         away = track.depth.distance
         self._ground = self._ground.seen(image, track.pipette, track.pixel, away)
         self._ground_s = frame.host_time_s
+
+
+def _untrusted(view: FeedView) -> str:
+    return message("engine", "the camera is {state}: {reason}").fill(
+        state=view.state, reason=view.reason
+    )

@@ -278,6 +278,7 @@ class Camera(ABC):
             picture.exposure_s,
             lost,
             MappingProxyType(dict(picture.metadata)),
+            can.noise_free,
         )
 
     def _check(self, picture: Picture, shown: Region, can: CameraDescription) -> None:

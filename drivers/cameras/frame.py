@@ -46,6 +46,8 @@ class Frame:
         that failed.
     metadata : mapping
         What else the camera tells, by name.
+    noise_free : bool
+        Whether two pictures of the camera may be equal; see :class:`CameraDescription`.
     """
 
     pixels: Pixels
@@ -56,6 +58,7 @@ class Frame:
     exposure_s: float | None = None
     lost: int = 0
     metadata: Mapping[str, Remark] = field(default_factory=lambda: MappingProxyType({}))
+    noise_free: bool = False
 
     def __post_init__(self) -> None:
         view = self.pixels.view()

@@ -251,7 +251,9 @@ class Film(_OpenCvCamera):
             self._own_hz = told if _RATES_HZ[0] <= told <= _RATES_HZ[1] else _USUAL_HZ
             self._pace = Pace(self._own_hz, clock=self.clock, wait=self.wait)
         self._lost = 0
-        return self._described(pixels, rate_hz=_RATES_HZ if self._is_file else None)
+        return self._described(
+            pixels, rate_hz=_RATES_HZ if self._is_file else None, noise_free=self._is_file
+        )
 
     def _opened_film(self) -> Any:
         limits = [cv2.CAP_PROP_OPEN_TIMEOUT_MSEC, _TIMEOUT_MS]

@@ -69,6 +69,7 @@ class ImageSequence(Camera):
             types,
             (Trigger.FREE, Trigger.SOFTWARE),
             rate_hz=_RATES_HZ,
+            noise_free=True,
         )
 
     def _close(self) -> None:

@@ -62,6 +62,9 @@ class CameraDescription:
     triggers : tuple of Trigger
     exposure_s, gain, rate_hz : (least, greatest) or None
         None: it cannot be set.
+    noise_free : bool
+        Whether two pictures may be equal because they are drawn or come from files. The noise of a
+        sensor never gives the same picture twice: one that repeats pictures is frozen.
     """
 
     width: int
@@ -71,6 +74,7 @@ class CameraDescription:
     exposure_s: tuple[float, float] | None = None
     gain: tuple[float, float] | None = None
     rate_hz: tuple[float, float] | None = None
+    noise_free: bool = False
 
     @property
     def whole(self) -> Region:

@@ -181,16 +181,30 @@ def test_what_a_plugin_raises_when_it_is_opened_is_in_the_log_alone(feed, camera
     assert "ZeroDivisionError: oops" in caplog.text
 
 
-def test_frozen_and_black(feed, camera, clock):
+@pytest.mark.parametrize("buffers", [1, 2, 3, 4])
+def test_a_frozen_camera_gives_no_new_pictures(feed, camera, clock, buffers):
+    taken = []
+    feed.listen(lambda frame: taken.append(frame.number))
     feed.start()
     camera.next_asked()
-    for _ in range(12):
+    for number in range(buffers + 12):
         clock.advance(0.1)
-        shown(camera, picture())
-    assert feed.view.state is FeedState.FROZEN
-    clock.advance(0.1)
-    shown(camera, picture(seed=1))
-    assert feed.view.state is FeedState.LIVE
+        shown(camera, picture(seed=number % buffers))
+    view = feed.view
+    assert view.state is FeedState.FROZEN
+    assert "repeated earlier pictures" in view.reason
+    assert view.age_s == pytest.approx(1.2)
+    assert view.frame.number == buffers - 1
+    assert taken == list(range(buffers))
+    clock.advance(1.5)
+    assert feed.view.state is FeedState.STALLED  # not even a repetition comes
+    shown(camera, picture(seed=99))
+    assert (feed.view.state, feed.view.age_s) == (FeedState.LIVE, 0.0)
+
+
+def test_black_with_the_reason(feed, camera):
+    feed.start()
+    camera.next_asked()
     shown(camera, np.zeros((30, 40), np.uint8))
     assert feed.view.state is FeedState.BLACK
     assert "lamp" in feed.view.reason
@@ -225,6 +239,12 @@ def test_triggers_take_one_picture_each(feed, camera, clock):
     assert taken == [0, 1]
     clock.advance(60.0)
     assert feed.view.state is FeedState.WAITING
+    feed.trigger()
+    camera.next_asked()
+    camera.gives.put(picture() * np.uint8(0))
+    assert told.acquire(timeout=PATIENCE_S)
+    clock.advance(60.0)
+    assert feed.view.state is FeedState.BLACK
     assert not camera.asked.acquire(blocking=False)
 
 

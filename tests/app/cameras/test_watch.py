@@ -7,10 +7,10 @@ from rotemina.app.cameras.frame_check import FrameCheck, PictureState
 from rotemina.drivers.cameras.frame import Frame, Region
 
 
-def frames(pictures, period_s=0.1, bits=8):
+def frames(pictures, period_s=0.1, bits=8, noise_free=False):
     region = Region(0, 0, 40, 30)
     return [
-        Frame(pixels, period_s * number, number, bits, region)
+        Frame(pixels, period_s * number, number, bits, region, noise_free=noise_free)
         for number, pixels in enumerate(pictures)
     ]
 
@@ -36,6 +36,28 @@ def test_a_stream_that_freezes_and_recovers():
     assert first == 12  # a second after the last new one
     assert shown[-1] is PictureState.LIVE
     assert set(shown[first:15]) == {PictureState.FROZEN}
+
+
+@pytest.mark.parametrize("buffers", [2, 3, 4, 16])
+def test_a_driver_that_cycles_through_its_buffers_is_frozen(buffers):
+    live = noisy(20)
+    shown = judged([*live, *live[-buffers:] * 20, *noisy(2, seed=2)])
+    first = shown.index(PictureState.FROZEN)
+    assert first == 29  # a second after the last new one
+    assert set(shown[first:-2]) == {PictureState.FROZEN}
+    assert set(shown[-2:]) == {PictureState.LIVE}
+
+
+def test_pictures_that_come_twice_each_are_alive():
+    assert set(judged([one for one in noisy(20) for _ in range(2)])) == {PictureState.LIVE}
+
+
+def test_equal_pictures_without_noise_are_alive():
+    still = noisy(3)
+    assert set(judged(still[:1] * 30, noise_free=True)) == {PictureState.LIVE}
+    assert set(judged(still * 10, noise_free=True)) == {PictureState.LIVE}
+    overexposed = np.full((30, 40), 255, np.uint8)
+    assert set(judged([overexposed] * 30)) == {PictureState.LIVE}
 
 
 def test_a_slow_stream_is_not_frozen_by_one_repetition():

@@ -220,7 +220,11 @@ class SteppedFeed:
         frame = self.spoil(frame)
         showing = self._watch.judge(frame)
         state = {PictureState.FROZEN: FeedState.FROZEN, PictureState.BLACK: FeedState.BLACK}
+        if self._watch.is_repeated:
+            frame = self.view.frame
         self.view = FeedView(state.get(showing, FeedState.LIVE), f"it is {showing}", frame)
+        if self._watch.is_repeated:
+            return
         for tell in self._listeners:
             tell(frame)
 

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from datetime import UTC, datetime
+from itertools import cycle
 
 import numpy as np
 import pytest
@@ -66,6 +67,12 @@ class Spoilt:
         return lambda frame: replace(frame, pixels=still.pixels)
 
     @staticmethod
+    def cycling(bench):
+        """Give the pictures that were seen before the latest move, one after the other."""
+        buffers = cycle(bench.seen[-3:])
+        return lambda frame: replace(frame, pixels=next(buffers))
+
+    @staticmethod
     def stalled(bench):
         still = bench.frame
         return lambda _: still
@@ -97,6 +104,7 @@ class Spoilt:
     ("how", "told"),
     [
         (Spoilt.frozen, "frozen"),
+        (Spoilt.cycling, "frozen"),
         (Spoilt.stalled, "stalled"),
         (Spoilt.black, "black"),
         (Spoilt.smaller, "400 × 300 px"),
@@ -105,8 +113,10 @@ class Spoilt:
 )
 def test_a_picture_that_cannot_be_trusted_ends_it_without_further_moves(bench, how, told):
     run = bench.begin()
+    bench.seen = []
     while run.status.done < 1:
         bench.step()
+        bench.seen.append(bench.frame.pixels)
         run.step(bench.clock())
     bench.spoil = how(bench)
     status = bench.run(run)

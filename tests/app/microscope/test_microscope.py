@@ -6,6 +6,7 @@ import threading
 import numpy as np
 import pytest
 
+from rotemina.app.cameras.feed import FeedState
 from rotemina.app.microscope.calibration_run import Phase
 from rotemina.app.microscope.camera_in_use import CameraInUse
 from rotemina.app.microscope.click_corrections import Visit
@@ -136,6 +137,17 @@ def frozen(work):
     kept = work.feed.newest.pixels
     work.feed.spoil = lambda frame: dataclasses.replace(frame, pixels=kept)
     work.step(16)  # it takes a second until the same picture counts as frozen
+
+
+def test_a_tip_in_a_picture_that_is_no_longer_new_is_lost_until_the_next_new_one(work):
+    work.tracking()
+    frozen(work)
+    seen = work.microscope.status
+    assert (seen.feed.state, seen.tip.state) == (FeedState.FROZEN, TipState.LOST)
+    assert "the camera is frozen" in seen.tip.reason
+    work.feed.spoil = lambda frame: frame
+    work.step(2)
+    assert work.microscope.status.tip.state is TipState.TRACKED
 
 
 def black(work):

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
 from itertools import cycle
+from typing import Any
 
 import cv2
 import numpy as np
@@ -40,13 +41,18 @@ class LibraryError(RuntimeError):
 
 
 class Tap:
-    """What a library's pictures come through: with the faults that a test wants."""
+    """What a library's pictures come through: faults, or the same few buffers again and again."""
 
     def __init__(self):
         self.faults: list[Fault] = []  # of the next pictures
         self.forever: Fault | None = None  # of all that follow
+        self.buffers: list[Any] = []
+        self.read = 0
 
     def __call__(self, pixels):
+        self.read += 1
+        if self.buffers:
+            return self.buffers[self.read % len(self.buffers)].copy()
         return self._spoilt(pixels, self.faults.pop(0) if self.faults else self.forever)
 
     def _spoilt(self, pixels, fault):
@@ -62,6 +68,15 @@ class Tap:
             case Fault.OTHER_TYPE:
                 return pixels[..., 0].copy() if pixels.ndim == 3 else pixels.astype(np.float32)
         return pixels
+
+    def freeze(self, pixels, buffers, seed=0):
+        """Give noisy pictures like ``pixels`` from now on, from so many buffers."""
+        top = 4096 if pixels.dtype == np.uint16 else 256
+        rng = np.random.default_rng(seed)
+        self.buffers = [
+            rng.integers(top // 4, top // 2, pixels.shape).astype(pixels.dtype)
+            for _ in range(buffers)
+        ]
 
 
 class FakeCapture:
@@ -247,9 +262,9 @@ def write_sequence(folder, numbers, size=(64, 48), dtype=np.uint16, kind="png"):
 class PluginSource(CameraSource):
     """A third party's source, over a library that is but a function."""
 
-    def __init__(self, library, **host):
+    def __init__(self, library, *, noise_free=False, **host):
         super().__init__(**host)
-        self.library = library
+        self.library, self.noise_free = library, noise_free
 
     def devices(self):
         return (CameraIdentity("plugin:1", "Plugin", "plugin"),)
@@ -265,7 +280,9 @@ class PluginCamera(Camera):
 
     def _open(self):
         height, width = self.read_first(self._source.library).shape
-        return CameraDescription(width, height, (PixelType.MONO8,))
+        return CameraDescription(
+            width, height, (PixelType.MONO8,), noise_free=self._source.noise_free
+        )
 
     def _close(self):
         pass
