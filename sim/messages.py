@@ -5,6 +5,8 @@ chooses a :class:`Wording`. A message is a text as well, in English: an error, a
 takes it as it is.
 """
 
+import re
+import unicodedata
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import PurePath
@@ -16,6 +18,30 @@ from rotemina.sim.quantities import POINT, Number, rounded
 def marked(context: str, text: str) -> str:
     """Return ``text`` as it is: it is found for translation here, and translated where shown."""
     return text
+
+
+LONGEST_WORD = 255  # characters of a quoted value without blanks: a file's name may have as many
+LONGEST_VALUE = 1000  # characters of a quoted value; lists of names have some hundreds
+_BEGIN, _END = 100, 30  # characters that are left of a longer one
+_LONG_WORD = re.compile(rf"\S{{{LONGEST_WORD + 1},}}")
+
+
+_CUT = marked("engine", "{begin} … {end} ({count} characters)")
+
+
+def _without_controls(value: str) -> str:
+    if value.isprintable():
+        return value
+    return "".join(
+        sign if sign.isprintable() or unicodedata.category(sign) == "Zs" else repr(sign)[1:-1]
+        for sign in value
+    )
+
+
+class PlainText(str):
+    """A sentence that is no message, and is shown as it is within another one."""
+
+    __slots__ = ()
 
 
 class AxisName(str):
@@ -142,7 +168,27 @@ class Wording:
 
     def filled(self, text: str, fields: Sequence[tuple[str, Field]]) -> str:
         """Return a template, in this language, with its fields as they are shown."""
-        return text.format_map({name: self.shown(value) for name, value in fields})
+        return text.format_map({name: self._of_field(value) for name, value in fields})
+
+    def _of_field(self, value: Field) -> str:
+        """Return the text of a field; a value from outside as :meth:`quoted`."""
+        if type(value) is str or isinstance(value, PurePath):
+            return self.quoted(self.shown(value))
+        return self.shown(value)
+
+    def quoted(self, value: str) -> str:
+        """Return a value of a file, a command line or a device as a message may quote it.
+
+        A value of any length would bury the sentence, so of a long one both ends are shown.
+        A control character would command the terminal, so it is written as Python does.
+        """
+        value = _LONG_WORD.sub(lambda word: self._cut(word[0]), _without_controls(value))
+        return self._cut(value) if len(value) > LONGEST_VALUE else value
+
+    def _cut(self, value: str) -> str:
+        return self.text("engine", _CUT).format(
+            begin=value[:_BEGIN], end=value[-_END:], count=len(value)
+        )
 
     def shown(self, value: Field) -> str:
         """Return the text of a field."""
@@ -151,7 +197,7 @@ class Wording:
                 return self.of(value)
             case Listed(items, one_of_them):
                 word = self.conjunction(one_of_them=one_of_them)
-                return listed([self.shown(one) for one in items], word)
+                return listed([self._of_field(item) for item in items], word)
             case AxisName():
                 return self.axis(value)
             case EffectName():
@@ -174,7 +220,10 @@ def listed(names: Sequence[str], word: str = "and") -> str:
 
 def joined(messages: Iterable[str], between: str) -> Message:
     """Return messages as one, with a sign between them."""
-    fields = tuple((f"part{number}", one) for number, one in enumerate(messages))
+    fields = tuple(
+        (f"part{number}", PlainText(part) if type(part) is str else part)
+        for number, part in enumerate(messages)
+    )
     return Message("", between.join(f"{{{name}}}" for name, _ in fields), fields)
 
 

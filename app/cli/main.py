@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from functools import partial
 from importlib import import_module
 from importlib.metadata import version
+from typing import NoReturn
 
 from rotemina.app.cli import window
 from rotemina.app.cli.language import wording
@@ -80,9 +81,17 @@ def _needed(arguments: Sequence[str]) -> Sequence[str]:
         return SUBCOMMANDS
 
 
+class CommandParser(argparse.ArgumentParser):
+    """A parser whose errors quote an argument as messages do."""
+
+    def error(self, message: str) -> NoReturn:
+        """Print the usage and an error, and exit with status 2."""
+        super().error(Wording().quoted(message))
+
+
 def build_parser(subcommands: Sequence[str] = SUBCOMMANDS) -> argparse.ArgumentParser:
     """Return the parser of the command line; without a subcommand the window opens."""
-    parser = argparse.ArgumentParser(
+    parser = CommandParser(
         prog="rotemina",
         description="Control, simulation and sim-to-real diagnosis of the RoTeMiNa robot. Without"
         " a subcommand the operator's window opens.",

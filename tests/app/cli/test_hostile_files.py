@@ -1,5 +1,6 @@
 """What no file can be read from, and names that none can have: one clear line and status 2."""
 
+import json
 import os
 
 import pytest
@@ -7,6 +8,7 @@ import pytest
 from rotemina.app.cli.main import main
 
 LONG = "a" * 300
+CUT = f"{'a' * 100} … {'a' * 30} (300 characters)"
 
 
 @pytest.mark.parametrize(
@@ -23,8 +25,8 @@ LONG = "a" * 300
             "/dev/zero cannot be read (it is",
         ),
         (["convert", "good.csv", "-o", "good.csv/x.csv"], "good.csv/x.csv cannot be written"),
-        (["convert", "good.csv", "-o", f"{LONG}.csv"], f"{LONG}.csv: File name too long"),
-        (["compare", LONG], f"{LONG} cannot be read (File name too long)"),
+        (["convert", "good.csv", "-o", f"{LONG}.csv"], ".csv (304 characters): File name too long"),
+        (["compare", LONG], f"{CUT} cannot be read (File name too long)"),
         (["compare", "good.csv", "--robot", "deep.toml"], "deep.toml: tables or lists are nested"),
         (
             ["tune", "--axis", "zn", "-o", "o", "--population", "1000000000"],
@@ -43,3 +45,38 @@ def test_one_clear_line(arguments, said, tmp_path, monkeypatch, capsys):
     error = capsys.readouterr().err
     assert error.count("\n") == 1
     assert said in error
+
+
+@pytest.mark.parametrize("value", ["k" * 100_000, "a\x1b[31mb\nc\rd", "k " * 50_000])
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["convert", "{}", "-o", "o.csv"],
+        ["convert", "good.csv", "-o", "o.csv", "--robot", "{}"],
+        ["convert", "good.csv", "-o", "o.csv", "--columns", "t [s], {} [m]"],
+        ["convert", "good.csv", "-o", "o.csv", "--method", "{}"],
+        ["convert", "good.csv", "-o", "o.csv", "--{}"],
+        ["convert", "mode.csv", "-o", "o.csv"],
+        ["convert", "good.csv", "-o", "o.csv", "--robot", "key.toml"],
+        ["driver", "check", "{}"],
+        ["driver", "check", "simulator", "--set", "{}=1"],
+        ["driver", "check", "simulator", "--set", "seed={}"],
+        ["plugin", "check", "{}"],
+        ["effect", "show", "{}"],
+        ["tune", "--axis", "{}", "-o", "o"],
+        ["{}"],
+    ],
+)
+def test_a_value_is_quoted_in_brief(arguments, value, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "good.csv").write_text("t [s],x.cmd [um]\n0,0\n0.001,1\n")
+    (tmp_path / "mode.csv").write_text(f"# mode: {value}\nt [s],x.cmd [um]\n0,0\n0.001,1\n")
+    (tmp_path / "key.toml").write_text(f"{json.dumps(value)} = 1\n")
+    try:
+        status = main([argument.format(value) for argument in arguments])
+    except SystemExit as caught:
+        status = caught.code
+    assert status == 2
+    error = capsys.readouterr().err
+    assert len(error) < 2500
+    assert all(line.isprintable() for line in error.split("\n"))
