@@ -14,6 +14,7 @@ from rotemina.app.recorded_events import Severity, timeline_events
 from rotemina.app.records.entry import Entry, WorstGap
 from rotemina.sim.comparison.gap import gap_figure, moving
 from rotemina.sim.errors import InputError
+from rotemina.sim.records.fields import is_comment, is_empty, named_separator, split_fields
 from rotemina.sim.records.file_blocks import Limits, open_blocks
 from rotemina.sim.records.layout import header_separator, looks_like_header, split_headings
 from rotemina.sim.records.metadata import Comments
@@ -112,13 +113,15 @@ def _of_text(path: Path) -> dict[str, Any]:
                 for number, line in enumerate(_lines(block.data), start=block.first_line):
                     if line.startswith("#"):
                         comments.add(line, f"{path}:{number}")
-                    elif line.strip() and not heading:
+                    elif is_empty(line) or is_comment(line) or named_separator(line):
+                        continue
+                    elif not heading:
                         heading = line
-                    elif line.strip():
+                    else:
                         first = line
                         break
             rows = (line for line in reversed(_lines(block.data[-_END_BYTES:])))
-            last = next((line for line in rows if line.strip() and line[0] != "#"), last)
+            last = next((row for row in rows if not is_empty(row) and not is_comment(row)), last)
     return of_metadata(comments.metadata) | {"duration_s": _duration_s(heading, first, last)}
 
 
@@ -135,7 +138,7 @@ def _duration_s(heading: str, first: str, last: str) -> float | None:
     per_s = _PER_SECOND.get(unit.strip(" ]"))
     if name.strip() != "t" or per_s is None:
         return None
-    times = [row.split(separator if separator != " " else None)[0] for row in (first, last) if row]
+    times = [split_fields(row, separator)[0] for row in (first, last) if row]
     begin, end = (float(each.replace(",", ".")) for each in (times[0], times[-1]))
     return (end - begin) / per_s
 

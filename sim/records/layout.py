@@ -5,22 +5,29 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from rotemina.sim.messages import message
-from rotemina.sim.records.metadata import BLANKS
+from rotemina.sim.records.fields import (
+    BLANKS,
+    NOT_FINITE,
+    NUMBER,
+    PADDING,
+    SEPARATORS,
+    split_fields,
+    with_plain_blanks,
+    without_padding,
+)
 from rotemina.sim.records.record import VOLTAGE_TAPS, Channel, RecordError, Tap
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.units import UnitError, canonical, per_si, quantity
 
-# In the order in which they are looked for: a comma may also be a decimal sign, a blank a filler.
-SEPARATORS = (";", "\t", ",", " ")
 EXAMPLE = "t [s], x [mm], y [mm]"
 _LONGEST_NAME = 100
 _TAPS = tuple(tap.value for tap in Tap)
 
-# ASCII digits with one sign, one point, one exponent: no "1_000", no "0x10", no "nan".
-NUMBER = re.compile(r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
-_NOT_FINITE = re.compile(r"[+-]?(?:nan|inf|infinity)", re.IGNORECASE)
 _COLUMN = re.compile(r"([^\[\]]+)\[([^\[\]]*)\]")
+_COLUMN_IN_ROUND_BRACKETS = re.compile(r"([^\[\]()]+)\(([^\[\]()]*)\)")
+_QUOTES_AND_UNITS = re.compile(r'"[^"]*"|\[[^\[\]]*\]')
 _BLANKS_AFTER_UNIT = re.compile(r"(?<=\])[ \t]+")
+_BLANKS_AFTER_ROUND_UNIT = re.compile(r"(?<=\))[ \t]+")
 _AXIS_NAME = re.compile(r"[^\s,;\[\]\"'#=+@\-.][^,;\[\]\"#\x00-\x1f\x7f]*(?<!\s)")
 
 
@@ -72,22 +79,15 @@ class Layout:
         }
 
 
-def split_fields(line: str, separator: str) -> list[str]:
-    """Split one line into fields without the blanks around them."""
-    if separator == " ":
-        return re.split(r"[ \t]+", line.strip(BLANKS))
-    return [field.strip(BLANKS) for field in line.split(separator)]
-
-
 def looks_like_header(line: str) -> bool:
     """Return whether a line is a header rather than numbers, by its first field."""
-    first = re.split(r"[\s;,]", line.strip(BLANKS), maxsplit=1)[0]
-    return '"' in first or (first[:1].isalpha() and _NOT_FINITE.fullmatch(first) is None)
+    first = re.split(r"[\s;,]", line.strip(PADDING).removeprefix('"'), maxsplit=1)[0]
+    return first[:1].isalpha() and NOT_FINITE.fullmatch(first.removesuffix('"')) is None
 
 
 def header_separator(line: str) -> str:
     """Return what separates the headings of a header row."""
-    outside = re.sub(r"\[[^\[\]]*\]", "", line)
+    outside = _QUOTES_AND_UNITS.sub("", line)
     return next((sign for sign in (";", ",", "\t") if sign in outside), " ")
 
 
@@ -99,20 +99,61 @@ def row_separator(line: str, count: int) -> str | None:
 
 def splits_into_numbers(line: str, separator: str, count: int) -> bool:
     """Return whether a separator makes ``count`` numbers of a row, with either decimal sign."""
-    fields = split_fields(line, separator)
-    if separator != ",":
-        fields = [field.replace(",", ".", 1) for field in fields]
+    fields = without_padding(split_fields(line, separator), count)
+    fields = [field.replace(",", ".", 1) for field in fields]
     return len(fields) == count and all(NUMBER.fullmatch(field) for field in fields)
 
 
 def split_headings(line: str, separator: str) -> list[str]:
     """Split a header row into headings; a heading may hold a blank before its unit."""
-    if separator == " ":
-        return _BLANKS_AFTER_UNIT.split(line.strip(BLANKS))
-    return split_fields(line, separator)
+    line = with_plain_blanks(line)
+    if separator == " " and '"' not in line:
+        for bracket, blanks in (("[", _BLANKS_AFTER_UNIT), ("(", _BLANKS_AFTER_ROUND_UNIT)):
+            if bracket in line:
+                return blanks.split(line.strip(BLANKS))
+    return without_padding(split_fields(line, separator), 1)
 
 
-def parse_columns(line: str, where: str, robot: Robot | None = None) -> tuple[Column, ...]:
+def with_units_below(headings: Sequence[str], line: str, separator: str) -> list[str] | None:
+    """Return headings with the units that the line below names, or None if it names none.
+
+    Where the headings have units themselves, the line below may only repeat them.
+    """
+    units = [field.strip("[]() ") for field in split_headings(line, separator)]
+    if len(units) != len(headings) or not all(map(_is_unit, units)):
+        return None
+    names = [re.sub(r"[\[(].*", "", heading).strip(BLANKS) for heading in headings]
+    joined = [f"{name} [{unit}]" for name, unit in zip(names, units, strict=True)]
+    if not any(map(_has_unit, headings)):
+        return joined
+    try:
+        repeated = columns_of(headings, "") == columns_of(joined, "")
+    except RecordError:
+        return None
+    return joined if repeated else None
+
+
+def _is_unit(text: str) -> bool:
+    try:
+        canonical(text)
+    except UnitError:
+        return False
+    return True
+
+
+def _has_unit(heading: str) -> bool:
+    return "[" in heading or "(" in heading
+
+
+def is_header_again(line: str, separator: str) -> bool:
+    """Return whether a line among the rows is a header, which begins with the name of time."""
+    first = split_headings(line, separator)[0]
+    return re.sub(r"[\[(].*", "", first).strip(BLANKS) == "t"
+
+
+def parse_columns(
+    line: str, where: str, robot: Robot | None = None, *, separator: str | None = None
+) -> tuple[Column, ...]:
     """Return the columns that a header row, or the user, names.
 
     Parameters
@@ -120,13 +161,21 @@ def parse_columns(line: str, where: str, robot: Robot | None = None) -> tuple[Co
     line : such as ``t [s], x [mm], y.meas [um]``; a bare ``x`` is ``x.cmd``.
     where : file and line, the first part of every error.
     robot : if given, its axes and the kinds of their units must fit.
+    separator : of the headings; found in the line where left out.
 
     Raises
     ------
     RecordError
         If a heading, axis, channel or unit is unknown or named twice.
     """
-    headings = split_headings(line, header_separator(line))
+    headings = split_headings(line, separator or header_separator(line))
+    return columns_of(headings, where, robot)
+
+
+def columns_of(
+    headings: Sequence[str], where: str, robot: Robot | None = None
+) -> tuple[Column, ...]:
+    """Return the columns that headings name; parameters and errors of :func:`parse_columns`."""
     columns = [
         _parse_column(heading, f"{where}:{number}", first=number == 1)
         for number, heading in enumerate(headings, start=1)
@@ -139,21 +188,16 @@ def parse_columns(line: str, where: str, robot: Robot | None = None) -> tuple[Co
 
 
 def _parse_column(heading: str, where: str, *, first: bool) -> Column:
-    match = _COLUMN.fullmatch(heading)
+    match = _COLUMN.fullmatch(heading) or _COLUMN_IN_ROUND_BRACKETS.fullmatch(heading)
     if match is None:
-        raise RecordError(
-            message(
-                "engine",
-                "{where}: heading {heading} is not 'axis.channel [unit]'; write it like {example}",
-            ).fill(where=where, heading=repr(heading[:40]), example=EXAMPLE)
-        )
+        raise _not_a_heading(heading, where, first=first)
     name, unit_text = match[1].strip(BLANKS), match[2].strip(BLANKS)
     try:
         unit = canonical(unit_text)
     except UnitError as error:
         raise RecordError(
             message("engine", "{where}: {name}: {error}").fill(
-                where=where, name=repr(name[:40]), error=str(error)
+                where=where, name=repr(name), error=str(error)
             )
         ) from error
     if first != (name == "t"):
@@ -161,11 +205,31 @@ def _parse_column(heading: str, where: str, *, first: bool) -> Column:
             message(
                 "engine",
                 "{where}: heading {heading}; the first column, and only it, must be time: t [s]",
-            ).fill(where=where, heading=repr(heading[:40]))
+            ).fill(where=where, heading=repr(heading))
         )
     channel = None if first else _parse_channel(name, where)
     _check_unit(channel, unit, where)
     return Column(channel, unit)
+
+
+def _not_a_heading(heading: str, where: str, *, first: bool) -> RecordError:
+    text = message(
+        "engine",
+        "{where}: heading {heading} is not 'axis.channel [unit]'; write it like {example}",
+    )
+    if '"' in heading:
+        text = message(
+            "engine",
+            "{where}: heading {heading} has a quote without its partner on this line; write each "
+            "heading on one line, like {example}",
+        )
+    elif first:
+        text = message(
+            "engine",
+            "{where}: heading {heading} is not 'axis.channel [unit]'; write it like {example}, and "
+            "begin lines above the header with '#'",
+        )
+    return RecordError(text.fill(where=where, heading=repr(heading), example=EXAMPLE))
 
 
 def _parse_channel(name: str, where: str) -> Channel:
@@ -174,7 +238,7 @@ def _parse_channel(name: str, where: str) -> Channel:
     if tap not in _TAPS:
         raise RecordError(
             message("engine", "{where}: unknown channel {tap} in {name}; use one of {names}").fill(
-                where=where, tap=repr(tap[:40]), name=repr(name[:40]), names=" ".join(_TAPS)
+                where=where, tap=repr(tap), name=repr(name), names=" ".join(_TAPS)
             )
         )
     check_axis_name(axis, where)
@@ -190,7 +254,7 @@ def check_axis_name(axis: str, where: str) -> None:
                 "engine",
                 "{where}: {axis} cannot name an axis; begin with a letter, and use no separators, "
                 "brackets, quotes or '#' and at most {longest_name} characters",
-            ).fill(where=where, axis=repr(axis[:40]), longest_name=_LONGEST_NAME)
+            ).fill(where=where, axis=repr(axis), longest_name=_LONGEST_NAME)
         )
 
 

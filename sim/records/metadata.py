@@ -3,11 +3,13 @@
 from collections.abc import Callable, Iterator, Mapping
 
 from rotemina.sim.messages import marked, message
+from rotemina.sim.records.fields import BLANKS, without_quotes
 from rotemina.sim.records.record import RecordError
 
 VERSION_KEY = "rotemina-record"
 VERSION = "1"
-BLANKS = " \t"
+# With which a spreadsheet fills a line up to the width of the table.
+_FILLERS = BLANKS + ",;"
 
 
 def _is_count(text: str) -> bool:
@@ -42,7 +44,8 @@ _RULES: Mapping[str, tuple[Callable[[str], bool], str]] = {
 
 def parse_comment(line: str) -> tuple[str, str] | None:
     """Return the key and value of one line that begins with ``#``, or None for plain prose."""
-    key, colon, value = line.strip(BLANKS).removeprefix("#").partition(":")
+    line = without_quotes(line.strip(BLANKS))
+    key, colon, value = line.removeprefix("#").partition(":")
     key, value = key.strip(BLANKS), value.strip(BLANKS)
     return (key, value) if colon and key else None
 
@@ -61,6 +64,11 @@ class Comments:
         """
         return {key: "; ".join(each) for key, each in self._values.items() if key != VERSION_KEY}
 
+    @property
+    def name_our_format(self) -> bool:
+        """Whether a line names the version of this program's format, as its own files do."""
+        return VERSION_KEY in self._values
+
     def add(self, line: str, where: str) -> None:
         """Add what one line says.
 
@@ -74,6 +82,8 @@ class Comments:
         if entry is None:
             return
         key, value = entry
+        if key in _RULES:
+            value = value.rstrip(_FILLERS)
         check_entry(key, value, where)
         values = self._values.setdefault(key, [])
         if values and key in _RULES and value != values[-1]:
@@ -92,7 +102,7 @@ def check_entry(key: str, value: str, where: str) -> None:
     if allowed is not None and not allowed(value):
         raise RecordError(
             message("engine", "{where}:{key}: value {value}; {advice}").fill(
-                where=where, key=key, value=repr(value[:40]), advice=advice
+                where=where, key=key, value=repr(value), advice=advice
             )
         )
 
@@ -114,12 +124,12 @@ def comment_lines(metadata: Mapping[str, str], longest: int) -> Iterator[str]:
                     "engine",
                     "metadata:{key}: {value} does not fit in a '# key: value' line; leave out line "
                     "ends, control characters, blanks around, and ':' in the key",
-                ).fill(key=repr(key[:40]), value=repr(value[:40]))
+                ).fill(key=repr(key), value=repr(value))
             )
         if len(line.encode()) >= longest:
             raise RecordError(
                 message("engine", "metadata:{key}: longer than {longest} bytes; shorten it").fill(
-                    key=repr(key[:40]), longest=longest
+                    key=repr(key), longest=longest
                 )
             )
         yield line

@@ -5,16 +5,22 @@ from hashlib import sha256
 from os import PathLike, fspath
 
 from rotemina.sim.messages import message
+from rotemina.sim.records.fields import (
+    BLANKS,
+    SEPARATORS,
+    is_comment,
+    is_empty,
+    named_separator,
+    split_fields,
+    without_padding,
+)
 from rotemina.sim.records.file_blocks import LIMITS, Limits, open_blocks
 from rotemina.sim.records.layout import (
-    SEPARATORS,
     header_separator,
     looks_like_header,
-    split_fields,
     split_headings,
     splits_into_numbers,
 )
-from rotemina.sim.records.metadata import BLANKS
 from rotemina.sim.records.record import RecordError
 from rotemina.sim.records.row_parsing import decode_line
 
@@ -63,7 +69,10 @@ def preview(path: str | PathLike[str], *, rows: int = 20, limits: Limits = LIMIT
     RecordError
         If the file cannot be opened, is no text or holds no line beside comments.
     """
-    lines = _first_lines(fspath(path), rows + 1, limits)
+    lines = _first_lines(fspath(path), rows + 2, limits)
+    named = named_separator(lines[0]) if lines else None
+    if named in SEPARATORS:
+        lines = lines[1:]
     if not lines:
         raise RecordError(
             message("engine", "{fspath}: no header and no rows; the record is empty").fill(
@@ -72,13 +81,15 @@ def preview(path: str | PathLike[str], *, rows: int = 20, limits: Limits = LIMIT
         )
     headings: tuple[str, ...] = ()
     if looks_like_header(lines[0]):
-        separator = header_separator(lines[0])
-        split = split_headings if "[" in lines[0] else split_fields
-        headings = tuple(split(lines[0], separator))
+        separator = named or header_separator(lines[0])
+        headings = tuple(split_headings(lines[0], separator))
         lines = lines[1:]
     else:
-        separator = _guess_separator(lines)
-    fields = tuple(tuple(split_fields(line, separator)) for line in lines[:rows])
+        separator = named or _guess_separator(lines)
+    fields = tuple(
+        tuple(without_padding(split_fields(line, separator), len(headings) or 1))
+        for line in lines[:rows]
+    )
     return Preview(separator, headings, fields)
 
 
@@ -94,7 +105,7 @@ def _first_lines(name: str, count: int, limits: Limits) -> list[str]:
         for block in blocks:
             for number, data in enumerate(block.data.split(b"\n"), start=block.first_line):
                 text = decode_line(data, name, number).strip(BLANKS)
-                if text and not text.startswith("#"):
+                if not is_empty(text) and not is_comment(text):
                     lines.append(text)
                 if len(lines) == count:
                     return lines
@@ -104,7 +115,7 @@ def _first_lines(name: str, count: int, limits: Limits) -> list[str]:
 def _guess_separator(lines: list[str]) -> str:
     """Return the separator that splits all rows into equally many numbers, at least two."""
     for sign in SEPARATORS:
-        count = len(split_fields(lines[0], sign))
+        count = len(without_padding(split_fields(lines[0], sign), 1))
         if count > 1 and all(splits_into_numbers(line, sign, count) for line in lines):
             return sign
     return header_separator(lines[0])

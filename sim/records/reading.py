@@ -10,23 +10,38 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.messages import message
+from rotemina.sim.records.fields import (
+    COMMENT_BEGIN,
+    SEPARATORS,
+    is_row_with_error,
+    named_separator,
+)
 from rotemina.sim.records.file_blocks import LIMITS, Block, Limits, open_blocks
+from rotemina.sim.records.file_end import FileEnd
 from rotemina.sim.records.layout import (
     EXAMPLE,
     Column,
     Layout,
+    columns_of,
     header_separator,
     looks_like_header,
     parse_columns,
     row_separator,
+    split_headings,
+    with_units_below,
 )
 from rotemina.sim.records.metadata import Comments
 from rotemina.sim.records.record import Record, RecordError
 from rotemina.sim.records.row_parsing import RowParser, decode_line
 from rotemina.sim.robot.model import Robot
 
-_COMMENT_LINE = re.compile(rb"^[ \t]*#[^\n]*", re.MULTILINE)
-_FIRST_LINE = re.compile(rb"^[ \t\r]*[^# \t\r\n][^\n]*", re.MULTILINE)
+# A byte to begin with is found at once, the beginning of a line is not.
+_COMMENT = re.compile(rb"#[^\n]*")
+# A line that holds something: a spreadsheet writes separators alone for an empty one.
+_FIRST_LINE = re.compile(
+    rb"^(?!" + COMMENT_BEGIN + rb')[ \t\r;,"]*+[^ \t\r\n;,"][^\n]*', re.MULTILINE
+)
+_MOST_BYTES_TO_UNITS = 1_000_000
 
 
 def read_record(
@@ -95,9 +110,11 @@ def parsed_blocks(
         blocks = collected(name, raw_blocks, comments, limits.comment_bytes)
         layout, first = _find_layout(name, blocks, named, robot)
         parser = RowParser(name, layout, small_block_bytes=limits.small_block_bytes)
+        file_end = FileEnd(name, layout)
         empty = True
         for block in chain([first], blocks):
             rows = parser.parse(block)
+            file_end.add(block, is_our_format=comments.name_our_format)
             empty = empty and len(rows) == 0
             yield Parsed(layout, block.first_line, rows)
     if empty:
@@ -122,17 +139,29 @@ def collected(
 def _collect(name: str, block: Block, comments: Comments, most_bytes: int) -> int:
     """Collect the comments of one block and return how many bytes they have."""
     line, counted, collected = block.first_line, 0, 0
-    for match in _COMMENT_LINE.finditer(block.data):
-        line += block.data.count(b"\n", counted, match.start())
-        counted = match.start()
-        collected += len(match[0]) + 1
+    for match in _COMMENT.finditer(block.data):
+        begin = block.data.rfind(b"\n", 0, match.start()) + 1
+        if block.data[begin : match.start()].strip() not in (b"", b'"'):
+            continue
+        line += block.data.count(b"\n", counted, begin)
+        counted = begin
+        collected += match.end() - begin + 1
         if collected > most_bytes:
             raise RecordError(
                 message("engine", "{name}:{line}: too many bytes of comments; shorten them").fill(
                     name=name, line=line
                 )
             )
-        comments.add(decode_line(match[0], name, line), f"{name}:{line}")
+        text = decode_line(block.data[begin : match.end()], name, line)
+        if is_row_with_error(text):
+            raise RecordError(
+                message(
+                    "engine",
+                    "{name}:{line}: the row begins with a spreadsheet's mark of a missing value or "
+                    "an error; write its time, or delete the row",
+                ).fill(name=name, line=line)
+            )
+        comments.add(text, f"{name}:{line}")
     return collected
 
 
@@ -140,19 +169,27 @@ def _find_layout(
     name: str, blocks: Iterator[Block], named: tuple[Column, ...] | None, robot: Robot | None
 ) -> tuple[Layout, Block]:
     """Return the layout and what is left of the block in which it was found."""
-    line = 1
+    line, separator = 1, None
     for block in blocks:
-        match = _FIRST_LINE.search(block.data)
-        if match is None:
-            line = block.first_line
-            continue
-        line = block.line_of(match.start())
-        text = decode_line(match[0], name, line)
-        if looks_like_header(text):
-            layout = _layout_of_header(text, f"{name}:{line}", named, robot)
-            return layout, Block(line + 1, block.data[match.end() + 1 :])
-        layout = _layout_of_row(text, f"{name}:{line}", named)
-        return layout, Block(line, block.data[match.start() :])
+        line, start = block.first_line, 0
+        while match := _FIRST_LINE.search(block.data, start):
+            line = block.line_of(match.start())
+            text = decode_line(match[0], name, line)
+            where = f"{name}:{line}"
+            start = match.end() + 1
+            if separator is None and (separator := named_separator(text)) is not None:
+                _check_separator(separator, where)
+            elif looks_like_header(text):
+                return _layout_of_header(
+                    _Header(text, where, separator or header_separator(text)),
+                    block.following(start),
+                    blocks,
+                    named,
+                    robot,
+                )
+            else:
+                layout = _layout_of_row(text, where, separator, named)
+                return layout, block.following(match.start())
     raise RecordError(
         message(
             "engine", "{name}:{line}: no header and no rows of numbers; the record is empty"
@@ -160,10 +197,60 @@ def _find_layout(
     )
 
 
+def _check_separator(separator: str, where: str) -> None:
+    if separator not in SEPARATORS:
+        raise RecordError(
+            message(
+                "engine",
+                "{where}: the line names {separator} as separator of columns; use a semicolon, "
+                "comma, tab or blank",
+            ).fill(where=where, separator=repr(separator))
+        )
+
+
+class _Header(NamedTuple):
+    """A header row, where it stands, and what separates its headings."""
+
+    text: str
+    where: str
+    separator: str
+
+
 def _layout_of_header(
-    text: str, where: str, named: tuple[Column, ...] | None, robot: Robot | None
-) -> Layout:
-    columns = parse_columns(text, where, robot)
+    header: _Header,
+    block: Block,
+    blocks: Iterator[Block],
+    named: tuple[Column, ...] | None,
+    robot: Robot | None,
+) -> tuple[Layout, Block]:
+    """Return the layout, and the lines below the header and its row of units, if it has one."""
+    text, where, separator = header
+    headings = split_headings(text, separator)
+    if len(headings) == 1 and separator != header_separator(text):
+        raise RecordError(
+            message(
+                "engine",
+                "{where}: the line above names {separator} as separator of columns, but the header "
+                "has {other}; correct one of them",
+            ).fill(where=where, separator=repr(separator), other=repr(header_separator(text)))
+        )
+    while (below := _FIRST_LINE.search(block.data)) is None:
+        following = None if len(block.data) > _MOST_BYTES_TO_UNITS else next(blocks, None)
+        if following is None:
+            break
+        block = block.with_next(following)
+    if below is not None and (
+        with_units := with_units_below(
+            headings, below[0].decode("utf-8", "replace").rstrip("\r"), separator
+        )
+    ):
+        headings, block = with_units, block.following(below.end() + 1)
+    columns = columns_of(headings, where, robot)
+    _check_named(columns, named, where)
+    return Layout(separator, columns), block
+
+
+def _check_named(columns: tuple[Column, ...], named: tuple[Column, ...] | None, where: str) -> None:
     if named is not None and named != columns:
         pairs = zip(columns, named, strict=False)
         index = next(
@@ -181,10 +268,11 @@ def _layout_of_header(
                 "same name, or omit it",
             ).fill(where=where, index=index + 1, found=found, asked=asked)
         )
-    return Layout(header_separator(text), columns)
 
 
-def _layout_of_row(text: str, where: str, named: tuple[Column, ...] | None) -> Layout:
+def _layout_of_row(
+    text: str, where: str, separator: str | None, named: tuple[Column, ...] | None
+) -> Layout:
     if named is None:
         raise RecordError(
             message(
@@ -193,7 +281,8 @@ def _layout_of_row(text: str, where: str, named: tuple[Column, ...] | None) -> L
             ).fill(where=where, example=EXAMPLE)
         )
     # Where no separator fits, the row parser finds what is wrong with this row.
-    return Layout(row_separator(text, len(named)) or header_separator(text), named)
+    found = separator or row_separator(text, len(named)) or header_separator(text)
+    return Layout(found, named)
 
 
 def assembled(layout: Layout, parts: list[FloatArray], metadata: Mapping[str, str]) -> Record:

@@ -10,11 +10,22 @@ from math import inf, isfinite
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.messages import joined, marked, message
+from rotemina.sim.messages import Message, joined, marked, message
+from rotemina.sim.records.fields import (
+    BLANKS,
+    GROUPED_NUMBER,
+    NUMBER,
+    SPREADSHEET_ERROR,
+    UNFINISHED_NUMBER,
+    is_comment,
+    split_fields,
+    without_padding,
+)
 from rotemina.sim.records.file_blocks import LIMITS, Block
-from rotemina.sim.records.layout import NUMBER, Layout, split_fields
-from rotemina.sim.records.metadata import BLANKS
+from rotemina.sim.records.layout import Layout, is_header_again
 from rotemina.sim.records.record import RecordError
+
+_SHOWN_END = 20  # characters of a line that was cut off
 
 
 class RowParser:
@@ -83,9 +94,15 @@ class RowParser:
         last_time_s = self._last_time_s
         for line, data in enumerate(block.data.split(b"\n")[:-1], start=block.first_line):
             text = decode_line(data, self._name, line)
-            if not text.strip(blanks) or text.lstrip(BLANKS).startswith("#"):
+            if not text.strip(blanks) or is_comment(text):
                 continue
-            row = self._parse_row(text, line)
+            try:
+                row = self._parse_row(text, line)
+            except RecordError:
+                self._refuse_second_header(text, line)
+                if block.unterminated and line == block.last_line:
+                    self._refuse_cut_row(text, line)
+                raise
             if row[0] <= last_time_s:
                 raise self._error(
                     line,
@@ -100,8 +117,34 @@ class RowParser:
             rows.append(row)
         return np.array(rows, dtype=np.float64).reshape(len(rows), len(self._per_si))
 
+    def _refuse_second_header(self, text: str, line: int) -> None:
+        if is_header_again(text, self._layout.separator):
+            raise RecordError(
+                message(
+                    "engine",
+                    "{name}:{line}: a second header; the file holds two logs: move the lines from "
+                    "here on to a file of their own",
+                ).fill(name=self._name, line=line)
+            ) from None
+
+    def _refuse_cut_row(self, text: str, line: int) -> None:
+        fields = self._fields(text)
+        is_short = len(fields) < len(self._per_si)
+        is_open = text.count('"') % 2 == 1
+        if is_short or is_open or UNFINISHED_NUMBER.fullmatch(fields[-1].replace(",", ".", 1)):
+            raise RecordError(
+                message(
+                    "engine",
+                    "{name}:{line}: the file ends inside this line, at {end}: it was cut off; copy "
+                    "it again, or delete the line",
+                ).fill(name=self._name, line=line, end=repr(text[-_SHOWN_END:]))
+            ) from None
+
+    def _fields(self, text: str) -> list[str]:
+        return without_padding(split_fields(text, self._layout.separator), len(self._per_si))
+
     def _parse_row(self, text: str, line: int) -> list[float]:
-        fields = split_fields(text, self._layout.separator)
+        fields = self._fields(text)
         if len(fields) != len(self._per_si):
             raise self._length_error(line, fields)
         return [
@@ -110,10 +153,8 @@ class RowParser:
         ]
 
     def _parse_number(self, field: str, line: int, index: int) -> float:
-        text = field
-        if self._layout.separator != ",":
-            text = field.replace(",", ".", 1)
-            self._check_decimal_sign(field, line, index)
+        self._check_decimal_sign(field, line, index)
+        text = field.replace(",", ".", 1)
         if NUMBER.fullmatch(text) is None:
             raise self._error(line, index, _what_is_wrong(field))
         value = float(text)
@@ -122,13 +163,17 @@ class RowParser:
                 line,
                 index,
                 message("engine", "value {value} exceeds what float64 holds").fill(
-                    value=_shown(field)
+                    value=repr(field)
                 ),
             )
         return value
 
     def _check_decimal_sign(self, field: str, line: int, index: int) -> None:
-        # Both in one file would let a thousands separator pass for a decimal sign: "1,234" beside
+        # Where commas separate, a quoted "1,234" may be a thousand or a little more than one.
+        in_doubt = self._layout.separator == "," and "," in field and not self._decimal_sign
+        if in_doubt and GROUPED_NUMBER.fullmatch(field) is not None:
+            raise self._error(line, index, _grouped(field))
+        # Both in one file would let a thousands separator pass for a decimal sign: "1,234" next to
         # "0.5".
         for sign in ",.":
             if sign in field:
@@ -141,9 +186,7 @@ class RowParser:
                             "engine",
                             "value {value} has {sign} where the numbers before have {before}; use "
                             "one decimal sign and no thousands separators",
-                        ).fill(
-                            value=_shown(field), sign=repr(sign), before=repr(self._decimal_sign)
-                        ),
+                        ).fill(value=repr(field), sign=repr(sign), before=repr(self._decimal_sign)),
                     )
 
     def _length_error(self, line: int, fields: list[str]) -> RecordError:
@@ -156,9 +199,7 @@ class RowParser:
                 count=wanted, separator=separator
             )
         ]
-        if len(fields) < wanted:
-            advice.append(message("engine", "was the file cut off?"))
-        elif self._layout.separator == "," and len(fields) <= 2 * wanted:
+        if self._layout.separator == "," and wanted < len(fields) <= 2 * wanted:
             advice.append(
                 message("engine", "if the commas are decimal signs, separate columns by ';'")
             )
@@ -220,12 +261,27 @@ def _what_is_wrong(field: str) -> str:
         )
     if field.lower().lstrip("+-") in ("nan", "inf", "infinity"):
         return message("engine", "value {value} is not finite; write a finite number").fill(
-            value=_shown(field)
+            value=repr(field)
         )
+    if SPREADSHEET_ERROR.fullmatch(field) is not None:
+        return message(
+            "engine",
+            "value {value} is a spreadsheet's mark of a missing value or an error; write a number, "
+            "or delete the row",
+        ).fill(value=repr(field))
+    if GROUPED_NUMBER.fullmatch(field) is not None:
+        return _grouped(field)
+    if '"' in field:
+        return message(
+            "engine",
+            "value {value} has a quote without its partner on this line; remove it",
+        ).fill(value=repr(field))
     return message(
         "engine", "value {value} is not a plain decimal number; write it like -12.5 or 3e-6"
-    ).fill(value=_shown(field))
+    ).fill(value=repr(field))
 
 
-def _shown(field: str) -> str:
-    return repr(field if len(field) <= 40 else field[:40] + "…")
+def _grouped(field: str) -> Message:
+    return message(
+        "engine", "value {value} has a thousands separator; write its digits without any"
+    ).fill(value=repr(field))

@@ -285,6 +285,7 @@ def test_a_search_wants_every_word_somewhere(data):
     [
         ("t [ms],x [mm]\n0,1\n# a remark\n250,1\n\n", 0.25),
         ("t [s];x [mm]\n1,5;1\n3,0;1\n", 1.5),
+        ('sep=;\n% a\n"t [s]";"x [mm]"\n"1,5";"1"\n"3,0";"1"\n;\n', 1.5),
         ("t [s],x [mm]\n0,1\n", 0.0),
         ("0,1\n1,1\n", None),
         ("time,x\n0,1\n1,1\n", None),

@@ -150,6 +150,8 @@ def test_an_error_of_the_disk_is_worded(
         def read(self, _: int) -> bytes:
             raise OSError(5, "Input/output error")
 
+        peek = read
+
     path = write_file(gzip.compress(HEAD.encode()))
     monkeypatch.setattr(gzip, "GzipFile", lambda **_: Failing())
     with pytest.raises(RecordError, match=r"run.csv:1: reading failed .*Input/output error"):

@@ -57,6 +57,31 @@ LENIENT = {
     "greek mu": "t [μs],x [μm]\n0,1000\n1500000,-2500\n".encode(),
     "gzip": gzip.compress(b"t [s],x [mm]\n0,1\n1.5,-2.5\n"),
     "gzip in two members": gzip.compress(b"t [s],x [mm]\n0,") + gzip.compress(b"1\n1.5,-2.5\n"),
+    "separator line": b"sep=;\r\nt [s];x [mm]\r\n0;1\r\n1,5;-2,5\r\n",
+    "quoted separator line": b'"sep=\t"\nt [s]\tx [mm]\n0\t1\n1.5\t-2.5\n',
+    "separator line below a mark": b"\xef\xbb\xbfSEP=,\nt [s],x [mm]\n0,1\n1.5,-2.5\n",
+    "quoted headings": b'"t [s]","x [mm]"\n0,1\n1.5,-2.5\n',
+    "quoted headings, blanks": b'"t [s]" "x [mm]"\n0 1\n1.5 -2.5\n',
+    "quoted fields": b'"t [s]";"x [mm]"\n"0";"1"\n"1.5";"-2.5"\n',
+    "some quoted fields": b't [s],x [mm]\n0,"1"\n"1.5" , " -2.5 "\n',
+    "quoted decimal commas": b'"t [s]","x [mm]"\n"0,0","1,0"\n"1,5","-2,5"\n',
+    "separators at the ends": b"t [s];x [mm];\n0;1;\n1.5;-2.5;\n",
+    "separators at some ends": b"t [s],x [mm]\n0,1,\n1.5,-2.5\n",
+    "a wider table": b"# note,,,\nt [s],x [mm],,\n0,1,,\n1.5,-2.5,,\n",
+    "empty rows of a spreadsheet": b",,\n,,\nt [s],x [mm]\n0,1\n1.5,-2.5\n",
+    "comments of others": b"% a\n// b\nt [s],x [mm]\n% c\n0,1\n // d\n1.5,-2.5\n",
+    "quoted comment": b'"# a, ""b"", c",\nt [s],x [mm]\n0,1\n"# d",\n1.5,-2.5\n',
+    "round brackets": b"t (s),x (mm)\n0,1\n1.5,-2.5\n",
+    "round brackets, blanks": b"t (s) x (mm)\n0 1\n1.5 -2.5\n",
+    "row of units": b"t,x\ns,mm\n0,1\n1.5,-2.5\n",
+    "row of units in brackets": b"t;x.cmd\n# a\n[s];(mm)\n0;1\n1.5;-2.5\n",
+    "row of units, blanks": b"t x\ns mm\n0 1\n1.5 -2.5\n",
+    "units repeated": b"t [s],x [mm]\ns,mm\n0,1\n1.5,-2.5\n",
+    "no-break spaces": "t\u00a0[s],x\u202f[mm]\n0,1\n1.5\u00a0,\u00a0-2.5\n".encode(),
+    "CR": b"t [s],x [mm]\r0,1\r1.5,-2.5\r",
+    "UTF-16": "t [s]\tx [mm]\r\n0\t1\r\n1,5\t-2,5\r\n".encode("utf-16"),
+    "UTF-16, big end first": "\ufefft [s],x [mm]\r0,1\r1.5,-2.5".encode("utf-16-be"),
+    "compressed UTF-16": gzip.compress("t [s],x [mm]\n0,1\n1.5,-2.5\n".encode("utf-16")),
     "comments anywhere": b"# a\nt [s],x [mm]\n#\n0,1\n  # between\n1.5,-2.5\n# end",
 }
 
@@ -166,3 +191,55 @@ def test_a_compressed_example(shared_dir: Path) -> None:
 def test_a_table_of_another_kind_is_refused(shared_dir: Path) -> None:
     with pytest.raises(ValueError, match=r"kinematics.csv:2:1: .*must be time"):
         read_record(shared_dir / "reference" / "kinematics.csv")
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        b"t [s],x [m]\n0,1000.5\n1,1008.25",
+        b"t [s],x [m]\n0,1\n1,125",
+        b"t [s],x [m]\n0,1.5\n1,2.5",
+    ],
+)
+def test_a_last_number_that_may_be_cut_off_is_warned_of(
+    content: bytes, write_file: WriteFile, limits: Limits, caplog: pytest.LogCaptureFixture
+) -> None:
+    record = read_record(write_file(content), limits=limits)
+    assert len(record.time_s) == 2
+    assert [entry.levelname for entry in caplog.records] == ["WARNING"]
+    assert "run.csv:3: the last line has no line end; if the file was cut off" in caplog.text
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        b"t [s],x [m]\n0,1.50\n1,2.25",
+        b"t [s];x [m]\n0;1,50e-03\n1;2,25e-04",
+        b"t [s],x [m]\n0,1.5\n1,2.25\n",
+        b"t [s],x [m]\n0,1.5\n1,2.25\n# end",
+        b"t [s],x [m]\n0,1.5\n1,2.25\n  ",
+    ],
+)
+def test_a_last_number_that_is_whole_is_not_warned_of(
+    content: bytes, write_file: WriteFile, limits: Limits, caplog: pytest.LogCaptureFixture
+) -> None:
+    assert len(read_record(write_file(content), limits=limits).time_s) == 2
+    assert not caplog.records
+
+
+def test_a_warning_quotes_no_control_characters(
+    write_file: WriteFile, caplog: pytest.LogCaptureFixture
+) -> None:
+    read_record(write_file("t [s],x [m]\n0,1", "a\nb.csv"))
+    assert "a\\nb.csv:2: the last line" in caplog.text
+
+
+def test_a_file_saved_by_a_spreadsheet_keeps_its_metadata(write_file: WriteFile) -> None:
+    content = '# rotemina-record: 1,,\n# mode: open_loop,,\n"# note: a, ""b""",,\n'
+    record = read_record(write_file(content + "t [s],x [m],\n0,1,\n"))
+    assert record.metadata == {"mode": "open_loop", "note": 'a, "b"'}
+
+
+def test_quoted_thousands_are_read_where_the_decimal_sign_is_known(write_file: WriteFile) -> None:
+    path = write_file('t [s],x [m]\n"0,5","1,234"\n"1,5","2,5"\n')
+    assert read_record(path).values.tolist() == [[1.234], [2.5]]

@@ -8,8 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rotemina.sim.records import fast_rows
+from rotemina.sim.records.fields import SEPARATORS
 from rotemina.sim.records.file_blocks import Block
-from rotemina.sim.records.layout import SEPARATORS, Layout, parse_columns
+from rotemina.sim.records.layout import Layout, parse_columns
 from rotemina.sim.records.record import RecordError
 from rotemina.sim.records.row_parsing import RowParser
 
@@ -51,6 +52,7 @@ numbers = st.one_of(
 ODDITIES = (
     '.|nan|inf|-Infinity|1_0|0x1|1 2|"1"|1e|+|--1|1e5.0|1d3|1,5|1.5|1,2,3|1.2.3|null|true|#|'
     "\u00a01|\uff11|\udcff|1\r|\f1|.5|5.|+5|-0|-0.0|1E5|1e400|1e-400|5e-324|00012|\v|1\x1c|"
+    '"|"1|1"|""|"1,5"|"1 "|"1"2|""1""|"1;2"|#N/A|%1|//|t [s]|1,234|"1,234"|'
 )
 oddities = st.sampled_from(ODDITIES.split("|"))
 blanks = st.sampled_from(["", "", "", " ", "\t", "  "])
@@ -61,6 +63,7 @@ ends = st.sampled_from(["", "", "", "\r", " ", "\t", " \r"])
 def fields(draw: st.DrawFn, content: st.SearchStrategy[str], comma: bool) -> str:
     text = draw(content)
     text = text.replace(".", ",") if comma else text
+    text = f'"{text}"' if draw(st.integers(0, 4)) == 0 else text
     return draw(blanks) + text + draw(blanks)
 
 
@@ -76,7 +79,8 @@ def files(draw: st.DrawFn, odd: bool) -> tuple[list[str], str]:
         time = draw(oddities) if odd and draw(st.integers(0, 9)) == 0 else f"{step}.25"
         time = time.replace(".", ",") if comma else time
         row = [time, *(draw(fields(content, comma)) for _ in range(count))]
-        lines.append(draw(blanks) + separator.join(row) + draw(ends))
+        fillers = separator * draw(st.sampled_from([0, 0, 0, 1, 3]))
+        lines.append(draw(blanks) + separator.join(row) + fillers + draw(ends))
         lines.extend(draw(st.sampled_from([[], [], [], [""], ["# note: 1.5,2"], ["  \r"]])))
     return lines, separator
 
@@ -123,6 +127,9 @@ def test_every_decimal_number_is_rounded_as_python_does(text: str) -> None:
         ("0;1,5;2\n1;2,5;3\n", ";"),
         ("  0   1\t2\n 1  2    3 \n", " "),
         ("\n\n0 \t 1\t2\n\n\n\n\n1\t2\t3\n", "\t"),
+        ('"0";"1,5"; "2"\n1;"2,5";3\r\n', ";"),
+        ("0;1;2;\n1;2;3;\n", ";"),
+        ("% c\n0,1,2,,\n// d\n\n1,2,3\n", ","),
     ],
 )
 def test_the_fast_parser_is_used(
