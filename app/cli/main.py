@@ -1,11 +1,12 @@
 """The command ``rotemina``: the window, and subcommands that do its work without one.
 
-Exit status: 0 done · 2 bad input, one clear line on stderr · 130 interrupted · 1 a fault of the
-program.
+Exit status: 0 done · 2 bad input, one clear line on stderr · 1 a fault of the program · 128 + its
+number for a signal that asked for an end, such as 130 for Ctrl-C.
 """
 
 import argparse
 import os
+import signal
 import sys
 from collections.abc import Sequence
 from functools import partial
@@ -15,6 +16,7 @@ from typing import NoReturn
 
 from rotemina.app.cli import window
 from rotemina.app.cli.language import wording
+from rotemina.app.cli.termination import interrupted_by_signals
 from rotemina.app.cli.translated_help import (
     CONTEXT,
     language_asked,
@@ -33,7 +35,18 @@ SUBCOMMANDS = (
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit status."""
-    spoken = wording(language_asked(arguments))
+    spoken = Wording()
+    with interrupted_by_signals() as signals:
+        try:
+            spoken = wording(language_asked(arguments))
+            return _run(arguments, spoken)
+        except KeyboardInterrupt:
+            said = message("cli", "interrupted")
+            print(f"rotemina: {spoken.of(said)}", file=sys.stderr)
+            return 128 + (signals[-1] if signals else signal.SIGINT)
+
+
+def _run(arguments: Sequence[str] | None, spoken: Wording) -> int:
     text = partial(spoken.text, CONTEXT)
     translate_argparse(text)
     parser = build_parser(_needed(sys.argv[1:] if arguments is None else arguments))
@@ -59,10 +72,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
         )
         print(f"rotemina: {options.wording.of(said)}", file=sys.stderr)
         return 2
-    except KeyboardInterrupt:
-        said = message("cli", "interrupted")
-        print(f"rotemina: {options.wording.of(said)}", file=sys.stderr)
-        return 130
 
 
 def _needed(arguments: Sequence[str]) -> Sequence[str]:
