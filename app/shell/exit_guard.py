@@ -1,4 +1,4 @@
-"""Calls that would end the program are refused while the window is open.
+"""What asks the program to end: signals, and calls, which are refused while the window is open.
 
 In a slot or a paint event, Qt's binding ends the process for a SystemExit without asking any hook
 of Python's. So what code usually raises one by raises another error, which the hooks hear of. A
@@ -7,10 +7,15 @@ to be called at its end, and the watchdog beside it, stop the machine.
 """
 
 import builtins
+import signal
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+#: Signals that ask the program to end; Windows lacks the last.
+TERMINATION_SIGNALS = tuple(
+    number for number in signal.Signals if number.name in ("SIGINT", "SIGTERM", "SIGHUP")
+)
 _PLACES = ((sys, "exit"), (builtins, "exit"), (builtins, "quit"))
 
 

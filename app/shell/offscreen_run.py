@@ -1,7 +1,8 @@
 """The window's main job without a display: play, compare, correct; leave picture and report."""
 
 import signal
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import NamedTuple
 
@@ -12,6 +13,7 @@ from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import SessionState
 from rotemina.app.settings import Settings
 from rotemina.app.shell import language
+from rotemina.app.shell.exit_guard import TERMINATION_SIGNALS
 from rotemina.app.shell.gap_words import run_lines
 from rotemina.app.shell.layouts import DIAGNOSE
 from rotemina.app.shell.main_window import MainWindow
@@ -32,6 +34,7 @@ TIME_LIMIT_MS = 120_000
 DIAGNOSIS_LIMIT_MS = 600_000  # on a busy computer; 15 s are usual
 SIZE = (1280, 800)
 _INTERRUPTED = "interrupted"
+_SIGNAL_CHECK_MS = 100
 _TOO_LONG = "no end within the time that is usual by far"
 _OTHER_PACE = 0.83  # of a motion that no record holds
 
@@ -59,6 +62,34 @@ def run(session: MotionSession, output: Path) -> int:
                 output=output, strerror=str(error.strerror)
             )
         ) from error
+    with _received_signals() as signals:
+        _run(session, output, signals)
+    return 0
+
+
+@contextmanager
+def _received_signals() -> Iterator[Sequence[int]]:
+    """Return the signals received that ask for an end; the latest takes effect afterwards.
+
+    They do not interrupt at once: an exception in a slot would be lost, and one in a panel would
+    look like a fault of that panel.
+    """
+    received: list[int] = []
+
+    def note(number: int, _: object) -> None:
+        received.append(number)
+
+    before = {number: signal.signal(number, note) for number in TERMINATION_SIGNALS}
+    try:
+        yield received
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+        if received:
+            signal.raise_signal(received[-1])
+
+
+def _run(session: MotionSession, output: Path, signals: Sequence[int]) -> None:
     settings = Settings(output / "settings.json")
     if not settings.get(language.SETTING, ""):
         settings.set(language.SETTING, language.ENGLISH)  # as what it prints and writes
@@ -69,9 +100,9 @@ def run(session: MotionSession, output: Path) -> int:
         window.show()
         window.workbench.start()
         if worn and window.panels.make("gap") is not None:
-            told = tell_the_story(window, worn)
+            told = tell_the_story(window, worn, signals)
         else:
-            told = Story((play(window, example_for(session.robot)),))
+            told = Story((play(window, example_for(session.robot), signals),))
         picture = output / "window.png"
         if not window.grab().save(str(picture)):
             raise OffscreenError(
@@ -80,7 +111,6 @@ def run(session: MotionSession, output: Path) -> int:
         _report(told, output)
     finally:
         window.workbench.close()
-    return 0
 
 
 class Story(NamedTuple):
@@ -90,7 +120,9 @@ class Story(NamedTuple):
     found: str = ""
 
 
-def tell_the_story(window: MainWindow, effects: tuple[AxisEffect, ...]) -> Story:
+def tell_the_story(
+    window: MainWindow, effects: tuple[AxisEffect, ...], signals: Sequence[int] = ()
+) -> Story:
     """Let the simulated machine be worn; play, diagnose, use the corrected model, play again.
 
     Raises
@@ -99,22 +131,22 @@ def tell_the_story(window: MainWindow, effects: tuple[AxisEffect, ...]) -> Story
         With the notice that the window shows, if anything goes wrong.
     """
     bench, panel = window.workbench, window.panels["gap"]
-    _wait(window, bench.refreshed, lambda: bench.session.snapshot().locked is None)
+    _wait(window, signals, bench.refreshed, lambda: bench.session.snapshot().locked is None)
     bench.session.service.set_effects(effects)
     _say("playing on a worn machine …")
-    before = play(window, demonstration(bench.robot))
+    before = play(window, demonstration(bench.robot), signals)
     window.bring_up("gap")
     _say("diagnosing …")
     panel.diagnose()
-    _wait(window, bench.refreshed, lambda: panel.answer is not None, DIAGNOSIS_LIMIT_MS)
-    _wait(window, bench.refreshed, panel.result.use.isEnabled)
+    _wait(window, signals, bench.refreshed, lambda: panel.answer is not None, DIAGNOSIS_LIMIT_MS)
+    _wait(window, signals, bench.refreshed, panel.result.use.isEnabled)
     _say("using the corrected model …")
     panel.result.use.click()
-    _wait(window, bench.refreshed, lambda: bench.run.model_id.startswith("corrected"))
-    _wait(window, bench.refreshed, lambda: not bench.busy)
+    _wait(window, signals, bench.refreshed, lambda: bench.run.model_id.startswith("corrected"))
+    _wait(window, signals, bench.refreshed, lambda: not bench.busy)
     _say("playing another motion …")
-    after = play(window, demonstration(bench.robot, _OTHER_PACE))
-    _wait(window, bench.refreshed, lambda: panel.result.proof.proof is not None)
+    after = play(window, demonstration(bench.robot, _OTHER_PACE), signals)
+    _wait(window, signals, bench.refreshed, lambda: panel.result.proof.proof is not None)
     window.arrangement.arrange(DIAGNOSE)
     window.bring_up("gap")
     panel.show_proof()
@@ -124,17 +156,20 @@ def tell_the_story(window: MainWindow, effects: tuple[AxisEffect, ...]) -> Story
 
 def _wait(
     window: MainWindow,
+    signals: Sequence[int],
     tick: SignalInstance,
     done: Callable[[], bool],
     limit_ms: int = TIME_LIMIT_MS,
     grave: tuple[Level, ...] = (Level.ERROR,),
 ) -> None:
-    """Let the window live until something is so, or a notice is grave.
+    """Let the window live until something is so, a signal asks for an end, or a notice is grave.
 
     Raises
     ------
     OffscreenError
         With the notice that it shows, or that it takes too long.
+    KeyboardInterrupt
+        If a signal has asked for an end.
     """
     loop = QEventLoop()
     outcome: list[str] = []
@@ -151,14 +186,20 @@ def _wait(
         if done():
             finish("")
 
-    before = signal.signal(signal.SIGINT, lambda *_: finish(_INTERRUPTED))
+    def check_signals() -> None:
+        if signals:
+            finish(_INTERRUPTED)
+
+    signal_check = QTimer(loop, interval=_SIGNAL_CHECK_MS)
+    signal_check.timeout.connect(check_signals)
+    signal_check.start()
     window.workbench.noticed.connect(noticed)
     tick.connect(look)
     QTimer.singleShot(limit_ms, loop, lambda: finish(_TOO_LONG))
     loop.exec()
     tick.disconnect(look)
     window.workbench.noticed.disconnect(noticed)
-    signal.signal(signal.SIGINT, before)
+    signal_check.stop()
     if outcome[0] == _INTERRUPTED:
         raise KeyboardInterrupt
     if outcome[0]:
@@ -176,7 +217,7 @@ def _rest() -> None:
     loop.exec()
 
 
-def play(window: MainWindow, trajectory: Record) -> Run:
+def play(window: MainWindow, trajectory: Record, signals: Sequence[int] = ()) -> Run:
     """Plan and play a trajectory in a window, and wait for its comparison.
 
     Raises
@@ -195,7 +236,7 @@ def play(window: MainWindow, trajectory: Record) -> Run:
     bench.plan_trajectory(trajectory.metadata.get("name", "example"), trajectory)
     bench.refreshed.connect(begin)
     grave = (Level.ERROR, Level.WARNING)
-    _wait(window, bench.run_changed, lambda: True, grave=grave)
+    _wait(window, signals, bench.run_changed, lambda: True, grave=grave)
     run = bench.run
     _rest()
     return run

@@ -3,14 +3,17 @@
 import gc
 import logging
 import os
+import signal
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 
 from rotemina.app.driver_settings import assigned, kept
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.settings import Settings
 from rotemina.app.shell.display_check import display_fault
+from rotemina.app.shell.exit_guard import TERMINATION_SIGNALS
 from rotemina.app.system_check import complaint, missing_libraries, platform_in_use
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.registry import driver_named
@@ -58,12 +61,17 @@ def start(
         print(f"rotemina: {complaint(missing)}", file=sys.stderr)
         return 1
 
-    from rotemina.app.shell import qt_imports, qt_messages  # Qt may be loaded from here on
+    if reason:
+        with _signals_end_at_once():
+            _load_qt()
+            from rotemina.app.shell import offscreen_run
 
-    qt_imports.spare_source_search()
-    qt_messages.log_qt_messages()
-    if not reason:
-        gc.disable()  # what is loaded stays: looks through it take a tenth of a start
+            session = MotionSession(kind(described, given))
+        print(f"No window ({reason}): doing the main job offscreen instead.")
+        return offscreen_run.run(session, output)
+    gc.disable()  # what is loaded stays: looks through it take a tenth of a start
+    with _signals_end_at_once():
+        _load_qt()
         from rotemina.app.shell.application import show_splash
 
         splash = show_splash()
@@ -71,11 +79,28 @@ def start(
 
         settings = Settings()
         session = MotionSession(_driver(kind, described, given, settings))
-        return window_run.run(session, settings, speaks=speaks, splash=splash)
-    from rotemina.app.shell import offscreen_run
+    return window_run.run(session, settings, speaks=speaks, splash=splash)
 
-    print(f"No window ({reason}): doing the main job offscreen instead.")
-    return offscreen_run.run(MotionSession(kind(described, given)), output)
+
+def _load_qt() -> None:
+    from rotemina.app.shell import qt_imports, qt_messages  # Qt may be loaded from here on
+
+    qt_imports.spare_source_search()
+    qt_messages.log_qt_messages()
+
+
+@contextmanager
+def _signals_end_at_once() -> Iterator[None]:
+    """Let a signal end the process while nothing is open yet.
+
+    Qt's binding aborts if an exception, such as that of Ctrl-C, interrupts its import.
+    """
+    handlers = {number: signal.signal(number, signal.SIG_DFL) for number in TERMINATION_SIGNALS}
+    try:
+        yield
+    finally:
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
 
 
 def _driver(

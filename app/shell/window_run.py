@@ -4,7 +4,7 @@ import atexit
 import gc
 import signal
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import pyqtgraph as pg
@@ -20,7 +20,7 @@ from rotemina.app.settings import Settings
 from rotemina.app.shell import language
 from rotemina.app.shell import theme as themes
 from rotemina.app.shell.application import make_application
-from rotemina.app.shell.exit_guard import exits_refused
+from rotemina.app.shell.exit_guard import TERMINATION_SIGNALS, exits_refused
 from rotemina.app.shell.layouts import OPERATE
 from rotemina.app.shell.main_window import MainWindow
 from rotemina.app.shell.memory_allocator import give_back, trim_heap
@@ -130,6 +130,20 @@ def run(
         atexit.unregister(session.stop)
 
 
+def _leave_on_signals(leave: Callable[[], None]) -> Sequence[int]:
+    """Let each signal that asks for an end call ``leave``; return the numbers of those received."""
+    received: list[int] = []
+
+    def receive(number: int, _: object) -> None:
+        received.append(number)
+        # Not called here: a handler may interrupt anything, also a lock that closing needs.
+        QTimer.singleShot(0, leave)
+
+    for number in TERMINATION_SIGNALS:
+        signal.signal(number, receive)
+    return received
+
+
 def _run(
     session: MotionSession, settings: Settings, speaks: str | None, splash: QWidget | None
 ) -> int:
@@ -141,9 +155,7 @@ def _run(
         window.workbench.stop()  # whoever sends a signal may not be there to be asked
         application.closeAllWindows()
 
-    # Only asked for here: a handler may interrupt anything, a lock that closing needs as well.
-    for name in {"SIGINT", "SIGTERM", "SIGHUP"} & signal.Signals.__members__.keys():
-        signal.signal(signal.Signals[name], lambda *_: QTimer.singleShot(0, leave))
+    signals = _leave_on_signals(leave)
     window = make_window(session, settings, speaks=speaks)
     panels = window.panels
     watch = PanelWatch(
@@ -203,4 +215,4 @@ def _run(
     watched.close()
     watch.remove()
     end_tidying()
-    return status
+    return 128 + signals[-1] if signals else status

@@ -1,7 +1,12 @@
-"""The run without a display waits until the machine is at rest before it plays."""
+"""The run without a display: it plays once the machine is at rest, and a signal ends it."""
+
+import signal
 
 import numpy as np
+import pytest
 
+from rotemina.app.panel import Panel
+from rotemina.app.shell import offscreen_run
 from rotemina.app.shell.offscreen_run import play
 from rotemina.sim.records.record import Record, Tap
 
@@ -28,3 +33,24 @@ def test_a_motion_begins_once_nothing_is_handed_over_any_more(window, monkeypatc
     assert run.completed
     (after,) = began
     assert after > LOOKS
+
+
+def test_a_signal_while_a_panel_is_made_ends_the_run(window, tmp_path, monkeypatch):
+    class InterruptedPanel(Panel):
+        title = "Interrupted"
+
+        def __init__(self, workbench):
+            super().__init__(workbench)
+            signal.raise_signal(signal.SIGINT)
+
+    def make_window(*_):
+        window.panels.kinds["interrupted"] = InterruptedPanel
+        window.panels.placed = lambda *_: None
+        assert window.panels.make("interrupted") is not None
+        return window
+
+    monkeypatch.setattr(offscreen_run, "make_window", make_window)
+    monkeypatch.setattr(offscreen_run, "worn_effects", lambda _: ())
+    with pytest.raises(KeyboardInterrupt):
+        offscreen_run.run(window.workbench.session, tmp_path)
+    assert not (tmp_path / "record.csv").exists()

@@ -103,8 +103,8 @@ sys.exit(run(session, Settings(Path(sys.argv[1]) / "settings.json"), splash=spla
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP"])
-def test_a_program_that_is_told_to_end_stops_the_machine_first(tmp_path, name):
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP"])
+def test_a_signal_stops_the_machine_before_the_program_ends(tmp_path, name):
     with subprocess.Popen(
         [sys.executable, "-c", PROGRAM, str(tmp_path)],
         env={**os.environ, "XDG_DATA_HOME": str(tmp_path), "QT_QPA_PLATFORM": "offscreen"},
@@ -115,4 +115,4 @@ def test_a_program_that_is_told_to_end_stops_the_machine_first(tmp_path, name):
         program.send_signal(signal.Signals[name])
         assert program.stdout.readline() == "stopped, splash gone\n"
         program.stdout.read()
-    assert program.returncode == 0
+    assert program.returncode == 128 + signal.Signals[name]
