@@ -12,7 +12,7 @@ from itertools import count
 from time import monotonic
 from typing import ClassVar
 
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QAbstractButton, QWidget
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.workbench import Workbench
@@ -21,7 +21,33 @@ from rotemina.sim.plugin_points import API_VERSIONS
 API_VERSION = API_VERSIONS["rotemina.panels"]
 STALE_S = 0.5  # data older than this is shown as old
 HIDDEN_S = 0.2  # between two looks of a panel that is out of sight
+_PALETTE_OFFER = "paletteOffer"
 _made = count()
+
+
+class PaletteOffer(StrEnum):
+    """When the command palette may click a button."""
+
+    WHILE_VISIBLE = "while visible"
+    ALWAYS = "always"
+
+
+def offer_in_palette(*buttons: QAbstractButton, safe_while_hidden: bool = False) -> None:
+    """Offer buttons of a panel in the command palette, which has none by itself.
+
+    Unless they are ``safe_while_hidden``, the palette clicks them only while their panel is
+    visible, and otherwise opens the panel instead. Only what moves nothing and switches nothing of
+    the machine is safe while hidden, and what stops it.
+    """
+    offer = PaletteOffer.ALWAYS if safe_while_hidden else PaletteOffer.WHILE_VISIBLE
+    for button in buttons:
+        button.setProperty(_PALETTE_OFFER, offer.value)
+
+
+def palette_offer(button: QAbstractButton) -> PaletteOffer | None:
+    """Return when the command palette may click a button; None if it is not offered."""
+    offer = button.property(_PALETTE_OFFER)
+    return PaletteOffer(offer) if offer else None
 
 
 class Area(StrEnum):

@@ -46,7 +46,14 @@ def always() -> str | None:
 
 
 class Command(NamedTuple):
-    """One entry of a menu; ``why_not`` says what stands against it now, None for nothing."""
+    """One entry of a menu.
+
+    Attributes
+    ----------
+    why_not : says what stands against it now, None for nothing
+    panel : for what may move or switch something, name of the panel that must be visible for the
+        command palette to run it; "" for anything else, and for what stops the machine
+    """
 
     menu: str
     text: str
@@ -54,6 +61,7 @@ class Command(NamedTuple):
     run: Callable[[], object]
     tip: str
     why_not: Callable[[], str | None] = always
+    panel: str = ""
 
 
 def _unless(able: Callable[[], object], reason: str) -> Callable[[], str | None]:
@@ -124,6 +132,7 @@ def _motion(window: _Window) -> list[Command]:
             bench.toggle_playback,
             translate("shell", "The trajectory"),
             no_play,
+            "trajectory",
         ),
         command(
             translate("shell", "&Stop"),
@@ -143,6 +152,7 @@ def _motion(window: _Window) -> list[Command]:
             bench.release,
             translate("shell", "Let axes move"),
             _unless(lambda: state().latched, translate("shell", "the machine is not locked")),
+            "connection",
         ),
         command(
             translate("shell", "&Back to the previous position"),
@@ -152,6 +162,7 @@ def _motion(window: _Window) -> list[Command]:
             _unless(
                 lambda: bench.session.undoable, translate("shell", "there is no previous position")
             ),
+            "control",
         ),
         command(
             translate("shell", "&Home all axes"),
@@ -159,6 +170,7 @@ def _motion(window: _Window) -> list[Command]:
             bench.home,
             translate("shell", "Find the limit switches"),
             no_device,
+            "control",
         ),
         command(
             translate("shell", "&Clear fault"),
@@ -166,6 +178,7 @@ def _motion(window: _Window) -> list[Command]:
             bench.clear_fault,
             translate("shell", "Acknowledge the fault"),
             _unless(lambda: state().fault, translate("shell", "there is no fault")),
+            "connection",
         ),
         command(
             translate("shell", "C&onnect …"),
@@ -179,6 +192,7 @@ def _motion(window: _Window) -> list[Command]:
             bench.reconnect,
             translate("shell", "Connect after a failure"),
             _unless(lambda: not connected(), translate("shell", "already connected")),
+            "connection",
         ),
         command(
             translate("shell", "&Disconnect"),
@@ -186,6 +200,7 @@ def _motion(window: _Window) -> list[Command]:
             bench.let_go,
             translate("shell", "Stop and disconnect"),
             no_device,
+            "connection",
         ),
     ]
 

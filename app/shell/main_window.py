@@ -37,7 +37,7 @@ from rotemina.app.shell.message_log import MessageLog
 from rotemina.app.shell.motion_bar import MotionBar
 from rotemina.app.shell.notices import NoticeBar
 from rotemina.app.shell.palette import Palette
-from rotemina.app.shell.palette_entries import Entry, command_entries, panel_entries
+from rotemina.app.shell.palette_entries import Entry, PanelGuard, command_entries, panel_entries
 from rotemina.app.shell.panel_declarations import PanelKind
 from rotemina.app.shell.panel_host import find_panels
 from rotemina.app.shell.progress_line import ProgressLine
@@ -376,14 +376,20 @@ class MainWindow(ArrangedWindow):
             self.palette_page.open_anew()
 
     def _entries(self) -> Iterator[Entry]:
-        yield from command_entries(self.commands())
+        self.panels.make_all()
+        guard = PanelGuard(
+            self.panels.made,
+            self.docks,
+            self.bring_up,
+            lambda text: self.workbench.notify(Level.INFO, text),
+        )
+        yield from command_entries(self.commands(), guard)
         use = self.arrangement.use_kept
         for name in self.arrangement.kept.names():
             yield Entry(translate("shell", "Layout"), name, "", None, lambda name=name: use(name))
         yield from language_entries(self.workbench)
         yield from self.reloading.entries()
-        self.panels.make_all()
-        yield from panel_entries(self.panels.made, self.docks, self.bring_up)
+        yield from panel_entries(guard)
 
     def help_here(self) -> None:
         """Show the page of the panel that has the focus, or had it last; else the window's."""

@@ -25,7 +25,9 @@ _UNABLE = 0.7  # what cannot be done now comes after what fits about as well
 
 
 class Palette(QDialog):
-    """A field and the list of what fits it, what has just this name first; Enter does the marked.
+    """A field and the list of what fits it; Enter does the marked.
+
+    First come panels whose title fits, then what has just this name, then the rest.
 
     What cannot be done now is listed too, with the reason; Enter on it does nothing.
 
@@ -103,9 +105,11 @@ class Palette(QDialog):
             if fits is not None:
                 worth = fits if entry.why_not is None else _UNABLE * fits
                 named = typed.strip().casefold() == entry.what.casefold()
-                found.append((not named, -worth, entry.why_not is not None, number, entry))
-        found.sort(key=lambda each: each[:4])
-        self._shown = tuple(entry for *_, entry in found)
+                titled = entry.is_panel and score(typed, entry.what) is not None
+                rank = (not titled, not named, -worth, entry.why_not is not None, number)
+                found.append((rank, entry))
+        found.sort(key=lambda each: each[0])
+        self._shown = tuple(entry for _, entry in found)
         self.list.clear()
         for entry in self._shown:
             self.list.addItem(_item(entry))
@@ -118,12 +122,18 @@ class Palette(QDialog):
                 "" if self._shown else translate("shell", "No command contains these letters.")
             )
             return
-        reason = self._shown[row].why_not
-        self.reason.setText(
-            translate("shell", "Not now: {reason}.").format(reason=reason)
-            if reason
-            else translate("shell", "Press Enter to run it.")
-        )
+        entry = self._shown[row]
+        if entry.why_not:
+            text = translate("shell", "Not now: {reason}.").format(reason=entry.why_not)
+        elif entry.opens:
+            text = translate(
+                "shell",
+                "Press Enter to open {panel}. This may move or switch something, and runs only"
+                " while {panel} is visible.",
+            ).format(panel=entry.opens)
+        else:
+            text = translate("shell", "Press Enter to run it.")
+        self.reason.setText(text)
 
 
 def _item(entry: Entry) -> QListWidgetItem:

@@ -1,7 +1,8 @@
-"""What the command palette offers: the window's commands, its panels, and their buttons."""
+"""What the command palette offers: the window's commands, its panels, and buttons of these."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import partial
 
 from PySide6.QtWidgets import (
     QAbstractButton,
@@ -13,7 +14,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.panel import Panel
+from rotemina.app.panel import PaletteOffer, Panel, palette_offer
 from rotemina.app.shell.commands import Command
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
@@ -33,6 +34,8 @@ class Entry:
     shortcut : "" where there is none
     why_not : why it cannot be done now, or None
     run : does it
+    is_panel : whether it shows a panel
+    opens : title of the panel that it shows instead, "" where it acts
     """
 
     where: str
@@ -40,6 +43,8 @@ class Entry:
     shortcut: str
     why_not: str | None
     run: Callable[[], object]
+    is_panel: bool = False
+    opens: str = ""
 
     @property
     def text(self) -> str:
@@ -47,33 +52,92 @@ class Entry:
         return f"{self.where}: {self.what}"
 
 
-def command_entries(commands: Iterable[Command]) -> Iterator[Entry]:
+@dataclass(frozen=True, slots=True)
+class PanelGuard:
+    """Lets the palette move or switch something only while its panel is visible.
+
+    Attributes
+    ----------
+    panels, docks : by name; a central panel has no dock
+    show : shows a panel by its name
+    notify : tells the operator something
+    """
+
+    panels: Mapping[str, Panel]
+    docks: Mapping[str, QDockWidget]
+    show: Callable[[str], object]
+    notify: Callable[[str], object]
+
+    def title(self, name: str) -> str:
+        """Return the title of a panel, in the window's language."""
+        if name in self.docks:
+            return self.docks[name].windowTitle()
+        return translate("panels", self.panels[name].title) if name in self.panels else name
+
+    def hidden_panel(self, name: str, button: QWidget | None = None) -> str:
+        """Return the title of a panel that is hidden, or whose button is; "" if it is visible."""
+        panel = self.panels.get(name)
+        visible = (
+            panel is not None
+            and panel.isVisible()
+            and not panel.visibleRegion().isEmpty()  # behind another dock it is empty
+            and (button is None or button.isVisible())
+        )
+        return "" if visible else self.title(name)
+
+    def run(
+        self, name: str, what: str, act: Callable[[], object], button: QWidget | None = None
+    ) -> None:
+        """Act while a panel is visible; otherwise show it, with its button, and say so."""
+        hidden = self.hidden_panel(name, button)
+        if not hidden:
+            act()
+            return
+        self.show(name)
+        if button is not None:
+            _bring_up(button)
+        text = translate(
+            "shell",
+            "{what}: not run, because it may move or switch something and {panel} was hidden."
+            " {panel} is open now. Check it, then run the command again.",
+        )
+        self.notify(text.format(what=what, panel=hidden))
+
+
+def command_entries(commands: Iterable[Command], guard: PanelGuard) -> Iterator[Entry]:
     """Yield an entry for each command of the menus."""
     for command in commands:
         where, what = command.menu.replace("&", ""), command.text.replace("&", "")
-        reason = command.why_not()
-        yield Entry(
-            where, what, command.shortcut, None if reason is None else spoken(reason), command.run
-        )
+        reason, run, opens = command.why_not(), command.run, ""
+        if command.panel and command.panel not in guard.panels:
+            reason = translate("shell", "its panel is missing; use the menu")
+        elif command.panel:
+            run = partial(guard.run, command.panel, what, command.run)
+            opens = guard.hidden_panel(command.panel)
+        why = None if reason is None else spoken(reason)
+        yield Entry(where, what, command.shortcut, why, run, opens=opens)
 
 
-def panel_entries(
-    panels: Mapping[str, Panel], docks: Mapping[str, QDockWidget], show: Callable[[str], object]
-) -> Iterator[Entry]:
-    """Yield an entry that shows each panel, and one for each of its buttons.
+def panel_entries(guard: PanelGuard) -> Iterator[Entry]:
+    """Yield an entry that shows each panel, and one for each button that it offers.
 
     Only buttons that act when they are clicked: one that must be held down (``held``) is left out.
     """
-    for name, panel in panels.items():
-        title = docks[name].windowTitle() if name in docks else translate("panels", panel.title)
-        yield Entry(translate("shell", "Panel"), title, "", None, lambda name=name: show(name))
-        for button in _buttons(panel):
+    for name, panel in guard.panels.items():
+        title = guard.title(name)
+        yield Entry(
+            translate("shell", "Panel"), title, "", None, partial(guard.show, name), is_panel=True
+        )
+        for button, offer in _offered_buttons(panel):
+            guarded = offer is PaletteOffer.WHILE_VISIBLE
+            press = partial(_press, name, button, guard.show)
             yield Entry(
                 title,
                 _words(button),
                 button.shortcut().toString(),
                 _why_not(button),
-                lambda name=name, button=button: _press(name, button, show),
+                partial(guard.run, name, _words(button), press, button) if guarded else press,
+                opens=guard.hidden_panel(name, button) if guarded else "",
             )
 
 
@@ -92,16 +156,17 @@ def _bring_up(widget: QWidget) -> None:
         child, parent = parent, parent.parentWidget()
 
 
-def _buttons(panel: QWidget) -> Iterator[QAbstractButton]:
+def _offered_buttons(panel: QWidget) -> Iterator[tuple[QAbstractButton, PaletteOffer]]:
     for button in panel.findChildren(QAbstractButton):
+        offer = palette_offer(button)
         kind = isinstance(button, QPushButton | QToolButton)
         # What opens a menu would wait until that is closed, and the menu wants a mouse.
         plain = kind and button.menu() is None and not button.property("held")
-        if plain and _words(button) and _offered(button, panel):
-            yield button
+        if offer is not None and plain and _words(button) and _is_shown(button, panel):
+            yield button, offer
 
 
-def _offered(widget: QWidget, panel: QWidget) -> bool:
+def _is_shown(widget: QWidget, panel: QWidget) -> bool:
     """Whether a button is there for the operator; behind another tab counts."""
     child: QWidget | None = widget
     while child is not None and child is not panel:

@@ -9,7 +9,7 @@ from rotemina.app.calibration.files import Source, kept, source_of
 from rotemina.app.calibration.store import Stored
 from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.motion.state import SessionState
-from rotemina.app.panel import Area, Panel
+from rotemina.app.panel import Area, Panel, offer_in_palette
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.file_dialog import ask_files
 from rotemina.app.shell.language import marked
@@ -59,6 +59,10 @@ class CalibrationPanel(Panel):
         self.tabs.setTabEnabled(_ISO, False)
         lay_beside(self, self.procedure, _WIDTH, self.tabs, self.views)
         self._connect()
+        offer_in_palette(self.procedure.run, self.result.store, self.stored.on, self.stored.off)
+        offer_in_palette(
+            self.procedure.plan, self.procedure.fit, self.procedure.stop, safe_while_hidden=True
+        )
         # Buttons are right at once: until the first frame a run without a plan could be asked for.
         self._refresh(workbench.session.snapshot())
         self._look()

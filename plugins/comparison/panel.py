@@ -7,7 +7,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel, QPushButton, QSplitter, QWidget
 
 from rotemina.app.display_units import label
-from rotemina.app.panel import Area, Panel
+from rotemina.app.panel import Area, Panel, offer_in_palette
 from rotemina.app.shell.gap_words import RUN, size
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.plot import LINES, SignalPlot
@@ -74,6 +74,7 @@ class ComparisonPanel(Panel):
         self.signals.show_times(True)
         self.gap.show_times(True)
         self._lay_out()
+        offer_in_palette(self.open, self.save, self.report, safe_while_hidden=True)
         self._show_gaps = WhenSeen(self, self._fill)
         workbench.run_changed.connect(self._show_run)
         workbench.theme_changed.connect(self._use_theme)

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QDockWidget
 
 from rotemina.app.motion.compensation import NamedInverse, check_belongs
 from rotemina.app.motion.state import SessionState
-from rotemina.app.panel import Area, Panel
+from rotemina.app.panel import Area, Panel, offer_in_palette
 from rotemina.app.shell.background_job import Job, Tell
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.file_dialog import ask_file, ask_files, ask_where
@@ -68,6 +68,9 @@ class CompensationPanel(Panel):
         )
         lay_beside(self, self.controls, _WIDTH, self.tabs, self.views)
         self._connect()
+        offer_in_palette(self.controls.switch, self.controls.apply, self.controls.trial)
+        harmless = self.controls.save, self.controls.tune, self.controls.keep, self.controls.stop
+        offer_in_palette(*harmless, safe_while_hidden=True)
         self._change_axis()
         self.controls.tell("", None)
 

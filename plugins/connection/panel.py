@@ -3,7 +3,7 @@
 from PySide6.QtWidgets import QWidget
 
 from rotemina.app.motion.state import SessionState
-from rotemina.app.panel import Area, Panel
+from rotemina.app.panel import Area, Panel, offer_in_palette
 from rotemina.app.shell.language import marked
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.layouts import in_column
@@ -49,6 +49,9 @@ class ConnectionPanel(Panel):
         in_column(*self._sections, 1, on=content, margins=(10, 4, 10, 8), spacing=4)
         in_column(scrolled(content, least=300), on=self, margins=0)
         self.follow(self._refresh)
+        offer_in_palette(self.device.connect_button, self.device.disconnect_button)
+        offer_in_palette(self.state.confirm, self.parameters.write, self.parameters.accept)
+        offer_in_palette(self.tip.teach, self.tip.remove)
         self._refresh(workbench.session.snapshot())
 
     def _refresh(self, state: SessionState) -> None:

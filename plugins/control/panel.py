@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QScrollArea, QStackedWidget, QTabBar, QVBoxLayout,
 
 from rotemina.app.display_units import stages
 from rotemina.app.motion.state import SessionState
-from rotemina.app.panel import Area, Panel
+from rotemina.app.panel import Area, Panel, offer_in_palette
 from rotemina.app.shell.language import marked
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.labels import heading
@@ -108,6 +108,7 @@ class ControlPanel(Panel):
         in_column(*parts, on=self, margins=0, spacing=0)
         workbench.shown.connect(self._show)
         self.follow(self._refresh)
+        offer_in_palette(self.positions.change, self.axes.narrow, self.axes.whole)
 
     def _pages(self) -> tuple[tuple[str, QWidget], ...]:
         return (

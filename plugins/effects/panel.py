@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QLabel, QMenu, QPushButton, QSizePolicy, QSplitter
 
 from rotemina.app.display_units import label
 from rotemina.app.motion.state import Connection, SessionState
-from rotemina.app.panel import Area, Panel
+from rotemina.app.panel import Area, Panel, offer_in_palette
 from rotemina.app.shell.engine_words import error_text
 from rotemina.app.shell.file_dialog import ask_file, ask_where
 from rotemina.app.shell.language import marked
@@ -64,6 +64,8 @@ class EffectsPanel(Panel):
         self._offer_machines()
         self.live = LiveEffects(workbench.session, self)
         self._connect()
+        offer_in_palette(self.all_off, self.undo, self.load)
+        offer_in_palette(self.save, safe_while_hidden=True)
         self._adopt(workbench.session.service.effects)
 
     # --- parts ------------------------------------------------------------------------------------

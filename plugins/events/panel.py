@@ -7,7 +7,7 @@ from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QAbstractItemView, QListWidget, QListWidgetItem, QPushButton
 
 from rotemina.app.motion.state import SessionState
-from rotemina.app.panel import Area, Panel
+from rotemina.app.panel import Area, Panel, offer_in_palette
 from rotemina.app.shell.language import marked
 from rotemina.app.shell.model_chip import model_name
 from rotemina.app.shell.theme import Theme
@@ -45,6 +45,7 @@ class EventsPanel(Panel):
         self.show_log.setToolTip(tr("All messages of the program, with filter and copy (Ctrl+L)"))
         self.show_log.clicked.connect(lambda: self.main_window.show_log())
         self._lay_out()
+        offer_in_palette(self.show_log, safe_while_hidden=True)
         workbench.refreshed.connect(self._look)
         workbench.noticed.connect(self.journal.tell)
         workbench.theme_changed.connect(self._colour)

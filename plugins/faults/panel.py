@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QSplitter, QWidget
 
 from rotemina.app.files import write_text
 from rotemina.app.motion.state import Connection, Event, SessionState
-from rotemina.app.panel import Area, Panel
+from rotemina.app.panel import Area, Panel, offer_in_palette
 from rotemina.app.shell.file_dialog import ask_where
 from rotemina.app.shell.language import marked
 from rotemina.app.shell.workbench import Level, Workbench
@@ -43,6 +43,7 @@ class FaultsPanel(Panel):
         self.save = button(tr("Save …"), self._ask_save)
         self.empty = button(tr("Clear"), self._empty)
         self._lay_out()
+        offer_in_palette(self.copy, self.save, safe_while_hidden=True)
         # Told on the session's thread: the time is taken there, not when this window has time.
         self._unsubscribe = workbench.session.subscribe(
             lambda event: self._happened.emit(now(), event)

@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QBoxLayout
 
 from rotemina.app.motion.model_in_use import ModelInUse
 from rotemina.app.motion.state import SessionState
-from rotemina.app.panel import Area, Panel
+from rotemina.app.panel import Area, Panel, offer_in_palette
 from rotemina.app.shell.language import marked
 from rotemina.app.shell.workbench import Level, Run, Workbench
 from rotemina.app.widgets.controls import allow
@@ -65,6 +65,8 @@ class GapPanel(Panel):
         self.result = ResultSection(workbench.theme)
         self._lay_out()
         self._connect()
+        offer_in_palette(self.result.use, self.result.twin, self.result.plan, self.result.motion)
+        offer_in_palette(self.start, self.stop, self.result.report, safe_while_hidden=True)
         self._show_state()
 
     # --- parts ------------------------------------------------------------------------------------

@@ -7,7 +7,7 @@ from PySide6.QtGui import QGuiApplication, QResizeEvent
 from PySide6.QtWidgets import QPlainTextEdit, QScrollArea, QSplitter, QWidget
 
 from rotemina.app.files import write_text
-from rotemina.app.panel import Area, Panel
+from rotemina.app.panel import Area, Panel, offer_in_palette
 from rotemina.app.shell.column_mapping import ask_columns
 from rotemina.app.shell.engine_words import error_text
 from rotemina.app.shell.file_dialog import ask_file, ask_where
@@ -70,6 +70,14 @@ class IdentificationPanel(Panel):
         self._look_when_seen = WhenSeen(self, self._look)
         self._draw_when_seen = WhenSeen(self, self._draw)
         self._connect()
+        offer_in_palette(self.excite.play)
+        offer_in_palette(
+            self.controls.open,
+            self.controls.copy,
+            self.controls.save,
+            self.excite.stop,
+            safe_while_hidden=True,
+        )
         self._use_theme(workbench.theme)
         self._show(None)
         if workbench.run is not None:

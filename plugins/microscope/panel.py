@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QFrame, QScrollArea, QStackedWidget, QWidget
 
 from rotemina.app.microscope.status import MicroscopeStatus
 from rotemina.app.motion.state import SessionState
-from rotemina.app.panel import Area, Panel
+from rotemina.app.panel import Area, Panel, offer_in_palette
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked
 from rotemina.app.shell.theme import Theme
@@ -90,6 +90,11 @@ class MicroscopePanel(Panel):
         self._make_sections()
         self._lay_out()
         self._connect()
+        offer_in_palette(self.calibration.micro, self.calibration.nano, self.move.back)
+        offer_in_palette(self.targets.next, self.stack.take, self.saving.record)
+        offer_in_palette(
+            self.move.halt, self.calibration.abort, self.saving.snapshot, safe_while_hidden=True
+        )
 
     def refresh(self, state: SessionState) -> None:
         """Show this moment of the microscope."""

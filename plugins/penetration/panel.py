@@ -10,7 +10,7 @@ from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.penetration.run_log import PenetrationRun
 from rotemina.app.motion.penetration.status import PenetrationStatus
 from rotemina.app.motion.state import SessionState
-from rotemina.app.panel import Area, Panel
+from rotemina.app.panel import Area, Panel, offer_in_palette
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.file_dialog import ask_file, ask_where
 from rotemina.app.shell.language import marked
@@ -61,6 +61,8 @@ class PenetrationPanel(Panel):
         self._shown_trace: object = ()
         self._lay_out()
         self._connect()
+        offer_in_palette(self.bar.arm, self.cells.next)
+        offer_in_palette(self.cells.export, safe_while_hidden=True)
         self._read_log()
         self._refresh(workbench.session.snapshot())
 

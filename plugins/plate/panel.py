@@ -8,7 +8,7 @@ from PySide6.QtCore import QBuffer, QIODevice, QTimer
 from PySide6.QtGui import QHideEvent, QShowEvent
 from PySide6.QtWidgets import QComboBox, QPushButton, QWidget
 
-from rotemina.app.panel import Area, Panel
+from rotemina.app.panel import Area, Panel, offer_in_palette
 from rotemina.app.shell.file_dialog import ask_where
 from rotemina.app.shell.language import marked
 from rotemina.app.shell.workbench import Level, Workbench
@@ -50,6 +50,7 @@ class PlatePanel(Panel):
         self._make_parts()
         self._lay_out()
         self._connect()
+        offer_in_palette(self.start, self.stop, self.vtu, self.png, safe_while_hidden=True)
         self._show_state()
 
     # --- parts ------------------------------------------------------------------------------------

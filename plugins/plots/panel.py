@@ -20,7 +20,7 @@ from PySide6.QtWidgets import (
 from rotemina.app.display_units import stages
 from rotemina.app.motion.recent_history import LiveWindow
 from rotemina.app.motion.state import SessionState
-from rotemina.app.panel import STALE_S, Area, Panel
+from rotemina.app.panel import STALE_S, Area, Panel, offer_in_palette
 from rotemina.app.shell.gap_words import LIVE_S
 from rotemina.app.shell.language import marked
 from rotemina.app.shell.legend import Entry, Legend
@@ -87,6 +87,7 @@ class PlotsPanel(Panel):
         in_column(header, below, on=self._head, margins=0, spacing=3)
         in_column(self._head, (self.grid, 1), on=self, margins=0, spacing=3)
         PaintedOnce(self)
+        offer_in_palette(self.pause, self.cursors, safe_while_hidden=True)
         self._waiting: list[Sequence[AxisPlot]] = []  # to be drawn as the others are already
         self._next = QTimer(self, singleShot=True, interval=0)
         self._next.timeout.connect(self._draw_next)

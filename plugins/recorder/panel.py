@@ -2,7 +2,7 @@
 
 from PySide6.QtGui import QShowEvent
 
-from rotemina.app.panel import Area, Panel
+from rotemina.app.panel import Area, Panel, offer_in_palette
 from rotemina.app.shell.background import Background
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
@@ -41,6 +41,8 @@ class RecorderPanel(Panel):
             tr("View"), {tr("Records"): self.recordings, tr("Events"): self.events}
         )
         self._lay_out()
+        offer_in_palette(self.recording.record)
+        offer_in_palette(self.recording.keep, safe_while_hidden=True)
         self.recording.changed.connect(self.look)
         self.unfinished.recovered.connect(self.look)
         self.recordings.looked_for.connect(self.look)

@@ -17,7 +17,7 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.display_units import axis_scale, label
 from rotemina.app.motion.state import SessionState
-from rotemina.app.panel import Area, Panel
+from rotemina.app.panel import Area, Panel, offer_in_palette
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked
 from rotemina.app.shell.loaded_trajectory import Plan
@@ -92,6 +92,7 @@ class TrajectoryPanel(Panel):
         self._part: Record | None = None  # what was made of that
         self.table.itemChanged.connect(self._bound_typed)
         self._lay_out()
+        offer_in_palette(self.load, self.resample, self.transport.end, safe_while_hidden=True)
         workbench.plan_changed.connect(self._show_plan)
         workbench.plan_checked.connect(self._show_verdict)
         workbench.speed_limit_asked.connect(self._ask_speed_limit)

@@ -9,7 +9,7 @@ from PySide6.QtGui import QDesktopServices, QGuiApplication
 from PySide6.QtWidgets import QComboBox, QLabel, QPushButton
 
 from rotemina.app.motion.state import SessionState
-from rotemina.app.panel import STALE_S, Area, Panel
+from rotemina.app.panel import STALE_S, Area, Panel, offer_in_palette
 from rotemina.app.scene.robot_scene import Colours, Ghost, Reading, RobotScene
 from rotemina.app.scene.scale_notes import Words
 from rotemina.app.scene.views import View
@@ -100,6 +100,7 @@ class View3dPanel(Panel):
         self.busy = False
         self._make_widgets()
         self._lay_out()
+        offer_in_palette(*self.views.values(), self.browser, safe_while_hidden=True)
         self.show_state()
         workbench.shown.connect(self.refresh)
         workbench.theme_changed.connect(self._use_theme)

@@ -23,7 +23,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.shell import key_help, palette_entries
+from rotemina.app.panel import offer_in_palette
+from rotemina.app.shell import key_help
 from rotemina.app.shell import theme as themes
 from rotemina.app.shell.workbench import Level
 from rotemina.app.widgets.controls import allow
@@ -87,6 +88,7 @@ def test_the_palette_finds_explains_and_does_by_keys_alone(qtbot, window):
     bench, palette = window.workbench, window.palette_page
     panel = window.panels["faults"]
     able, unable = QPushButton("Zebra crossing …", panel), QPushButton("Zebra stripes", panel)
+    offer_in_palette(able, unable, safe_while_hidden=True)
     allow(able, None, "Go")
     allow(unable, "there is no zebra", "Go")
     pressed = []
@@ -122,9 +124,7 @@ def test_the_palette_finds_explains_and_does_by_keys_alone(qtbot, window):
     session = bench.session
     session.jog("x", 1e-5)
     qtbot.waitUntil(lambda: session.undoable and not session.snapshot().owners, timeout=LONG_MS)
-    undo = next(
-        e for e in palette_entries.command_entries(window.commands()) if e.what.startswith("Back")
-    )
+    undo = next(e for e in window._entries() if e.what.startswith("Back to the previous"))
     assert undo.why_not is None
     there = session.snapshot().command["x"]
     undo.run()

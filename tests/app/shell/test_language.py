@@ -254,8 +254,8 @@ def _the_palette_finds_and_does(qtbot, window):
     qtbot.keyClick(page.field, Qt.Key.Key_Return)
     assert window.workbench.theme.name == "light"
     window.toggle_palette()
-    qtbot.keyClicks(page.field, "steuerung eingabe")
-    assert page.list.item(0).text().startswith("Steuerung: Eingabe für")
+    qtbot.keyClicks(page.field, "verbindung trennen")
+    assert page.list.item(0).text() == "Verbindung: Trennen"
     page.field.setText("Bewegung: Fehler quittieren")
     assert "nicht jetzt" in page.list.item(0).text()
     page.hide()

@@ -135,19 +135,10 @@ def test_an_axis_goes_while_its_button_is_held_and_all_lock_without_a_device(qtb
     assert row._readout.property("stale")
 
 
-def test_the_palette_leaves_out_what_must_be_held(qtbot, window):
-    steps = window.panels["control"].steps["micro"]
-
-    def offered():
-        return {one.what for one in window._entries() if one.where == "Control"}
-
-    lengths, angles = {"X −", "X +", "Z −", "Z +"}, {"θx −", "θx +"}
-    qtbot.waitUntil(lambda: lengths | angles <= offered(), timeout=LONG_MS)
-    steps.hold("m")  # a click begins and ends at once: by the palette it would do nothing
-    qtbot.waitUntil(lambda: not lengths & offered(), timeout=LONG_MS)
-    assert angles <= offered()  # angles of the other stage still go step by step
-    steps.boxes["m"].setCurrentIndex(0)
-    qtbot.waitUntil(lambda: lengths <= offered(), timeout=LONG_MS)
+def test_the_palette_offers_no_jog(qtbot, window):
+    window.bring_up("control")
+    qtbot.waitUntil(window.panels["control"].rows["x"].plus.isEnabled, timeout=LONG_MS)
+    assert [e.text for e in window._entries() if e.what.endswith(("−", "+"))] == []
 
 
 def changed_step_by_step(qtbot, window, page, begin):
