@@ -1,6 +1,7 @@
 """The test bench of a driver: it makes the driver and advances its time."""
 
 import signal
+import sys
 import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -76,10 +77,14 @@ class Bench:
                 yield subject
             finally:
                 # What closing raises is the matter of the checks of closing, not of every check.
-                with _deaf(), suppress(Exception):
+                postponed: list[int] = []
+                with _postponed(postponed), suppress(Exception):
                     driver.stop()
                 with suppress(Exception):
                     driver.close()
+                # One that has ended the check already is enough.
+                if postponed and sys.exc_info()[0] is None:
+                    signal.raise_signal(signal.Signals(postponed[-1]))
 
 
 def _to_end() -> tuple[signal.Signals, ...]:
@@ -108,10 +113,10 @@ def _ended_by_signals() -> Iterator[None]:
 
 
 @contextmanager
-def _deaf() -> Iterator[None]:
-    """Let no second Ctrl-C come between the first one and the stop."""
-    known = [one for one in _to_end() if signal.getsignal(one) is not None]
-    with _handled(lambda *_: None, known):
+def _postponed(received: list[int]) -> Iterator[None]:
+    """Let no Ctrl-C come between the first one and the stop; note those that came."""
+    known = [number for number in _to_end() if signal.getsignal(number) is not None]
+    with _handled(lambda number, _: received.append(number), known):
         yield
 
 

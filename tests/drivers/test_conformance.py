@@ -681,6 +681,27 @@ def test_a_driver_that_goes_on_after_a_pause_fails():
     assert "was to hold" in result.note
 
 
+def test_a_signal_while_a_finished_check_stops_acts_afterwards():
+    closed = []
+
+    class SignalledWhileStopping(Cabled):
+        def _stop(self):
+            signal.raise_signal(signal.SIGINT)
+            super()._stop()
+
+        def _close(self):
+            super()._close()
+            closed.append(True)
+
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        with pytest.raises(KeyboardInterrupt), bench(SignalledWhileStopping).opened():
+            pass
+    finally:
+        signal.signal(signal.SIGINT, before)
+    assert closed == [True]
+
+
 def test_what_moves_nothing_can_be_checked_alone():
     results = list(run_checks(bench(Cabled), may_move=False))
     skipped = {one.name for one in results if one.note == "it moves axes"}
