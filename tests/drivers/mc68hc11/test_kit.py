@@ -2,17 +2,39 @@
 
 import pytest
 
+from rotemina.drivers.byte_channels import ByteChannel
 from rotemina.drivers.clock import VirtualClock
 from rotemina.drivers.conformance.bench import Bench as KitBench
 from rotemina.drivers.conformance.check import Verdict
 from rotemina.drivers.conformance.suite import CHECKS
 from rotemina.drivers.mc68hc11.driver import MC68HC11
+from rotemina.drivers.serial_port import SerialPort
 from rotemina.drivers.virtual_board.boards import VirtualBoards
 
 pytestmark = pytest.mark.slow
 # Its clock is looked at by whoever advances it too, so the kit cannot tell when a read begins.
 # The boards have no output for a tool.
 NOT_HERE = {"stop-during-a-read", "stop-when-called", "tool"}
+
+
+class BlockableChannel(ByteChannel):
+    """A line in memory that takes no bytes while its port is blocked."""
+
+    def __init__(self, port):
+        self._port = port
+        self.blocked = False
+
+    def read(self):
+        return self._port.read()
+
+    def write(self, data):
+        if self.blocked:
+            return 0
+        self._port.write(data)
+        return len(data)
+
+    def close(self):
+        self._port.close()
 
 
 class Surroundings:
@@ -26,6 +48,7 @@ class Surroundings:
         self.memory_port = memory_port
         self.boards = VirtualBoards(robot, ports=ports, position_known=True)
         self.ports = []
+        self.channels = []
         self.opened = 0
 
     def make(self, settings):
@@ -45,11 +68,16 @@ class Surroundings:
         port.begin_s = self.begin_s
         self.ports.append(port)
         self.opened += 1
-        return port
+        self.channels.append(BlockableChannel(port))
+        return SerialPort(url, self.channels[-1], self.clock)
 
     def set_link(self, *, cut):
         for port in self.ports:
             port.cut = cut
+
+    def set_ports(self, *, blocked):
+        for channel in self.channels:
+            channel.blocked = blocked
 
     def bench(self):
         return KitBench(
@@ -57,6 +85,8 @@ class Surroundings:
             advance=self.clock.advance,
             cut_link=lambda: self.set_link(cut=True),
             restore_link=lambda: self.set_link(cut=False),
+            block_port=lambda: self.set_ports(blocked=True),
+            unblock_port=lambda: self.set_ports(blocked=False),
             touched=lambda: self.opened > 0,
         )
 
