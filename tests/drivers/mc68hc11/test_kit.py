@@ -79,12 +79,31 @@ class Surroundings:
         for channel in self.channels:
             channel.blocked = blocked
 
+    def damage_once(self):
+        """Change one byte of what the boards say next."""
+
+        def damage(port, data):
+            if not data:
+                return data
+            port.to_host = lambda data: data
+            middle = len(data) // 2
+            return data[:middle] + bytes([data[middle] ^ 0x55]) + data[middle + 1 :]
+
+        for port in self.ports:
+            port.to_host = lambda data, port=port: damage(port, data)
+
+    def delay(self, seconds):
+        for port in self.boards.lines:
+            port._line.to_board.delay_s = port._line.to_host.delay_s = seconds
+
     def bench(self):
         return KitBench(
             make=self.make,
             advance=self.clock.advance,
             cut_link=lambda: self.set_link(cut=True),
             restore_link=lambda: self.set_link(cut=False),
+            misreport=self.damage_once,
+            delay_line=self.delay,
             block_port=lambda: self.set_ports(blocked=True),
             unblock_port=lambda: self.set_ports(blocked=False),
             touched=lambda: self.opened > 0,
