@@ -147,9 +147,14 @@ class Controller:
         return self._braking or self._machine.moving
 
     @property
-    def is_lost(self) -> bool:
-        """Whether its line is lost."""
-        return self._lost is not None
+    def is_beyond_reach(self) -> bool:
+        """Whether nothing more can be done to it: its line is lost, or an alarm has locked it."""
+        return self._lost is not None or self._deaf
+
+    @property
+    def is_homing(self) -> bool:
+        """Whether it searches for switches."""
+        return bool(self._searches)
 
     @property
     def ready(self) -> bool:

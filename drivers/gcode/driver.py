@@ -181,9 +181,10 @@ class GcodeStage(Homer, Linked):
         controller, self._controller = self._controller, None
         assert controller is not None, "an open driver has one"
         try:
-            if not controller.is_lost:
+            if not controller.is_beyond_reach:
                 where = str(self.settings["port"])
-                Opening(controller.dialogue, self.clock, self._pause, where).leave()
+                opening = Opening(controller.dialogue, self.clock, self._pause, where)
+                opening.leave(homing=controller.is_homing)
         finally:
             if self._port is not None:
                 self._port.close()

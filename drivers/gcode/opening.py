@@ -125,14 +125,18 @@ class Opening:
             lambda heard: isinstance(heard, Welcome), _RESET_S, marked("engine", "did not reset")
         )
 
-    def leave(self) -> None:
+    def leave(self, *, homing: bool) -> None:
         """Leave it as it was found: idle, without a hold, its queue empty.
+
+        While ``homing`` it may hear nothing but a reset.
 
         Raises
         ------
         DriverTimeoutError
             If it does not answer, or does not come to rest.
         """
+        if homing:
+            self._dialogue.send_realtime(RESET)
         self._dialogue.forget()
         status = self._status(_LEAVING_S)
         if interpret_state(status).moving or status.state == "Hold":

@@ -126,13 +126,13 @@ class Opening:
 
     def _identify(self, board: Board) -> None:
         link, dialogue = board.link, board.dialogue
-        begin = _Heard.on(link)
+        begin = _Reply.on(link)
         refusals: list[int | None] = []
         wait_s = link.answer_s
         while board.identity is None:
             if not dialogue.busy:
                 if wait_s > max(_PATIENCE_S, 2.0 * link.answer_s):
-                    raise _nobody(board, self._baud, _Heard.on(link) - begin, any(refusals))
+                    raise _nobody(board, self._baud, _Reply.on(link) - begin, any(refusals))
                 # Never repeated: a board that counts the same number would repeat another answer.
                 dialogue.answer_s = wait_s
                 dialogue.ask(
@@ -410,7 +410,7 @@ def _describes(axis: int, told: Message) -> bool:
     return isinstance(told, AxisDescription) and told.axis == axis
 
 
-class _Heard(NamedTuple):
+class _Reply(NamedTuple):
     """What has come over a line, counted."""
 
     received_bytes: int
@@ -434,7 +434,7 @@ class _Heard(NamedTuple):
         )
 
 
-def _nobody(board: Board, baud: int, heard: _Heard, is_refused: bool) -> DriverError:
+def _nobody(board: Board, baud: int, heard: _Reply, is_refused: bool) -> DriverError:
     """Return what to say about a board that did not tell who it is."""
     others = ", ".join(f"{one}" for one in BAUDS if one != baud)
     if is_refused or heard.unknown_messages:

@@ -12,7 +12,10 @@ ROBOTS = {name: load_robot(name) for name in ("rotemina", "emps", "fsm", "picma"
 DRIVERS = {n: found for n, found in discover_drivers().found.items() if found.virtual_time}
 
 # What no clock-driven driver can be put to without a bench of its own: test_conformance has one.
-NEED_A_BENCH = {"fault", "short-loss", "long-loss", "nothing-resumes", "blocked-port"}
+NEED_A_BENCH = {
+    "fault", "short-loss", "long-loss", "nothing-resumes", "blocked-port", "damaged-report",
+    "slow-line", "paused-program",
+}  # fmt: skip
 
 
 def test_there_is_a_driver_to_test():

@@ -18,7 +18,7 @@ from rotemina.app.shell.help_topics import explained
 from rotemina.app.shell.language import SETTING, chosen, translate
 from rotemina.app.shell.workbench import Level
 from rotemina.drivers.errors import DriverError
-from rotemina.drivers.gcode.grbl_reports import Alarm
+from rotemina.drivers.gcode.error_texts import Firmware, describe_alarm
 from rotemina.drivers.registry import driver_named
 from rotemina.sim.errors import InputError
 from rotemina.sim.gap.intake.record_checks import check as check_gap
@@ -194,7 +194,7 @@ def test_a_boards_fault_is_german_with_all_that_stands_in_it(application):
     board = message("engine", "board {address}: {words}")
     met = message("engine", "limit switch reached: {switches}").fill(switches="x")
     assert spoken(board.fill(address=1, words=met)) == "Karte 1: Endschalter erreicht: x"
-    assert spoken(Alarm(1).text) == "ALARM:1, Hardware-Grenze: ein Endschalter wurde erreicht"
+    assert spoken(describe_alarm(1, Firmware.GRBL)) == "ALARM:1, Hardware-Grenze: ein Endschalter wurde erreicht"
 
 
 def test_words_in_the_fields_of_a_message_are_translated_and_other_texts_stay(application):

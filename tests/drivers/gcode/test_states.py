@@ -170,6 +170,28 @@ def test_a_controller_is_left_idle_with_its_settings_as_they_were(joined, stoppe
     assert reply  # the next program gets an answer
 
 
+def test_a_controller_that_homes_is_reset_when_it_is_left(joined):
+    bench = joined()
+    bench.driver.open()
+    bench.driver.home(("y",))
+    bench.run(0.5)
+    bench.driver.close()
+    at = list(bench.stage.true)
+    bench.clock.advance(2.0)
+    bench.stage.advance(bench.clock() - bench.began_s)
+    assert bench.stage.true == at
+
+
+def test_a_controller_that_an_alarm_has_locked_can_be_left(joined):
+    bench = joined()
+    driver = bench.homed()
+    bench.stage.hit_limit()
+    bench.run(0.2)
+    began_s = bench.clock()
+    driver.close()
+    assert bench.clock() == began_s
+
+
 @pytest.mark.parametrize(
     ("describe", "numbers"),
     [
