@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.gcode.grbl_reports import Answer, Message, Status, Welcome, parse_report
-from rotemina.drivers.gcode.line_guard import LineGuard
+from rotemina.drivers.gcode.jog_guard import JogGuard
 from rotemina.drivers.line_quality import LinkQuality
 from rotemina.drivers.serial_port import Port, UrgentBytes
 
@@ -66,7 +66,7 @@ class Dialogue:
 
     def __init__(self, port: Port, clock: Clock, baud: int) -> None:
         #: What every line passes.
-        self.guard = LineGuard()
+        self.guard = JogGuard()
         self._port = port
         self._clock = clock
         self._byte_s = 10.0 / baud

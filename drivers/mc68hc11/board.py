@@ -3,6 +3,7 @@
 from collections import deque
 from dataclasses import dataclass
 
+from rotemina.drivers.errors import ProtocolError
 from rotemina.drivers.mc68hc11.axes import BoardAxis
 from rotemina.drivers.mc68hc11.board_clock import BoardClock
 from rotemina.drivers.mc68hc11.board_messages import Identity, Inputs, Rates, Telemetry
@@ -12,11 +13,14 @@ from rotemina.drivers.mc68hc11.pending_orders import Orders
 from rotemina.drivers.mc68hc11.protocol_codes import Ability, Fault, State
 from rotemina.drivers.mc68hc11.sampling_grid import Grid
 from rotemina.drivers.mc68hc11.serial_link import Link
+from rotemina.drivers.reading_check import REPORTS_OF_A_NEW_POSITION, ReadingCheck
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.messages import marked, message
 
 _KEPT = 4096  # samples that nobody has asked for yet
 _TELEMETRY_BYTES = 31
+# Commands change with set-points, of which each may hold for so long, s.
+_MAX_HOLD_S = 0.1
 _FAULTS = frozenset(Fault)
 _LOW = marked("engine", "low")  # ends of an axis that has switches
 _HIGH = marked("engine", "high")
@@ -83,6 +87,8 @@ class Board:
         self.reset = False
         self.wary = False  # whether a reset counts as one: not while it is being opened
         self.orders = Orders(address, self.clock, lambda: self.latest)
+        #: What commands its telemetry may tell; None while it is being opened.
+        self.reports: ReadingCheck | None = None
         self._link: Link | None = None
 
     @property
@@ -187,6 +193,9 @@ class Board:
             return
         if self.latest is not None and time_us <= self.latest_us and self.clock.known:
             return  # said twice, or polled before the next one was taken
+        if not self._is_plausible(told, time_us):
+            self.link.count_discarded()
+            return
         was_busy = not self.at_rest
         self.clock.observe(time_us, said_s)
         self.latest, self.latest_us, self.telemetry_s = told, time_us, now_s
@@ -207,6 +216,37 @@ class Board:
                     told.fault == Fault.NONE,
                 )
             )
+
+    def _is_plausible(self, told: Telemetry, time_us: int) -> bool:
+        """Return whether its axes can be where it says that they are commanded.
+
+        Readings are not judged: noise, hysteresis and ringing are what they are there to show.
+
+        Raises
+        ------
+        ProtocolError
+            If several reports in a row put them elsewhere.
+        """
+        if self.reports is None:
+            return True
+        if State(told.state) & (State.POSITION_UNKNOWN | State.HOMING):
+            self.reports.restart()
+            return True
+        commands = [float(command) for _, command in told.samples()]
+        device_s = 1e-6 * time_us
+        known = range(len(self.axes))
+        if self.reports.accepts(commands, device_s - _MAX_HOLD_S, device_s, known):
+            return True
+        if self.reports.shows_new_position:
+            raise ProtocolError(
+                message(
+                    "engine",
+                    "{where}: {count} reports in a row put its axes where they cannot have gone "
+                    "by themselves. Check the board, connect again, and home or confirm the "
+                    "position",
+                ).fill(where=self.where, count=REPORTS_OF_A_NEW_POSITION)
+            )
+        return False
 
     def _wire_s(self) -> float:
         """Return how long telemetry is on the line, s."""

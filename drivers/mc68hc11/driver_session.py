@@ -2,7 +2,9 @@
 
 from collections.abc import Callable, Sequence
 from functools import partial
+from math import inf
 
+from rotemina.drivers.abilities import VOLTAGE_SLEW
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.errors import ConnectionLostError
 from rotemina.drivers.gate import OvertakenError, Permit
@@ -19,7 +21,8 @@ from rotemina.drivers.mc68hc11.payload import Message
 from rotemina.drivers.mc68hc11.sampling import Row, Sampling
 from rotemina.drivers.mc68hc11.segment_player import Player
 from rotemina.drivers.mc68hc11.serial_link import Link
-from rotemina.drivers.mc68hc11.wire_guard import WireGuard
+from rotemina.drivers.mc68hc11.wire_guard import StepLimits, WireGuard
+from rotemina.drivers.reading_check import ReadingBounds, ReadingCheck
 from rotemina.drivers.samples import Samples
 from rotemina.drivers.serial_port import OpenPort
 from rotemina.sim.arrays import FloatArray
@@ -32,7 +35,14 @@ _SHORT_S = 0.1  # without telemetry: a short loss
 _SHORT_PERIODS = 3.5
 _KEEP_ALIVE = 4  # of the watchdog's time
 _APART = 0.5  # periods between the boards' samples, from where on they are put in step again
+_COMMAND_TOLERANCE = 2.0  # steps: rounding of a command and of its deviation
 _APART_ON_BUS = 1.5  # where times of boards are known by their polls only
+
+
+def _bounds_of(limits: StepLimits) -> ReadingBounds:
+    """Return what an axis' command may do, steps; a voltage crosses its range in a second."""
+    speed = max(limits.max_speed, VOLTAGE_SLEW * (limits.high - limits.low))
+    return ReadingBounds(-inf, inf, speed, _COMMAND_TOLERANCE)
 
 
 class Session:
@@ -107,8 +117,11 @@ class Session:
         self.setpoint_every = opening.setpoint_every  # samples
         for board in self.boards:
             board.telemetry_ms = self.period_ms
-            guard = WireGuard(self.trust.limits(board), board.commanded)
-            board.link.guard.add(board.address, guard)
+            limits = self.trust.limits(board)
+            board.link.guard.add(board.address, WireGuard(limits, board.commanded))
+            # Its range may be wider than the robot file's: what a board tells is judged by how
+            # far it can have gone.
+            board.reports = ReadingCheck([_bounds_of(limits[axis.number]) for axis in board.axes])
         self.sampling = Sampling(self.boards, self._named)
         self.served_s = clock()
 

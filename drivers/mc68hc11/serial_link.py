@@ -95,7 +95,7 @@ class Link:
         self._awaited: set[int] = set()
         self._awaited_until_s = float("-inf")
         self._polled = False  # by what was said last
-        self._sent = self._refused = self._repeated = 0
+        self._sent = self._refused = self._discarded = self._repeated = 0
         #: The last check of what is written; it knows the boards' axes once they were added.
         self.guard = LineGuard()
         #: Why the gate or the guard held a frame back; whoever serves the link takes it.
@@ -103,10 +103,14 @@ class Link:
         self._bytes = [0, 0]  # out, in
         self._load, self._load_since_s = 0.0, clock()
 
+    def count_discarded(self) -> None:
+        """Count a report that cannot be true."""
+        self._discarded += 1
+
     @property
     def rejected(self) -> int:
-        """Stretches of bytes that were no frame, or no message."""
-        return self._decoder.rejected + self._refused
+        """Stretches of bytes that were no frame or no message, and reports that cannot be true."""
+        return self._decoder.rejected + self._refused + self._discarded
 
     @property
     def unknown_messages(self) -> int:

@@ -194,7 +194,10 @@ def test_a_boards_fault_is_german_with_all_that_stands_in_it(application):
     board = message("engine", "board {address}: {words}")
     met = message("engine", "limit switch reached: {switches}").fill(switches="x")
     assert spoken(board.fill(address=1, words=met)) == "Karte 1: Endschalter erreicht: x"
-    assert spoken(describe_alarm(1, Firmware.GRBL)) == "ALARM:1, Hardware-Grenze: ein Endschalter wurde erreicht"
+    assert (
+        spoken(describe_alarm(1, Firmware.GRBL))
+        == "ALARM:1, Hardware-Grenze: ein Endschalter wurde erreicht"
+    )
 
 
 def test_words_in_the_fields_of_a_message_are_translated_and_other_texts_stay(application):

@@ -6,7 +6,7 @@ import pytest
 
 from rotemina.drivers.errors import LimitError, StateError
 from rotemina.drivers.gcode.emulator import EmulatedStage
-from rotemina.drivers.gcode.line_guard import LineGuard
+from rotemina.drivers.gcode.jog_guard import JogGuard
 from rotemina.drivers.samples import DeviceState
 
 TARGET = re.compile(r"([XYZ])(-?[\d.]+)")
@@ -264,7 +264,7 @@ def test_no_line_that_could_leave_a_range_reaches_the_wire(joined, line):
 
 
 def test_a_guard_permits_what_lies_in_range():
-    guard = LineGuard()
+    guard = JogGuard()
     guard.permit_ranges({"X": (-50.0, 0.0)})
     for line in ("$J=G53 G21 G90 X-50.0000 F600.000", "$H", "$HX", "$$", "$/axes/x/homing/mpos_mm"):
         guard.check(line)

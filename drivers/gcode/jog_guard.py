@@ -18,7 +18,7 @@ _HARMLESS = re.compile(r"\$(\$|I|X|H[A-Z]?|/[\w/]+)")
 _ROUNDING = 1e-4
 
 
-class LineGuard:
+class JogGuard:
     """Refuses every line that could move an axis out of its range.
 
     It knows nothing of readings: what was read wrongly cannot widen it.
