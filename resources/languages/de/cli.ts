@@ -156,6 +156,10 @@
         <translation>gap: einen Unterbefehl angeben: diagnose, predict, twin, blind oder bench (siehe --help)</translation>
     </message>
     <message>
+        <source>diagnose the records of that machine</source>
+        <translation>die Aufzeichnungen jener Maschine diagnostizieren</translation>
+    </message>
+    <message>
         <source>{output} is named twice; give each file its own name</source>
         <translation>{output}: der Name kommt zweimal vor; jeder Datei einen eigenen geben</translation>
     </message>
@@ -188,6 +192,10 @@
         <translation>{trajectory}: {objections}{more}</translation>
     </message>
     <message>
+        <source>{trajectory}: {duration}, {rows} rows, {verdict}</source>
+        <translation>{trajectory}: {duration}, {rows} Zeilen, {verdict}</translation>
+    </message>
+    <message>
         <source>there is no {wanted} {name}; `rotemina plugin list` lists all</source>
         <translation>{wanted} {name} gibt es nicht; `rotemina plugin list` zeigt, was es gibt</translation>
     </message>
@@ -202,6 +210,43 @@
     <message>
         <source>--period {period}: must be more than 0 s</source>
         <translation>--period {period}: muss größer als 0 s sein</translation>
+    </message>
+    <message>
+        <source>choose its model with --robot</source>
+        <extracomment>What to do where a record is of another machine.</extracomment>
+        <translation>ihr Modell mit --robot wählen</translation>
+    </message>
+    <message>
+        <source>Model: {robot} (built in); choose another with --robot</source>
+        <translation>Modell: {robot} (eingebaut); ein anderes mit --robot wählen</translation>
+    </message>
+    <message>
+        <source>Model: {robot} ({file})</source>
+        <translation>Modell: {robot} ({file})</translation>
+    </message>
+    <message>
+        <source>--max-speed {part}: axis {axis} does not move; use one of {axes}</source>
+        <translation>--max-speed {part}: Achse {axis} bewegt sich nicht; möglich: {axes}</translation>
+    </message>
+    <message>
+        <source>--max-speed {part}: is in {unit}, not in {expected}</source>
+        <translation>--max-speed {part}: ist in {unit} angegeben, nicht in {expected}</translation>
+    </message>
+    <message>
+        <source>--max-speed {text}: has two values for {what}</source>
+        <translation>--max-speed {text}: enthält zwei Werte für {what}</translation>
+    </message>
+    <message>
+        <source>--max-speed {part}: {error}</source>
+        <translation>--max-speed {part}: {error}</translation>
+    </message>
+    <message>
+        <source>--max-speed {part}: must be a speed above 0, such as 10mm/s</source>
+        <translation>--max-speed {part}: muss eine Geschwindigkeit über 0 sein, etwa 10mm/s</translation>
+    </message>
+    <message>
+        <source>the robot file states no speed limit (max_speed) of {axes}; give the greatest speed that the machine may move at, such as --max-speed {example}</source>
+        <translation>die Roboterdatei nennt keine Geschwindigkeitsgrenze (max_speed) für {axes}; die größte Geschwindigkeit angeben, mit der die Maschine fahren darf, etwa --max-speed {example}</translation>
     </message>
     <message>
         <source>{effects}: on robot {name}: {error}</source>
@@ -518,10 +563,6 @@ und prüfen mit `rotemina plugin check {name}` und `pytest {place}`.</translatio
     <message>
         <source>no further effects</source>
         <translation>keinen weiteren Effekten</translation>
-    </message>
-    <message>
-        <source>{trajectory}: {duration}, {rows} rows, within the limits</source>
-        <translation>{trajectory}: {duration}, {rows} Zeilen, innerhalb der Grenzen</translation>
     </message>
     <message>
         <source>playing {share} %</source>

@@ -66,6 +66,10 @@
         <translation>das Fenster reagiert nicht</translation>
     </message>
     <message>
+        <source>this program stood still for {paused} s (computer asleep or overloaded); look at the machine, then move again</source>
+        <translation>dieses Programm stand {paused} s still (Rechner im Ruhezustand oder überlastet); nach der Maschine sehen, dann erneut fahren</translation>
+    </message>
+    <message>
         <source>another device is being connected; wait</source>
         <translation>ein anderes Gerät wird verbunden; bitte warten</translation>
     </message>
@@ -265,7 +269,7 @@
     </message>
     <message>
         <source>another profile is now in use</source>
-        <extracomment>Whether devices are being set up: only stops are sent.</extracomment>
+        <extracomment>What came in at the latest step, by device key: sound readings, oldest first. Whether devices are being set up: only stops are sent.</extracomment>
         <translation>jetzt wird ein anderes Profil verwendet</translation>
     </message>
     <message>
@@ -287,6 +291,10 @@
     <message>
         <source>no profile is chosen: the input devices do nothing</source>
         <translation>kein Profil gewählt: die Eingabegeräte tun nichts</translation>
+    </message>
+    <message>
+        <source>the program was suspended or overloaded: its clock jumped by {pause} s. Release the device and start again</source>
+        <translation>das Programm war angehalten oder überlastet: seine Uhr sprang um {pause} s. Das Gerät loslassen und neu beginnen</translation>
     </message>
     <message>
         <source>another device was lost ({why}): release it</source>
@@ -339,12 +347,12 @@
     </message>
     <message>
         <source>a reading has {axes} axes and {buttons} buttons, but the device has {known} and {others}: replug it</source>
-        <extracomment>Actions that work from every device, whoever drives, and while mappings are made. Actions that last as long as they are held, and are never *pressed*. What it said last; None as long as it has said nothing that still holds. Why nothing can be made of what it says; None: something can. Why it was lost in the last step; None: it was not. Actions pressed in the last step, and those held.</extracomment>
+        <extracomment>The longest silence of one that reports only changes, while something moves by it, s. The longest time between two looks at the devices; after it nobody knows what was missed, s.</extracomment>
         <translation>eine Meldung hat {axes} Achsen und {buttons} Tasten, das Gerät aber {known} und {others}: neu anstecken</translation>
     </message>
     <message>
-        <source>silent: a streaming device has sent nothing; replug it, or check its cable</source>
-        <translation>stumm: ein laufend sendendes Gerät hat nichts gesendet; neu anstecken oder Kabel prüfen</translation>
+        <source>its plugin ({source}) returned {answer}, which is no reading, and the device counts as released. Update or remove the plugin</source>
+        <translation>sein Plugin ({source}) lieferte {answer}, das ist keine Meldung; das Gerät gilt als losgelassen. Das Plugin aktualisieren oder entfernen</translation>
     </message>
     <message>
         <source>the trainer&apos;s device is not connected: the trainee cannot drive alone</source>
@@ -645,8 +653,8 @@
         <translation>{activity} läuft; warten oder erst anhalten</translation>
     </message>
     <message>
-        <source>The microscope failed: {name}: {error}</source>
-        <translation>Das Mikroskop ist ausgefallen: {name}: {error}</translation>
+        <source>A step of the microscope failed; the log has the cause. If this repeats, open the camera again</source>
+        <translation>Ein Schritt des Mikroskops ist fehlgeschlagen; die Ursache steht im Protokoll. Wiederholt sich das, öffnen Sie die Kamera erneut</translation>
     </message>
     <message>
         <source>the tip is still {distance} px off after {n} corrections; at most {most} px are permitted: the stage drifts, or its resolution is too coarse</source>
@@ -691,8 +699,8 @@
         <translation>die Maschine kam in {rest_patience_s} s nicht zur Ruhe; nachsehen, was sie bewegt, und neu beginnen</translation>
     </message>
     <message>
-        <source>frozen: it repeats the same picture</source>
-        <translation>eingefroren: sie liefert immer wieder dasselbe Bild</translation>
+        <source>frozen: it repeats earlier pictures</source>
+        <translation>eingefroren: Sie wiederholt frühere Bilder</translation>
     </message>
     <message>
         <source>the camera is {what}; {count} of {pictures} new pictures arrived within {waited_s} s. Nothing moves: check the camera, and start again</source>
@@ -735,8 +743,12 @@
         <translation>{name}: ihr Thread läuft noch; erst schließen</translation>
     </message>
     <message>
-        <source>every picture has been the same for more than {seconds} s; do not trust it, and open the camera again</source>
-        <translation>seit über {seconds} s immer dasselbe Bild; es ist nicht verlässlich: die Kamera neu öffnen</translation>
+        <source>{name} failed; the log has the cause. Check the camera and its cable, and open it again</source>
+        <translation>{name} ist ausgefallen; die Ursache steht im Protokoll. Prüfen Sie Kamera und Kabel, und öffnen Sie sie erneut</translation>
+    </message>
+    <message>
+        <source>the camera has only repeated earlier pictures for more than {seconds} s; do not trust them, and open the camera again</source>
+        <translation>die Kamera wiederholt seit mehr als {seconds} s nur frühere Bilder; vertrauen Sie ihnen nicht, und öffnen Sie die Kamera erneut</translation>
     </message>
     <message>
         <source>the picture is black; check lamp, shutter, lens cap and exposure</source>
@@ -812,8 +824,8 @@
         <translation>pip install &apos;rotemina[micromanager]&apos;, dann mmcore install</translation>
     </message>
     <message>
-        <source>Micro-Manager cannot be used: {error}; {install}</source>
-        <translation>Micro-Manager ist nicht nutzbar: {error}; {install}</translation>
+        <source>Micro-Manager cannot be loaded; the log has the cause. {install}</source>
+        <translation>Micro-Manager lässt sich nicht laden; die Ursache steht im Protokoll. {install}</translation>
     </message>
     <message>
         <source>configuration file of Micro-Manager (.cfg)</source>
@@ -836,24 +848,24 @@
         <translation>{path} nennt keine Kamera; mit dem Assistenten von Micro-Manager eine hinzufügen</translation>
     </message>
     <message>
-        <source>{path}: Micro-Manager cannot open it: {error}</source>
-        <translation>{path}: Micro-Manager kann sie nicht öffnen: {error}</translation>
+        <source>{path}: Micro-Manager cannot open it; the log has the cause. Check the configuration with Micro-Manager&apos;s wizard, and whether the camera is on and connected</source>
+        <translation>{path}: Micro-Manager kann sie nicht öffnen; die Ursache steht im Protokoll. Prüfen Sie die Konfiguration mit dem Assistenten von Micro-Manager, und ob die Kamera eingeschaltet und angeschlossen ist</translation>
+    </message>
+    <message>
+        <source>{name} rejected the settings, and keeps those it had; the log has the cause. Choose other values</source>
+        <translation>{name} hat die Einstellungen abgelehnt und behält die bisherigen; die Ursache steht im Protokoll. Wählen Sie andere Werte</translation>
+    </message>
+    <message>
+        <source>{name}: Micro-Manager has lost the camera; the log has the cause. Check whether it is on and connected, and open it again</source>
+        <translation>{name}: Micro-Manager hat die Kamera verloren; die Ursache steht im Protokoll. Prüfen Sie, ob sie eingeschaltet und angeschlossen ist, und öffnen Sie sie erneut</translation>
     </message>
     <message>
         <source>{name}: pixels of {getbytesperpixel} bytes: must be grey of 8 or 16 bits, or colour; set the camera&apos;s pixel type in its configuration</source>
         <translation>{name}: Bildpunkte von {getbytesperpixel} Byte: muss Grau mit 8 oder 16 Bit oder Farbe sein; den Pixeltyp der Kamera in ihrer Konfiguration setzen</translation>
     </message>
     <message>
-        <source>{name} rejected the settings: {error}</source>
-        <translation>{name} hat die Einstellungen abgelehnt: {error}</translation>
-    </message>
-    <message>
         <source>{name} no longer takes pictures; check whether it is plugged in, and open it again</source>
         <translation>{name} nimmt keine Bilder mehr auf; prüfen, ob sie angesteckt ist, und wieder öffnen</translation>
-    </message>
-    <message>
-        <source>{name}: Micro-Manager has lost the camera: {error}; open it again</source>
-        <translation>{name}: Micro-Manager hat sie verloren: {error}; wieder öffnen</translation>
     </message>
     <message>
         <source>profile of {axis}: {segments} segments: must be 1 to {most_segments}</source>
@@ -1173,6 +1185,7 @@
     </message>
     <message>
         <source>{name}: {error}</source>
+        <extracomment>A longer pause of this program, s, ends what was under way: longer than those of a busy computer, far shorter than the suspension of one, of which nobody knows what has changed meanwhile.</extracomment>
         <translation>{name}: {error}</translation>
     </message>
     <message>
@@ -1706,6 +1719,18 @@
         <translation>um alle Parameter zu melden</translation>
     </message>
     <message>
+        <source>to tell its rates</source>
+        <translation>um ihre Raten zu nennen</translation>
+    </message>
+    <message>
+        <source>{where} answers, but after {trip}: on a shared bus that is a sample every {sample} at best, and at least one every {limit} is needed. Use a faster connection, or a line for each board</source>
+        <translation>{where} antwortet, aber erst nach {trip}: Auf einem gemeinsamen Bus ist das bestenfalls ein Abtastwert je {sample}, nötig ist mindestens einer je {limit}. Eine schnellere Verbindung verwenden oder eine Leitung je Karte</translation>
+    </message>
+    <message>
+        <source>{where} answers, but after {trip}: with watchdog_s = {watch} it would halt between two messages. Use a faster connection, or set watchdog_s to {least} or more: the axes go on for as long when the connection is lost</source>
+        <translation>{where} antwortet, aber erst nach {trip}: Mit watchdog_s = {watch} hielte sie zwischen zwei Nachrichten an. Eine schnellere Verbindung verwenden oder watchdog_s auf mindestens {least} setzen: So lange fahren die Achsen weiter, wenn die Verbindung abreißt</translation>
+    </message>
+    <message>
         <source>board&apos;s program</source>
         <translation>Programm der Karte</translation>
     </message>
@@ -1766,6 +1791,22 @@
         <translation>{who}: brauchte länger als {limit_s} s, {what}; Kabel und Versorgung prüfen</translation>
     </message>
     <message>
+        <source>{where} answers, but not in version {own} of the protocol, which this program uses; update the board&apos;s program</source>
+        <translation>{where} antwortet, aber nicht in Version {own} des Protokolls, die dieses Programm verwendet; das Programm der Karte aktualisieren</translation>
+    </message>
+    <message>
+        <source>{where}: board {other} answers there instead; exchange the cables, or the settings port and second_port</source>
+        <translation>{where}: Stattdessen antwortet dort Karte {other}; die Kabel tauschen oder die Einstellungen port und second_port</translation>
+    </message>
+    <message>
+        <source>{where}: what this program sends comes back ({count} frames), and no board answers; check the power of the board, and whether transmit and receive lines are connected to each other</source>
+        <translation>{where}: Was dieses Programm sendet, kommt zurück ({count} Telegramme), und keine Karte antwortet; Versorgung der Karte prüfen und ob Sende- und Empfangsleitung verbunden sind</translation>
+    </message>
+    <message>
+        <source>{where}: {count} bytes arrive at {baud} baud, but no valid frame of a board; check the baud rate (others: {others}), and whether an MC68HC11 board is connected to this port</source>
+        <translation>{where}: Bei {baud} Baud kommen {count} Bytes an, aber kein gültiges Telegramm einer Karte; Baudrate prüfen (andere: {others}) und ob eine MC68HC11-Karte an diesem Anschluss hängt</translation>
+    </message>
+    <message>
         <source>{where}: no answer at {baud} baud; check the power of the board, its cable (at this port, not the other board&apos;s), and the baud rate (others: {others})</source>
         <translation>{where}: keine Antwort bei {baud} Baud; die Versorgung der Karte, ihr Kabel (an diesem Anschluss, nicht an dem der anderen Karte) und die Baudrate prüfen (andere: {others})</translation>
     </message>
@@ -1815,6 +1856,7 @@
     </message>
     <message>
         <source>board {address} on {url}</source>
+        <extracomment>What commands its telemetry may tell; None while it is being opened.</extracomment>
         <translation>Karte {address} an {url}</translation>
     </message>
     <message>
@@ -1824,6 +1866,10 @@
     <message>
         <source>board {address}: {words}</source>
         <translation>Karte {address}: {words}</translation>
+    </message>
+    <message>
+        <source>{where}: {count} reports in a row put its axes where they cannot have gone by themselves. Check the board, connect again, and home or confirm the position</source>
+        <translation>{where}: {count} Meldungen in Folge nennen Orte, an die ihre Achsen nicht von selbst gelangt sein können. Die Karte prüfen, neu verbinden und referenzieren oder die Position bestätigen</translation>
     </message>
     <message>
         <source>{name} {end}</source>
@@ -1878,6 +1924,10 @@
         <translation>{name}: {lost}</translation>
     </message>
     <message>
+        <source>this program did not run for {seconds} s, at most {limit} s are allowed while axes move; all motion was cancelled. Check the machine, clear the fault and move again</source>
+        <translation>dieses Programm lief {seconds} s lang nicht, zulässig sind höchstens {limit} s, während Achsen fahren; alle Bewegungen wurden abgebrochen. Die Maschine prüfen, den Fehler quittieren und erneut fahren</translation>
+    </message>
+    <message>
         <source>{name}: setting {setting} = {value} is not between {least} and {greatest}</source>
         <translation>{name}: Einstellung {setting} = {value} liegt nicht zwischen {least} und {greatest}</translation>
     </message>
@@ -1907,11 +1957,12 @@
     </message>
     <message>
         <source>no serial port is set; set port to a device, for example /dev/ttyUSB0</source>
+        <extracomment>A port that has taken nothing for so long is lost: nothing that waits is sent any more.</extracomment>
         <translation>kein serieller Anschluss eingestellt; port auf ein Gerät setzen, zum Beispiel /dev/ttyUSB0</translation>
     </message>
     <message>
-        <source>{url}: the port accepts no more bytes; check whether the line is blocked</source>
-        <translation>{url}: der Anschluss nimmt keine Bytes mehr an; prüfen, ob die Leitung blockiert ist</translation>
+        <source>{url}: the port takes no more bytes: {waiting} bytes have been waiting for {seconds} s. The device or its adapter may hang: if the machine moves, use its emergency stop switch; check cable, adapter and device, then reconnect</source>
+        <translation>{url}: der Anschluss nimmt keine Bytes mehr an: {waiting} Byte warten seit {seconds} s. Das Gerät oder sein Adapter hängt womöglich: falls sich die Maschine bewegt, ihren Not-Halt benutzen; Kabel, Adapter und Gerät prüfen, dann wieder verbinden</translation>
     </message>
     <message>
         <source>{url}: no permission to open it; add the user to the group that owns the device (dialout on most systems) and log in again</source>
@@ -1940,6 +1991,10 @@
     <message>
         <source>a motion was not sent: {error}</source>
         <translation>eine Bewegung wurde nicht gesendet: {error}</translation>
+    </message>
+    <message>
+        <source>{where}: by its parameters the voltage of axis {axis} goes from {first} V to {last} V; write the parameters of the robot file to the board</source>
+        <translation>{where}: nach ihren Parametern reicht die Spannung von Achse {axis} von {first} V bis {last} V; die Parameter der Roboterdatei auf die Karte schreiben</translation>
     </message>
     <message>
         <source>{name}: {where} cannot play trajectories</source>
@@ -2022,6 +2077,10 @@
         <translation>Achse {axis}: die Sollwerte um t = {time} s liegen {value} auseinander, über der Grenze von {bound} in {period}; alle {period} eine Zeile angeben oder die Zeit der Trajektorie mindestens auf das {factor}-Fache strecken</translation>
     </message>
     <message>
+        <source>{where} answers after {trip}: for a set-point every {period} it must not take longer than {limit}; use a faster connection to play trajectories</source>
+        <translation>{where} antwortet nach {trip}: Für einen Sollwert je {period} darf es nicht länger als {limit} dauern; zum Abspielen von Trajektorien eine schnellere Verbindung verwenden</translation>
+    </message>
+    <message>
         <source>robot {robot}: axis {axis} is moved by a {kind}; the MC68HC11 boards move stepping motors and piezos</source>
         <translation>Roboter {robot}: Achse {axis} wird von {kind} bewegt; die MC68HC11-Karten bewegen Schrittmotoren und Piezos</translation>
     </message>
@@ -2082,6 +2141,14 @@
         <translation>{name}: ein Bild von {columns} × {rows} px statt {width} × {height}: die Auflösung hat sich geändert; schließen, wieder öffnen und neu kalibrieren</translation>
     </message>
     <message>
+        <source>{name}: a picture of type {found}, expected {expected}: its pixel type has changed; close it and open it again</source>
+        <translation>{name}: ein Bild vom Typ {found}, erwartet {expected}: Der Pixeltyp hat sich geändert; schließen und öffnen Sie sie erneut</translation>
+    </message>
+    <message>
+        <source>{name} gives empty or unusable pictures (pixels: {dtype}, size: {size}); check the camera and its cable, and open it again</source>
+        <translation>{name} liefert leere oder unbrauchbare Bilder (Pixel: {dtype}, Größe: {size}); prüfen Sie Kamera und Kabel, und öffnen Sie sie erneut</translation>
+    </message>
+    <message>
         <source>Simulated microscope</source>
         <translation>Simuliertes Mikroskop</translation>
     </message>
@@ -2110,12 +2177,12 @@
         <translation>{name}: keine Adresse; bitte eingeben: {address_hint}</translation>
     </message>
     <message>
-        <source>{name}: there is no camera {address}, or another program uses it, or you have no permission (group &apos;video&apos; on Linux)</source>
-        <translation>{name}: die Kamera {address} gibt es nicht, ein anderes Programm verwendet sie, oder sie darf nicht gelesen werden (Gruppe &apos;video&apos; unter Linux)</translation>
+        <source>{name} gives no pictures; check whether it is connected, and open it again</source>
+        <translation>{name} liefert keine Bilder; prüfen Sie, ob sie angeschlossen ist, und öffnen Sie sie erneut</translation>
     </message>
     <message>
-        <source>{name} gives no picture; unplug it, and plug it in again</source>
-        <translation>{name} liefert kein Bild; abstecken und wieder anstecken</translation>
+        <source>{name}: there is no camera {address}, or another program uses it, or you have no permission (group &apos;video&apos; on Linux)</source>
+        <translation>{name}: die Kamera {address} gibt es nicht, ein anderes Programm verwendet sie, oder sie darf nicht gelesen werden (Gruppe &apos;video&apos; unter Linux)</translation>
     </message>
     <message>
         <source>a manual exposure</source>
@@ -2134,10 +2201,6 @@
         <translation>{name} nimmt {what} nicht an; unverändert lassen</translation>
     </message>
     <message>
-        <source>{name} no longer gives pictures; check whether it is plugged in, and open it again</source>
-        <translation>{name} liefert keine Bilder mehr; prüfen, ob sie angesteckt ist, und wieder öffnen</translation>
-    </message>
-    <message>
         <source>{address}: file not found; choose another one</source>
         <translation>{address}: diese Datei gibt es nicht; eine andere wählen</translation>
     </message>
@@ -2152,10 +2215,6 @@
     <message>
         <source>{name} has ended; open it again, or let it repeat</source>
         <translation>{name}: zu Ende; wieder öffnen oder wiederholen lassen</translation>
-    </message>
-    <message>
-        <source>{name} has ended; open it again</source>
-        <translation>{name}: zu Ende; wieder öffnen</translation>
     </message>
     <message>
         <source>{name} has no pixel type {pixel_type}; available: {known}</source>
@@ -2211,16 +2270,16 @@
         <translation>die Datei ist abgeschnitten oder fehlt</translation>
     </message>
     <message>
-        <source>{file}: page {page} cannot be read: {error}</source>
-        <translation>{file}: Seite {page} kann nicht gelesen werden: {error}</translation>
-    </message>
-    <message>
         <source>{file}: page {page} cannot be read; the file is truncated or missing</source>
         <translation>{file}: Seite {page} kann nicht gelesen werden; die Datei ist abgeschnitten oder fehlt</translation>
     </message>
     <message>
         <source>{file}: pixels of type {dtype} with {ndim} dimensions: must be grey of 8 or 16 bits, or colour of 8; convert it</source>
         <translation>{file}: Bildpunkte vom Typ {dtype} mit {ndim} Dimensionen: muss Grau mit 8 oder 16 Bit oder Farbe mit 8 sein; umwandeln</translation>
+    </message>
+    <message>
+        <source>it cannot look for cameras; the log has the cause. Update or remove this plugin</source>
+        <translation>es kann nicht nach Kameras suchen; die Ursache steht im Protokoll. Aktualisieren oder entfernen Sie dieses Plugin</translation>
     </message>
     <message>
         <source>{name}: there is no source {source} of cameras; installed: {known}</source>
@@ -2231,16 +2290,25 @@
         <translation>die Kameraquelle {source} gibt es nicht; vorhanden: {known}</translation>
     </message>
     <message>
+        <source>axis {name} reads {at} on its way from {start} to {end} by the controller&apos;s count; check the direction and the settings of this axis, then home</source>
+        <translation>Achse {name} steht nach Zählung der Steuerung auf dem Weg von {start} nach {end} bei {at}; Richtung und Einstellungen dieser Achse prüfen, dann Referenzfahrt</translation>
+    </message>
+    <message>
         <source>axis {name} at {at} instead of {end} by the controller&apos;s count</source>
         <translation>Achse {name} bei {at} statt {end} nach Zählung der Steuerung</translation>
     </message>
     <message>
         <source>{where}: its reports have no machine position; send it $10=1</source>
+        <extracomment>A line on which an answer takes longer is refused: a stop would come too late.</extracomment>
         <translation>{where}: in den Berichten fehlt die Maschinenposition; $10=1 senden</translation>
     </message>
     <message>
         <source>{where}: it reports inches; send it $13=0</source>
         <translation>{where}: meldet Zoll; $13=0 senden</translation>
+    </message>
+    <message>
+        <source>{where}: an answer takes {took} s; at most {most} s is accepted, as a stop takes half of that. Use a faster line</source>
+        <translation>{where}: eine Antwort braucht {took} s; zulässig sind höchstens {most} s, denn ein Halt braucht die Hälfte davon. Eine schnellere Leitung verwenden</translation>
     </message>
     <message>
         <source>did not reset</source>
@@ -2251,8 +2319,8 @@
         <translation>{where}: die Achsen bewegen sich {rest_s} s nach einem Vorschubhalt noch; den Not-Halt der Maschine benutzen</translation>
     </message>
     <message>
-        <source>{where}: no answer to &apos;?&apos; within {limit_s} s; check that it is a GRBL controller, its power and the baud rate</source>
-        <translation>{where}: keine Antwort auf &apos;?&apos; innerhalb von {limit_s} s; prüfen, ob es eine GRBL-Steuerung ist, sowie Versorgung und Baudrate</translation>
+        <source>{where}: no answer to &apos;?&apos; within {limit_s} s: {why}</source>
+        <translation>{where}: keine Antwort auf &apos;?&apos; innerhalb von {limit_s} s: {why}</translation>
     </message>
     <message>
         <source>{where}: it {what} within {limit_s} s</source>
@@ -2261,6 +2329,494 @@
     <message>
         <source>did not answer {line}</source>
         <translation>beantwortete {line} nicht</translation>
+    </message>
+    <message>
+        <source>a word does not begin with a letter</source>
+        <translation>ein Wort beginnt nicht mit einem Buchstaben</translation>
+    </message>
+    <message>
+        <source>a number is missing or malformed</source>
+        <translation>eine Zahl fehlt oder ist fehlerhaft</translation>
+    </message>
+    <message>
+        <source>it does not know this command</source>
+        <translation>sie kennt diesen Befehl nicht</translation>
+    </message>
+    <message>
+        <source>a number must not be negative</source>
+        <translation>eine Zahl darf nicht negativ sein</translation>
+    </message>
+    <message>
+        <source>homing is not enabled; set $22</source>
+        <translation>die Referenzfahrt ist nicht freigegeben; $22 setzen</translation>
+    </message>
+    <message>
+        <source>the step pulse is too short</source>
+        <translation>der Schrittimpuls ist zu kurz</translation>
+    </message>
+    <message>
+        <source>its stored settings could not be read; it uses its defaults, check them</source>
+        <translation>ihre gespeicherten Einstellungen waren nicht lesbar; sie verwendet ihre Vorgaben, diese prüfen</translation>
+    </message>
+    <message>
+        <source>it is locked by an alarm or busy with a jog</source>
+        <translation>sie ist durch einen Alarm gesperrt oder führt gerade eine Tippbewegung aus</translation>
+    </message>
+    <message>
+        <source>soft limits need homing; set $22</source>
+        <translation>Software-Grenzen brauchen die Referenzfahrt; $22 setzen</translation>
+    </message>
+    <message>
+        <source>the line is too long for it</source>
+        <translation>die Zeile ist zu lang für sie</translation>
+    </message>
+    <message>
+        <source>the step rate is higher than it can produce</source>
+        <translation>die Schrittrate ist höher, als sie erzeugen kann</translation>
+    </message>
+    <message>
+        <source>the safety door is open</source>
+        <translation>die Schutztür ist offen</translation>
+    </message>
+    <message>
+        <source>a stored line is too long</source>
+        <translation>eine gespeicherte Zeile ist zu lang</translation>
+    </message>
+    <message>
+        <source>it is no valid jog command</source>
+        <translation>es ist kein gültiger Tippbefehl</translation>
+    </message>
+    <message>
+        <source>laser mode needs a spindle output with PWM</source>
+        <translation>der Laserbetrieb braucht einen Spindelausgang mit PWM</translation>
+    </message>
+    <message>
+        <source>it does not support this G-code</source>
+        <translation>sie unterstützt diesen G-Code nicht</translation>
+    </message>
+    <message>
+        <source>two G-codes of one group stand in a line</source>
+        <translation>zwei G-Codes derselben Gruppe stehen in einer Zeile</translation>
+    </message>
+    <message>
+        <source>the feed rate is missing</source>
+        <translation>der Vorschub fehlt</translation>
+    </message>
+    <message>
+        <source>a G-code needs a whole number</source>
+        <translation>ein G-Code braucht eine ganze Zahl</translation>
+    </message>
+    <message>
+        <source>two G-codes in a line both want axis words</source>
+        <translation>zwei G-Codes in einer Zeile verlangen beide Achswörter</translation>
+    </message>
+    <message>
+        <source>a word stands twice in a line</source>
+        <translation>ein Wort steht zweimal in einer Zeile</translation>
+    </message>
+    <message>
+        <source>axis words are missing</source>
+        <translation>Achswörter fehlen</translation>
+    </message>
+    <message>
+        <source>the line number is not valid</source>
+        <translation>die Zeilennummer ist ungültig</translation>
+    </message>
+    <message>
+        <source>a G-code lacks a value</source>
+        <translation>einem G-Code fehlt ein Wert</translation>
+    </message>
+    <message>
+        <source>it does not have this work coordinate system</source>
+        <translation>sie hat dieses Werkstückkoordinatensystem nicht</translation>
+    </message>
+    <message>
+        <source>G53 needs G0 or G1</source>
+        <translation>G53 braucht G0 oder G1</translation>
+    </message>
+    <message>
+        <source>axis words stand in a line that uses none</source>
+        <translation>Achswörter stehen in einer Zeile, die keine verwendet</translation>
+    </message>
+    <message>
+        <source>an arc needs a word of its plane</source>
+        <translation>ein Kreisbogen braucht ein Wort seiner Ebene</translation>
+    </message>
+    <message>
+        <source>the target of the motion is not valid</source>
+        <translation>das Ziel der Bewegung ist ungültig</translation>
+    </message>
+    <message>
+        <source>the radius of the arc is not valid</source>
+        <translation>der Radius des Kreisbogens ist ungültig</translation>
+    </message>
+    <message>
+        <source>an arc needs an offset in its plane</source>
+        <translation>ein Kreisbogen braucht einen Versatz in seiner Ebene</translation>
+    </message>
+    <message>
+        <source>the line has words that nothing uses</source>
+        <translation>die Zeile enthält Wörter, die nichts verwendet</translation>
+    </message>
+    <message>
+        <source>the tool length offset is for another axis</source>
+        <translation>die Werkzeuglängenkorrektur gilt für eine andere Achse</translation>
+    </message>
+    <message>
+        <source>the tool number is too large</source>
+        <translation>die Werkzeugnummer ist zu groß</translation>
+    </message>
+    <message>
+        <source>homing is not configured; set $22</source>
+        <translation>die Referenzfahrt ist nicht eingerichtet; $22 setzen</translation>
+    </message>
+    <message>
+        <source>it was reset</source>
+        <translation>sie wurde zurückgesetzt</translation>
+    </message>
+    <message>
+        <source>a number must be greater than zero</source>
+        <translation>eine Zahl muss größer als null sein</translation>
+    </message>
+    <message>
+        <source>the tool number is too large, or no tool is selected</source>
+        <translation>die Werkzeugnummer ist zu groß, oder kein Werkzeug ist gewählt</translation>
+    </message>
+    <message>
+        <source>a value is out of range</source>
+        <translation>ein Wert liegt außerhalb seines Bereichs</translation>
+    </message>
+    <message>
+        <source>a tool change is pending</source>
+        <translation>ein Werkzeugwechsel steht aus</translation>
+    </message>
+    <message>
+        <source>the spindle does not turn</source>
+        <translation>die Spindel dreht sich nicht</translation>
+    </message>
+    <message>
+        <source>the plane must be ZX</source>
+        <translation>die Ebene muss ZX sein</translation>
+    </message>
+    <message>
+        <source>the feed rate is too high</source>
+        <translation>der Vorschub ist zu hoch</translation>
+    </message>
+    <message>
+        <source>the spindle speed is out of range</source>
+        <translation>die Spindeldrehzahl liegt außerhalb ihres Bereichs</translation>
+    </message>
+    <message>
+        <source>a limit switch is pressed; only homing is possible</source>
+        <translation>ein Endschalter ist betätigt; nur die Referenzfahrt ist möglich</translation>
+    </message>
+    <message>
+        <source>it must be homed first</source>
+        <translation>sie braucht erst eine Referenzfahrt</translation>
+    </message>
+    <message>
+        <source>no tool is set</source>
+        <translation>kein Werkzeug ist gesetzt</translation>
+    </message>
+    <message>
+        <source>two words of the line contradict each other</source>
+        <translation>zwei Wörter der Zeile widersprechen einander</translation>
+    </message>
+    <message>
+        <source>its self-test failed; switch it off and on</source>
+        <translation>ihr Selbsttest schlug fehl; sie aus- und wieder einschalten</translation>
+    </message>
+    <message>
+        <source>its emergency stop is pressed</source>
+        <translation>ihr Not-Halt ist gedrückt</translation>
+    </message>
+    <message>
+        <source>a motor reports a fault</source>
+        <translation>ein Motor meldet einen Fehler</translation>
+    </message>
+    <message>
+        <source>the setting is out of range</source>
+        <translation>die Einstellung liegt außerhalb ihres Bereichs</translation>
+    </message>
+    <message>
+        <source>it does not have this setting</source>
+        <translation>sie hat diese Einstellung nicht</translation>
+    </message>
+    <message>
+        <source>the retract position lies below the depth</source>
+        <translation>die Rückzugsposition liegt unter der Tiefe</translation>
+    </message>
+    <message>
+        <source>two axes with two motors each cannot be homed together</source>
+        <translation>zwei Achsen mit je zwei Motoren lassen sich nicht zusammen referenzieren</translation>
+    </message>
+    <message>
+        <source>the coordinate system is locked</source>
+        <translation>das Koordinatensystem ist gesperrt</translation>
+    </message>
+    <message>
+        <source>a file ends in an unexpected place</source>
+        <translation>eine Datei endet an unerwarteter Stelle</translation>
+    </message>
+    <message>
+        <source>the port does not exist</source>
+        <translation>den Anschluss gibt es nicht</translation>
+    </message>
+    <message>
+        <source>the SD card cannot be mounted</source>
+        <translation>die SD-Karte lässt sich nicht einbinden</translation>
+    </message>
+    <message>
+        <source>a file cannot be read</source>
+        <translation>eine Datei lässt sich nicht lesen</translation>
+    </message>
+    <message>
+        <source>a folder cannot be opened</source>
+        <translation>ein Ordner lässt sich nicht öffnen</translation>
+    </message>
+    <message>
+        <source>there is no such folder</source>
+        <translation>diesen Ordner gibt es nicht</translation>
+    </message>
+    <message>
+        <source>there is no SD card</source>
+        <translation>es ist keine SD-Karte vorhanden</translation>
+    </message>
+    <message>
+        <source>the file system is not mounted</source>
+        <translation>das Dateisystem ist nicht eingebunden</translation>
+    </message>
+    <message>
+        <source>the file system is read-only</source>
+        <translation>das Dateisystem ist schreibgeschützt</translation>
+    </message>
+    <message>
+        <source>Bluetooth cannot be started</source>
+        <translation>Bluetooth lässt sich nicht starten</translation>
+    </message>
+    <message>
+        <source>an expression has an unknown operator</source>
+        <translation>ein Ausdruck hat einen unbekannten Operator</translation>
+    </message>
+    <message>
+        <source>an expression divides by zero</source>
+        <translation>ein Ausdruck teilt durch null</translation>
+    </message>
+    <message>
+        <source>an argument of an expression is out of range</source>
+        <translation>ein Argument eines Ausdrucks liegt außerhalb seines Bereichs</translation>
+    </message>
+    <message>
+        <source>an argument of an expression is not valid</source>
+        <translation>ein Argument eines Ausdrucks ist ungültig</translation>
+    </message>
+    <message>
+        <source>the syntax of an expression is wrong</source>
+        <translation>die Syntax eines Ausdrucks ist falsch</translation>
+    </message>
+    <message>
+        <source>an expression has no finite result</source>
+        <translation>ein Ausdruck hat kein endliches Ergebnis</translation>
+    </message>
+    <message>
+        <source>a password is needed</source>
+        <translation>ein Passwort ist nötig</translation>
+    </message>
+    <message>
+        <source>access is denied</source>
+        <translation>der Zugriff wird verweigert</translation>
+    </message>
+    <message>
+        <source>it is locked by a critical event; reset it</source>
+        <translation>sie ist durch ein kritisches Ereignis gesperrt; sie zurücksetzen</translation>
+    </message>
+    <message>
+        <source>a flow command stands outside a macro</source>
+        <translation>ein Ablaufbefehl steht außerhalb eines Makros</translation>
+    </message>
+    <message>
+        <source>it does not know this flow command</source>
+        <translation>sie kennt diesen Ablaufbefehl nicht</translation>
+    </message>
+    <message>
+        <source>flow commands are nested too deeply</source>
+        <translation>Ablaufbefehle sind zu tief verschachtelt</translation>
+    </message>
+    <message>
+        <source>its memory is full</source>
+        <translation>ihr Speicher ist voll</translation>
+    </message>
+    <message>
+        <source>a file cannot be opened</source>
+        <translation>eine Datei lässt sich nicht öffnen</translation>
+    </message>
+    <message>
+        <source>the file system cannot be formatted</source>
+        <translation>das Dateisystem lässt sich nicht formatieren</translation>
+    </message>
+    <message>
+        <source>the port cannot be used for this</source>
+        <translation>der Anschluss ist dafür nicht verwendbar</translation>
+    </message>
+    <message>
+        <source>a tool is in the spindle</source>
+        <translation>ein Werkzeug ist in der Spindel</translation>
+    </message>
+    <message>
+        <source>no tool is in the spindle</source>
+        <translation>kein Werkzeug ist in der Spindel</translation>
+    </message>
+    <message>
+        <source>a file cannot be deleted</source>
+        <translation>eine Datei lässt sich nicht löschen</translation>
+    </message>
+    <message>
+        <source>cutter compensation is already active</source>
+        <translation>die Werkzeugradiuskorrektur ist schon aktiv</translation>
+    </message>
+    <message>
+        <source>this is not possible during cutter compensation</source>
+        <translation>das ist während der Werkzeugradiuskorrektur nicht möglich</translation>
+    </message>
+    <message>
+        <source>cutter compensation does not fit this motion</source>
+        <translation>die Werkzeugradiuskorrektur passt nicht zu dieser Bewegung</translation>
+    </message>
+    <message>
+        <source>an error that its own program defines</source>
+        <translation>ein Fehler, den ihr eigenes Programm festlegt</translation>
+    </message>
+    <message>
+        <source>this setting is disabled</source>
+        <translation>diese Einstellung ist abgeschaltet</translation>
+    </message>
+    <message>
+        <source>no homing cycle is configured</source>
+        <translation>kein Referenzzyklus ist eingerichtet</translation>
+    </message>
+    <message>
+        <source>this axis cannot be homed alone</source>
+        <translation>diese Achse lässt sich nicht allein referenzieren</translation>
+    </message>
+    <message>
+        <source>a value is too large</source>
+        <translation>ein Wert ist zu groß</translation>
+    </message>
+    <message>
+        <source>a P value is too large</source>
+        <translation>ein P-Wert ist zu groß</translation>
+    </message>
+    <message>
+        <source>an input was active at start; check switches and buttons</source>
+        <translation>ein Eingang war beim Start aktiv; Schalter und Taster prüfen</translation>
+    </message>
+    <message>
+        <source>the storage cannot be mounted</source>
+        <translation>der Datenspeicher lässt sich nicht einbinden</translation>
+    </message>
+    <message>
+        <source>reading failed</source>
+        <translation>das Lesen schlug fehl</translation>
+    </message>
+    <message>
+        <source>a file is empty</source>
+        <translation>eine Datei ist leer</translation>
+    </message>
+    <message>
+        <source>there is no such file</source>
+        <translation>diese Datei gibt es nicht</translation>
+    </message>
+    <message>
+        <source>the storage is busy</source>
+        <translation>der Datenspeicher ist belegt</translation>
+    </message>
+    <message>
+        <source>a folder cannot be deleted</source>
+        <translation>ein Ordner lässt sich nicht löschen</translation>
+    </message>
+    <message>
+        <source>a file cannot be renamed</source>
+        <translation>eine Datei lässt sich nicht umbenennen</translation>
+    </message>
+    <message>
+        <source>the number is out of range for this setting</source>
+        <translation>die Zahl liegt außerhalb des Bereichs dieser Einstellung</translation>
+    </message>
+    <message>
+        <source>the value is not valid for this setting</source>
+        <translation>der Wert ist für diese Einstellung ungültig</translation>
+    </message>
+    <message>
+        <source>a file cannot be created</source>
+        <translation>eine Datei lässt sich nicht anlegen</translation>
+    </message>
+    <message>
+        <source>a message could not be sent</source>
+        <translation>eine Nachricht ließ sich nicht senden</translation>
+    </message>
+    <message>
+        <source>a setting could not be stored</source>
+        <translation>eine Einstellung ließ sich nicht speichern</translation>
+    </message>
+    <message>
+        <source>its storage of settings does not answer</source>
+        <translation>ihr Speicher für Einstellungen antwortet nicht</translation>
+    </message>
+    <message>
+        <source>the password is wrong</source>
+        <translation>das Passwort ist falsch</translation>
+    </message>
+    <message>
+        <source>a line ends unexpectedly</source>
+        <translation>eine Zeile endet unerwartet</translation>
+    </message>
+    <message>
+        <source>a file ends unexpectedly</source>
+        <translation>eine Datei endet unerwartet</translation>
+    </message>
+    <message>
+        <source>no data arrived</source>
+        <translation>es kamen keine Daten an</translation>
+    </message>
+    <message>
+        <source>another program or interface uses it</source>
+        <translation>ein anderes Programm oder eine andere Schnittstelle verwendet sie</translation>
+    </message>
+    <message>
+        <source>the jog was cancelled</source>
+        <translation>die Tippbewegung wurde abgebrochen</translation>
+    </message>
+    <message>
+        <source>a pin is described wrongly in its configuration</source>
+        <translation>ein Pin ist in ihrer Konfiguration falsch beschrieben</translation>
+    </message>
+    <message>
+        <source>a setting of its configuration is not valid</source>
+        <translation>eine Einstellung ihrer Konfiguration ist ungültig</translation>
+    </message>
+    <message>
+        <source>its configuration file is not valid; read its start-up messages</source>
+        <translation>ihre Konfigurationsdatei ist ungültig; ihre Startmeldungen lesen</translation>
+    </message>
+    <message>
+        <source>an upload failed</source>
+        <translation>ein Hochladen schlug fehl</translation>
+    </message>
+    <message>
+        <source>a download failed</source>
+        <translation>ein Herunterladen schlug fehl</translation>
+    </message>
+    <message>
+        <source>this setting is read-only</source>
+        <translation>diese Einstellung ist schreibgeschützt</translation>
+    </message>
+    <message>
+        <source>a parameter cannot be set</source>
+        <translation>ein Parameter lässt sich nicht setzen</translation>
+    </message>
+    <message>
+        <source>the value of a word is not valid</source>
+        <translation>der Wert eines Worts ist ungültig</translation>
     </message>
     <message>
         <source>hard limit: a limit switch was reached</source>
@@ -2275,6 +2831,14 @@
         <translation>sie wurde in Bewegung zurückgesetzt</translation>
     </message>
     <message>
+        <source>probe: it was not in its expected state before probing</source>
+        <translation>Messtaster: er war vor dem Antasten nicht im erwarteten Zustand</translation>
+    </message>
+    <message>
+        <source>probe: it touched nothing within the way</source>
+        <translation>Messtaster: er berührte auf dem Weg nichts</translation>
+    </message>
+    <message>
         <source>homing was ended by a reset</source>
         <translation>ein Zurücksetzen beendete die Referenzfahrt</translation>
     </message>
@@ -2287,49 +2851,104 @@
         <translation>Referenzfahrt: beim Zurückfahren wurde der Endschalter nicht frei</translation>
     </message>
     <message>
-        <source>homing is not enabled ($22)</source>
-        <extracomment>Of alarms after which the controller still knows where it is. Of alarms after which the controller answers nothing but a reset.</extracomment>
-        <translation>die Referenzfahrt ist nicht freigegeben ($22)</translation>
+        <source>homing: the limit switch was not found</source>
+        <translation>Referenzfahrt: der Endschalter wurde nicht gefunden</translation>
+    </message>
+    <message>
+        <source>homing: the second limit switch of an axis with two motors was not found</source>
+        <translation>Referenzfahrt: der zweite Endschalter einer Achse mit zwei Motoren wurde nicht gefunden</translation>
+    </message>
+    <message>
+        <source>its emergency stop is pressed; release it, then clear the fault</source>
+        <translation>ihr Not-Halt ist gedrückt; ihn lösen, dann den Fehler quittieren</translation>
+    </message>
+    <message>
+        <source>a limit switch is pressed; free the axis first</source>
+        <translation>ein Endschalter ist betätigt; erst die Achse freifahren</translation>
+    </message>
+    <message>
+        <source>the probe is in contact; free it first</source>
+        <translation>der Messtaster hat Kontakt; ihn erst lösen</translation>
+    </message>
+    <message>
+        <source>the spindle did not reach its speed</source>
+        <translation>die Spindel erreichte ihre Drehzahl nicht</translation>
+    </message>
+    <message>
+        <source>homing: its configuration does not permit it</source>
+        <translation>Referenzfahrt: ihre Konfiguration lässt sie nicht zu</translation>
+    </message>
+    <message>
+        <source>a Modbus device does not answer</source>
+        <translation>ein Modbus-Gerät antwortet nicht</translation>
+    </message>
+    <message>
+        <source>an input/output expander does not answer</source>
+        <translation>eine Ein-/Ausgabe-Erweiterung antwortet nicht</translation>
+    </message>
+    <message>
+        <source>its stored settings cannot be read or written</source>
+        <translation>ihre gespeicherten Einstellungen lassen sich nicht lesen oder schreiben</translation>
+    </message>
+    <message>
+        <source>its input buffer overflowed</source>
+        <translation>ihr Eingangspuffer lief über</translation>
+    </message>
+    <message>
+        <source>homing: both ends of an axis report a limit switch</source>
+        <translation>Referenzfahrt: beide Enden einer Achse melden einen Endschalter</translation>
+    </message>
+    <message>
+        <source>its hard stop was pressed; release it, then clear the fault</source>
+        <translation>ihr Sofort-Halt wurde gedrückt; ihn lösen, dann den Fehler quittieren</translation>
+    </message>
+    <message>
+        <source>it has just started; clear the fault, then home</source>
+        <translation>sie ist gerade erst gestartet; den Fehler quittieren, dann Referenzfahrt</translation>
+    </message>
+    <message>
+        <source>an input/output expander was reset</source>
+        <translation>eine Ein-/Ausgabe-Erweiterung wurde zurückgesetzt</translation>
+    </message>
+    <message>
+        <source>a G-code error stopped its program</source>
+        <translation>ein G-Code-Fehler hielt ihr Programm an</translation>
+    </message>
+    <message>
+        <source>a limit switch was reached while probing</source>
+        <translation>beim Antasten wurde ein Endschalter erreicht</translation>
+    </message>
+    <message>
+        <source>a number that {firmware} does not document; see the manual of its maker</source>
+        <translation>eine Nummer, die {firmware} nicht dokumentiert; siehe Handbuch des Herstellers</translation>
     </message>
     <message>
         <source>it is not idle</source>
         <translation>sie ist nicht in Ruhe</translation>
     </message>
     <message>
-        <source>it is locked by an alarm</source>
-        <translation>sie ist durch einen Alarm gesperrt</translation>
-    </message>
-    <message>
-        <source>the line is too long</source>
-        <translation>die Zeile ist zu lang</translation>
-    </message>
-    <message>
         <source>the target lies beyond the travel</source>
         <translation>das Ziel liegt außerhalb des Verfahrwegs</translation>
-    </message>
-    <message>
-        <source>not a jog command</source>
-        <translation>kein Tippbefehl</translation>
-    </message>
-    <message>
-        <source>unsupported G-code</source>
-        <translation>nicht unterstützter G-Code</translation>
     </message>
     <message>
         <source>{what}:{number}, {meaning}</source>
         <translation>{what}:{number}, {meaning}</translation>
     </message>
     <message>
-        <source>see the manual</source>
-        <translation>siehe Handbuch</translation>
-    </message>
-    <message>
         <source>axis {name}: the controller has no setting ${first}; it needs one for each of the {count} axes</source>
         <translation>Achse {name}: die Steuerung hat keine Einstellung ${first}; sie braucht eine für jede der {count} Achsen</translation>
     </message>
     <message>
-        <source>axis {name}: the controller&apos;s ${first} = {settings} does not agree with the robot file; send it ${first}={wanted} ({unit}), or correct the file</source>
-        <translation>Achse {name}: ${first} = {settings} in der Steuerung passt nicht zur Roboterdatei; ${first}={wanted} ({unit}) senden oder die Datei berichtigen</translation>
+        <source>axis {name}: after homing the controller counts {count} {unit}, which is not within its range: the robot file has {low} to {high} {unit}, the controller travels {travel} {unit} (${setting}). Correct ${setting} and the homing settings ($22, $23, $27), or the robot file</source>
+        <translation>Achse {name}: nach der Referenzfahrt zählt die Steuerung {count} {unit}, das liegt nicht in ihrem Bereich: die Roboterdatei hat {low} bis {high} {unit}, der Verfahrweg der Steuerung ist {travel} {unit} (${setting}). ${setting} und die Einstellungen der Referenzfahrt ($22, $23, $27) oder die Roboterdatei berichtigen</translation>
+    </message>
+    <message>
+        <source>the controller&apos;s settings do not agree with the robot file: {differences}. Send them to the controller, or correct the file</source>
+        <translation>die Einstellungen der Steuerung passen nicht zur Roboterdatei: {differences}. Sie an die Steuerung senden oder die Datei berichtigen</translation>
+    </message>
+    <message>
+        <source>axis {name}: ${setting} = {present}, the file has {value} {unit} (${setting}={value})</source>
+        <translation>Achse {name}: ${setting} = {present}, die Datei hat {value} {unit} (${setting}={value})</translation>
     </message>
     <message>
         <source>robot {name} has {count} axes; the letters {letters} name {letter_count}</source>
@@ -2344,8 +2963,8 @@
         <translation>gcode: letters = {letters}: müssen verschiedene aus XYZABCUVW sein</translation>
     </message>
     <message>
-        <source>{url}: the controller has {count} axes, robot {robot} {wanted}; choose the robot file of this stage</source>
-        <translation>{url}: die Steuerung hat {count} Achsen, Roboter {robot} {wanted}; die Roboterdatei dieses Tischs nehmen</translation>
+        <source>{url}: the controller has {count} axes, robot {robot} {expected}; choose the robot file of this stage</source>
+        <translation>{url}: die Steuerung hat {count} Achsen, Roboter {robot} {expected}; die Roboterdatei dieses Tischs wählen</translation>
     </message>
     <message>
         <source>{url}: {error}</source>
@@ -2364,6 +2983,11 @@
         <translation>{name}: noch mit einem Halt beschäftigt; erneut versuchen</translation>
     </message>
     <message>
+        <source>{count} reports in a row put the axes where they cannot have gone by themselves; the position is unknown, home all axes</source>
+        <extracomment>After so long without a step this program was suspended: nothing may go on by itself.</extracomment>
+        <translation>{count} Meldungen in Folge zeigen die Achsen dort, wohin sie nicht von selbst gekommen sein können; die Position ist unbekannt, alle Achsen referenzieren</translation>
+    </message>
+    <message>
         <source>the move ended before its target: {short}</source>
         <translation>die Bewegung endete vor ihrem Ziel: {short}</translation>
     </message>
@@ -2372,8 +2996,12 @@
         <translation>die Steuerung lehnte {line} ab: {text}</translation>
     </message>
     <message>
-        <source>the controller was reset from outside, or lost its supply</source>
-        <translation>die Steuerung wurde von anderer Seite zurückgesetzt oder verlor ihre Versorgung</translation>
+        <source>the controller was reset from outside, or lost its supply; clear the fault, then home</source>
+        <translation>die Steuerung wurde von anderer Seite zurückgesetzt oder verlor ihre Versorgung; den Fehler quittieren, dann Referenzfahrt</translation>
+    </message>
+    <message>
+        <source>no report of the last {seconds} s could be used; check the cable, then clear the fault and home</source>
+        <translation>keine Meldung der letzten {seconds} s war brauchbar; das Kabel prüfen, dann den Fehler quittieren und Referenzfahrt</translation>
     </message>
     <message>
         <source>no answer to {line} within {limit_s} s</source>
@@ -2581,6 +3209,15 @@
     <message>
         <source>its report descriptor has no axis and no button of a joystick, gamepad or multi-axis controller</source>
         <translation>der Report-Deskriptor enthält weder Achse noch Taste eines Joysticks, Gamepads oder Mehrachsreglers</translation>
+    </message>
+    <message>
+        <source>it sent a report of type {number}, which it does not declare, and counts as released. Release it and start again; if this repeats, replug it</source>
+        <extracomment>Why the latest report could not be understood; None if it could.</extracomment>
+        <translation>es sandte eine Meldung vom Typ {number}, den es nicht angibt, und gilt als losgelassen. Loslassen und neu beginnen; falls es wieder geschieht, neu anstecken</translation>
+    </message>
+    <message>
+        <source>it sent a report of {length} bytes after reports of {longest}, and counts as released. Release it and start again; if this repeats, replug it</source>
+        <translation>es sandte eine Meldung von {length} Byte nach Meldungen von {longest} und gilt als losgelassen. Loslassen und neu beginnen; falls es wieder geschieht, neu anstecken</translation>
     </message>
     <message>
         <source>USB and Bluetooth joysticks</source>
@@ -3242,6 +3879,10 @@
         <translation>{name}:{line}: die komprimierten Daten sind nach dieser Zeile beschädigt ({error}); die Datei neu kopieren</translation>
     </message>
     <message>
+        <source>{name}:{line}: the UTF-16 text is damaged or cut off after this line; copy the file again, or save it as UTF-8</source>
+        <translation>{name}:{line}: Der UTF-16-Text ist nach dieser Zeile beschädigt oder abgeschnitten; die Datei erneut kopieren oder als UTF-8 speichern</translation>
+    </message>
+    <message>
         <source>{name}:{line}: reading failed after this line ({error})</source>
         <translation>{name}:{line}: nach dieser Zeile schlug das Lesen fehl ({error})</translation>
     </message>
@@ -3254,8 +3895,24 @@
         <translation>{name}:{line_of}: die Zeile ist länger als {line_bytes} Byte; ist das eine Aufzeichnung mit LF oder CRLF am Ende jeder Zeile?</translation>
     </message>
     <message>
+        <source>{name}: the file holds no whole line, only zero bytes, as a power cut leaves them; use another copy</source>
+        <translation>{name}: Die Datei enthält keine vollständige Zeile, nur Nullbytes, wie nach einem Stromausfall; eine andere Kopie verwenden</translation>
+    </message>
+    <message>
+        <source>{name}:{line}: the file ends in zero bytes, as a power cut leaves them; cut it after line {last}, the last whole one</source>
+        <translation>{name}:{line}: Die Datei endet mit Nullbytes, wie nach einem Stromausfall; nach Zeile {last}, der letzten vollständigen, abschneiden</translation>
+    </message>
+    <message>
         <source>time {time} s does not increase after {last} s; each row must be later than the one before</source>
         <translation>Zeit {time} s nimmt nach {last} s nicht zu; jede Zeile muss später sein als die vorige</translation>
+    </message>
+    <message>
+        <source>{name}:{line}: a second header; the file holds two logs: move the lines from here on to a file of their own</source>
+        <translation>{name}:{line}: eine zweite Kopfzeile; die Datei enthält zwei Aufzeichnungen: die Zeilen ab hier in eine eigene Datei verschieben</translation>
+    </message>
+    <message>
+        <source>{name}:{line}: the file ends inside this line, at {end}: it was cut off; copy it again, or delete the line</source>
+        <translation>{name}:{line}: Die Datei endet mitten in dieser Zeile, bei {end}: Sie wurde abgeschnitten; erneut kopieren oder die Zeile löschen</translation>
     </message>
     <message>
         <source>value {value} exceeds what float64 holds</source>
@@ -3276,10 +3933,6 @@
     <message>
         <source>separate {count} columns by {separator}</source>
         <translation>{count} Spalten trennen durch {separator}</translation>
-    </message>
-    <message>
-        <source>was the file cut off?</source>
-        <translation>wurde die Datei abgeschnitten?</translation>
     </message>
     <message>
         <source>if the commas are decimal signs, separate columns by &apos;;&apos;</source>
@@ -3306,8 +3959,20 @@
         <translation>Wert {value} ist nicht endlich; eine endliche Zahl schreiben</translation>
     </message>
     <message>
+        <source>value {value} is a spreadsheet&apos;s mark of a missing value or an error; write a number, or delete the row</source>
+        <translation>Wert {value} ist das Zeichen einer Tabellenkalkulation für einen fehlenden Wert oder Fehler; eine Zahl eintragen oder die Zeile löschen</translation>
+    </message>
+    <message>
+        <source>value {value} has a quote without its partner on this line; remove it</source>
+        <translation>Wert {value} hat ein Anführungszeichen ohne Gegenstück in dieser Zeile; es entfernen</translation>
+    </message>
+    <message>
         <source>value {value} is not a plain decimal number; write it like -12.5 or 3e-6</source>
         <translation>Wert {value} ist keine einfache Dezimalzahl; schreiben wie -12.5 oder 3e-6</translation>
+    </message>
+    <message>
+        <source>value {value} has a thousands separator; write its digits without any</source>
+        <translation>Wert {value} hat ein Tausendertrennzeichen; die Ziffern ohne Trennzeichen schreiben</translation>
     </message>
     <message>
         <source>the version must be {version}</source>
@@ -3352,6 +4017,14 @@
     <message>
         <source>{where}: heading {heading}; the first column, and only it, must be time: t [s]</source>
         <translation>{where}: Überschrift {heading}; die erste Spalte, und nur sie, muss die Zeit sein: t [s]</translation>
+    </message>
+    <message>
+        <source>{where}: heading {heading} has a quote without its partner on this line; write each heading on one line, like {example}</source>
+        <translation>{where}: Überschrift {heading} hat ein Anführungszeichen ohne Gegenstück in dieser Zeile; jede Überschrift in eine Zeile schreiben, wie {example}</translation>
+    </message>
+    <message>
+        <source>{where}: heading {heading} is not &apos;axis.channel [unit]&apos;; write it like {example}, and begin lines above the header with &apos;#&apos;</source>
+        <translation>{where}: Überschrift {heading} ist nicht &apos;Achse.Kanal [Einheit]&apos;; wie {example} schreiben und Zeilen über der Kopfzeile mit &apos;#&apos; beginnen</translation>
     </message>
     <message>
         <source>{where}: unknown channel {tap} in {name}; use one of {names}</source>
@@ -3402,8 +4075,20 @@
         <translation>{name}:{line}: insgesamt zu viele Byte an Kommentaren; kürzen</translation>
     </message>
     <message>
+        <source>{name}:{line}: the row begins with a spreadsheet&apos;s mark of a missing value or an error; write its time, or delete the row</source>
+        <translation>{name}:{line}: Die Zeile beginnt mit dem Zeichen einer Tabellenkalkulation für einen fehlenden Wert oder Fehler; die Zeit eintragen oder die Zeile löschen</translation>
+    </message>
+    <message>
         <source>{name}:{line}: no header and no rows of numbers; the record is empty</source>
         <translation>{name}:{line}: keine Kopfzeile und keine Zeilen mit Zahlen; die Aufzeichnung ist leer</translation>
+    </message>
+    <message>
+        <source>{where}: the line names {separator} as separator of columns; use a semicolon, comma, tab or blank</source>
+        <translation>{where}: Die Zeile nennt {separator} als Spaltentrenner; Semikolon, Komma, Tabulator oder Leerzeichen verwenden</translation>
+    </message>
+    <message>
+        <source>{where}: the line above names {separator} as separator of columns, but the header has {other}; correct one of them</source>
+        <translation>{where}: Die Zeile darüber nennt {separator} als Spaltentrenner, die Kopfzeile hat aber {other}; eine von beiden korrigieren</translation>
     </message>
     <message>
         <source>{where}:{index}: the header names {found} where you named {asked}; use the same name, or omit it</source>
@@ -4328,10 +5013,6 @@
         <translation>Roboter {name}: plate.pin.length = {length} m: muss {low} bis {high} m sein, das {shortest}- bis {longest}-Fache des Durchmessers; er wird als Balken berechnet</translation>
     </message>
     <message>
-        <source>axis {axis}: {what} {value} at t = {time} s is beyond the limit {bound}; {advice}</source>
-        <translation>Achse {axis}: {what} {value} bei t = {time} s liegt jenseits der Grenze {bound}; {advice}</translation>
-    </message>
-    <message>
         <source>axis {axis}: speed {speed}: must be a finite number above 0, of an axis with a target</source>
         <translation>Achse {axis}: Geschwindigkeit {speed}: muss eine endliche Zahl über 0 sein, für eine Achse mit Ziel</translation>
     </message>
@@ -4350,6 +5031,18 @@
     <message>
         <source>axis {axis}: target {position} needs {voltage} V, outside the amplifier&apos;s {low} V to {high} V; choose a target nearer to rest</source>
         <translation>Achse {axis}: Ziel {position} braucht {voltage} V, außerhalb der {low} V bis {high} V des Verstärkers; ein Ziel näher an der Ruhelage wählen</translation>
+    </message>
+    <message>
+        <source>{name}: {axis}.cmd = {value} at row {row} is outside the range {low} to {high} of the model {model} by more than 5 % of the travel (bound {bound}). If this is a record of another machine, {remedy}; otherwise correct the unit in the record or the range in the robot file</source>
+        <translation>{name}: {axis}.cmd = {value} in Zeile {row} liegt um mehr als 5 % des Verfahrwegs außerhalb des Bereichs {low} bis {high} des Modells {model} (Grenze {bound}). Falls dies die Aufzeichnung einer anderen Maschine ist: {remedy}; sonst die Einheit in der Aufzeichnung oder den Bereich in der Roboterdatei berichtigen</translation>
+    </message>
+    <message>
+        <source>axis {axis}: {what} {value} at {row}t = {time} s is beyond the limit {bound}; {advice}</source>
+        <translation>Achse {axis}: {what} {value} bei {row}t = {time} s liegt jenseits der Grenze {bound}; {advice}</translation>
+    </message>
+    <message>
+        <source>row {row}, </source>
+        <translation>Zeile {row}, </translation>
     </message>
     <message>
         <source>trajectory: it has no set-point column (axis.cmd); a trajectory needs at least one</source>
@@ -4406,6 +5099,34 @@
     <message>
         <source>the model cannot predict its motion: {fault}</source>
         <translation>das Modell kann die Bewegung nicht vorhersagen: {fault}</translation>
+    </message>
+    <message>
+        <source>the speed</source>
+        <translation>die Geschwindigkeit</translation>
+    </message>
+    <message>
+        <source>the acceleration</source>
+        <translation>die Beschleunigung</translation>
+    </message>
+    <message>
+        <source>the range</source>
+        <translation>der Bereich</translation>
+    </message>
+    <message>
+        <source>the voltage</source>
+        <translation>die Spannung</translation>
+    </message>
+    <message>
+        <source>{quantity} of {axes}</source>
+        <translation>{quantity} von {axes}</translation>
+    </message>
+    <message>
+        <source>within the limits</source>
+        <translation>innerhalb der Grenzen</translation>
+    </message>
+    <message>
+        <source>inside {checked}; no limit is stated for {missing}</source>
+        <translation>eingehalten: {checked}; ohne angegebene Grenze: {missing}</translation>
     </message>
     <message>
         <source>trajectory: it was checked for robot {name} with other axes or limits than those of {robot_name}; check it for this one</source>
@@ -4878,10 +5599,6 @@
         <translation>{text} ist keine Größe; eine wie 200urad, 5um oder 30% eingeben</translation>
     </message>
     <message>
-        <source>{where}: at {baud} baud no valid frame of a board arrives; check the baud rate (others: {others}), and whether an MC68HC11 board is connected to this port</source>
-        <translation>{where}: mit {baud} Baud kommt kein gültiger Rahmen einer Karte an; die Baudrate prüfen (andere: {others}) und ob an diesem Anschluss eine MC68HC11-Karte angeschlossen ist</translation>
-    </message>
-    <message>
         <source>a set-point was farther away than the axis can move in that time; it was refused</source>
         <translation>ein Sollwert war weiter entfernt, als die Achse in dieser Zeit fahren kann; er wurde abgelehnt</translation>
     </message>
@@ -5265,6 +5982,132 @@
     <message>
         <source>{limits} and the jerk</source>
         <translation>{limits} und der Ruck</translation>
+    </message>
+    <message>
+        <source>silent: a streaming device has sent nothing for {limit} s and counts as released. Check its battery, radio link or cable; then release it and start again</source>
+        <extracomment>Actions that last as long as they are held, and are never *pressed*. What it said last; None as long as it has said nothing that still holds. Why nothing can be made of what it says; None: something can. Why it was lost in the last step; None: it was not. Actions pressed in the last step, and those held.</extracomment>
+        <translation>stumm: ein laufend sendendes Gerät hat seit {limit} s nichts gesendet und gilt als losgelassen. Batterie, Funkverbindung oder Kabel prüfen; dann loslassen und neu beginnen</translation>
+    </message>
+    <message>
+        <source>silent for {limit} s while it moved something, so it counts as released: its link may have failed. Release it and start again, and move the stick a little at least every {limit} s; or choose under Set up, Mapping that it continues while silent</source>
+        <translation>stumm seit {limit} s, während es etwas bewegte; es gilt daher als losgelassen: seine Verbindung kann ausgefallen sein. Loslassen und neu beginnen und den Joystick mindestens alle {limit} s ein wenig bewegen; oder unter Einrichten, Belegung „Wenn es schweigt: weiterfahren“ wählen</translation>
+    </message>
+    <message>
+        <source>a frame for axis {number}, which the board does not have</source>
+        <translation>ein Rahmen für Achse {number}, die die Karte nicht hat</translation>
+    </message>
+    <message>
+        <source>axis {axis}: a command of {steps} steps is outside its range {low} to {high}</source>
+        <translation>Achse {axis}: ein Sollwert von {steps} Schritten liegt außerhalb ihres Bereichs {low} bis {high}</translation>
+    </message>
+    <message>
+        <source>axis {axis}: a command of {speed} steps/s is above its limit {limit}</source>
+        <translation>Achse {axis}: ein Sollwert von {speed} Schritten/s liegt über ihrer Grenze {limit}</translation>
+    </message>
+    <message>
+        <source>set-point {index}: it is not known where it begins</source>
+        <translation>Sollwert {index}: es ist nicht bekannt, wo er beginnt</translation>
+    </message>
+    <message>
+        <source>{name}: no picture could be read for {seconds} s; the log has the cause. Check the camera and its cable, and open it again</source>
+        <extracomment>Since the camera was opened.</extracomment>
+        <translation>{name}: Seit {seconds} s konnte kein Bild gelesen werden; die Ursache steht im Protokoll. Prüfen Sie Kamera und Kabel, und öffnen Sie sie erneut</translation>
+    </message>
+    <message>
+        <source>the controller is locked by an alarm; clear the fault, then home</source>
+        <translation>die Steuerung ist durch einen Alarm gesperrt; den Fehler quittieren, dann Referenzfahrt</translation>
+    </message>
+    <message>
+        <source>the controller only checks G-code and moves nothing ($C); clear the fault</source>
+        <translation>die Steuerung prüft G-Code nur und bewegt nichts ($C); den Fehler quittieren</translation>
+    </message>
+    <message>
+        <source>the controller sleeps, its motors are without current; clear the fault, then home</source>
+        <translation>die Steuerung schläft, ihre Motoren sind stromlos; den Fehler quittieren, dann Referenzfahrt</translation>
+    </message>
+    <message>
+        <source>the controller waits for a tool change; clear the fault to end it</source>
+        <translation>die Steuerung wartet auf einen Werkzeugwechsel; den Fehler quittieren, um ihn zu beenden</translation>
+    </message>
+    <message>
+        <source>the controller is starting; clear the fault when it is ready</source>
+        <translation>die Steuerung startet; den Fehler quittieren, wenn sie bereit ist</translation>
+    </message>
+    <message>
+        <source>the safety door is open; close it, then clear the fault</source>
+        <translation>die Schutztür ist offen; sie schließen, dann den Fehler quittieren</translation>
+    </message>
+    <message>
+        <source>the safety door was opened and is closed again; clear the fault</source>
+        <translation>die Schutztür wurde geöffnet und ist wieder geschlossen; den Fehler quittieren</translation>
+    </message>
+    <message>
+        <source>the controller was paused (feed hold), by a button of its own or another program; clear the fault</source>
+        <translation>die Steuerung wurde unterbrochen (Vorschubhalt), durch eine eigene Taste oder ein anderes Programm; den Fehler quittieren</translation>
+    </message>
+    <message>
+        <source>the controller reports a state that this program does not know, {state}; check the machine, then clear the fault</source>
+        <translation>die Steuerung meldet einen Zustand, den dieses Programm nicht kennt, {state}; die Maschine prüfen, dann den Fehler quittieren</translation>
+    </message>
+    <message>
+        <source>it is no line that this driver sends</source>
+        <translation>keine Zeile, die dieser Treiber sendet</translation>
+    </message>
+    <message>
+        <source>{modes} is missing</source>
+        <translation>{modes} fehlt</translation>
+    </message>
+    <message>
+        <source>{word} is no word</source>
+        <translation>{word} ist kein Wort</translation>
+    </message>
+    <message>
+        <source>no axis {letter} is known</source>
+        <translation>keine Achse {letter} ist bekannt</translation>
+    </message>
+    <message>
+        <source>{letter} must be {low} to {high}</source>
+        <translation>{letter} muss {low} bis {high} sein</translation>
+    </message>
+    <message>
+        <source>gcode: {line} was not sent: {why}</source>
+        <translation>gcode: {line} wurde nicht gesendet: {why}</translation>
+    </message>
+    <message>
+        <source>nothing arrived; check the controller&apos;s power, its cable, and that this is its port</source>
+        <translation>nichts kam an; prüfen: Versorgung und Kabel der Steuerung, und ob dies ihr Anschluss ist</translation>
+    </message>
+    <message>
+        <source>{count} bytes arrived that are no text; the baud rate is wrong (GRBL: 115200), or the line is disturbed</source>
+        <translation>{count} Byte kamen an, die kein Text sind; die Baudrate ist falsch (GRBL: 115200), oder die Leitung ist gestört</translation>
+    </message>
+    <message>
+        <source>what was sent came back and nothing else; turn off the echo of the adapter or modem, and check that a controller is connected behind it</source>
+        <translation>das Gesendete kam zurück und sonst nichts; das Echo des Adapters oder Modems abschalten und prüfen, ob dahinter eine Steuerung angeschlossen ist</translation>
+    </message>
+    <message>
+        <source>a controller with GRBL 0.9 or older answered ({reply}); this driver needs GRBL 1.1, grblHAL or FluidNC: update its firmware</source>
+        <translation>eine Steuerung mit GRBL 0.9 oder älter antwortete ({reply}); dieser Treiber braucht GRBL 1.1, grblHAL oder FluidNC: ihre Firmware aktualisieren</translation>
+    </message>
+    <message>
+        <source>a controller answers, but the line also returns what is sent ({reply}); turn off the echo of the adapter or modem</source>
+        <translation>eine Steuerung antwortet, aber die Leitung gibt auch das Gesendete zurück ({reply}); das Echo des Adapters oder Modems abschalten</translation>
+    </message>
+    <message>
+        <source>text arrived that is no report of GRBL 1.1, grblHAL or FluidNC ({reply}); check which device is connected, and the baud rate</source>
+        <translation>Text kam an, der keine Meldung von GRBL 1.1, grblHAL oder FluidNC ist ({reply}); prüfen, welches Gerät angeschlossen ist, und die Baudrate</translation>
+    </message>
+    <message>
+        <source>{begin} … {end} ({count} characters)</source>
+        <translation>{begin} … {end} ({count} Zeichen)</translation>
+    </message>
+    <message>
+        <source>{name}:{line}: the line has no line end, which every file of this program has: the file was cut off here; copy it again, delete the line, or end it with a line break if it is whole</source>
+        <translation>{name}:{line}: Der Zeile fehlt das Zeilenende, das jede Datei dieses Programms hat: Die Datei wurde hier abgeschnitten; erneut kopieren, die Zeile löschen oder, falls sie vollständig ist, mit einem Zeilenumbruch abschließen</translation>
+    </message>
+    <message>
+        <source>{name}:{line}: the last number {number} has fewer digits than all above it, and the line has no line end: the file was cut off here; copy it again, or delete the line</source>
+        <translation>{name}:{line}: Die letzte Zahl {number} hat weniger Stellen als alle darüber, und der Zeile fehlt das Zeilenende: Die Datei wurde hier abgeschnitten; erneut kopieren oder die Zeile löschen</translation>
     </message>
 </context>
 </TS>

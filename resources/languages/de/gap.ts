@@ -270,6 +270,10 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
         <translation>Es gibt keine Aufzeichnungen zu diagnostizieren: welche wählen.</translation>
     </message>
     <message>
+        <source>choose its model under Model</source>
+        <translation>ihr Modell unter Modell wählen</translation>
+    </message>
+    <message>
         <source>The diagnosis was stopped.</source>
         <translation>Die Diagnose wurde angehalten.</translation>
     </message>
@@ -775,8 +779,16 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
         <translation>in Sättigung</translation>
     </message>
     <message>
+        <source>To distinguish {effects}, play this: {test}; it separates them{closest} by {n} noise floors (rms), even after each is fitted to it{doubt}{limits}{reference}{others}.</source>
+        <translation>Um {effects} zu trennen, dies abspielen: {test}; es bringt sie{closest} {n} Rauschgrenzen (rms) auseinander, auch wenn jeder daran angepasst ist{doubt}{limits}{reference}{others}.</translation>
+    </message>
+    <message>
         <source>, the closest two of them,</source>
         <translation>, die zwei ähnlichsten,</translation>
+    </message>
+    <message>
+        <source>: it is no faster than the records, because the robot file states no max_speed and max_acceleration for {axis}</source>
+        <translation>: es ist nicht schneller als die Aufzeichnungen, weil die Roboterdatei für {axis} weder max_speed noch max_acceleration nennt</translation>
     </message>
     <message>
         <source>{name}, ±{size} about {middle}, {time} s</source>
@@ -2039,10 +2051,6 @@ Starten drücken; Kennwerte und Verwechslungsmatrix erscheinen, wenn alle Fälle
         <translation>Die Berechnung ist fehlgeschlagen, daher lässt sich keine Ursache finden: {error}.</translation>
     </message>
     <message>
-        <source>To distinguish {effects}, play this: {test}; it separates them{closest} by {n} noise floors (rms), even after each is fitted to it{doubt}{reference}{others}.</source>
-        <translation>Um {effects} zu trennen, dies abspielen: {test}; es bringt sie{closest} {n} Rauschgrenzen (rms) auseinander, auch wenn jeder daran angepasst ist{doubt}{reference}{others}.</translation>
-    </message>
-    <message>
         <source>; no test here distinguishes {any} from one of them</source>
         <translation>; kein Test hier trennt {any} von einem davon</translation>
     </message>
@@ -2177,6 +2185,10 @@ Starten drücken; Kennwerte und Verwechslungsmatrix erscheinen, wenn alle Fälle
     <message>
         <source>original model</source>
         <translation>ursprüngliches Modell</translation>
+    </message>
+    <message>
+        <source>the records move none of these axes: {axes}; play a motion of your own</source>
+        <translation>die Aufzeichnungen bewegen keine dieser Achsen: {axes}; eine eigene Bewegung abspielen</translation>
     </message>
 </context>
 <context>

@@ -780,8 +780,12 @@
         <translation>stellt einen emulierten G-Code-Tisch bereit, um den Treiber gcode zu erproben</translation>
     </message>
     <message>
-        <source>Serve a GRBL controller with the axes of a robot behind it, byte by byte, on a pseudo-terminal. The robot file gives its settings, and may have stepper axes only. Lines on standard input: limit (a limit switch closes), power (its supply fails and returns).</source>
-        <translation>Stellt eine GRBL-Steuerung mit den Achsen eines Roboters dahinter an einem Pseudoterminal bereit, Byte für Byte. Die Roboterdatei gibt die Einstellungen vor und darf nur Schrittmotorachsen haben. Zeilen auf der Standardeingabe: limit (ein Endschalter schließt), power (die Versorgung fällt aus und kehrt zurück).</translation>
+        <source>Serve a GRBL controller with the axes of a robot behind it, byte by byte, on a pseudo-terminal. The robot file gives its settings, and may have stepper axes only. Lines on standard input: limit (a limit switch closes), power (its supply fails and returns), door and closed (its safety door opens and closes).</source>
+        <translation>Stellt eine GRBL-Steuerung mit den Achsen eines Roboters dahinter an einem Pseudoterminal bereit, Byte für Byte. Die Roboterdatei gibt die Einstellungen vor und darf nur Schrittmotorachsen haben. Zeilen auf der Standardeingabe: limit (ein Endschalter schließt), power (die Versorgung fällt aus und kehrt zurück), door und closed (die Schutztür öffnet und schließt).</translation>
+    </message>
+    <message>
+        <source>greatest speed of an axis, or of all axes of this unit; needed for axes whose speed the robot file does not limit</source>
+        <translation>Höchstgeschwindigkeit einer Achse oder aller Achsen dieser Einheit; nötig für Achsen, deren Geschwindigkeit die Roboterdatei nicht begrenzt</translation>
     </message>
     <message>
         <source>home all axes together, as plain GRBL does</source>

@@ -112,6 +112,10 @@
         <translation>Live</translation>
     </message>
     <message>
+        <source>Reports not understood: {count}. The latest: {fault}</source>
+        <translation>Nicht verstandene Meldungen: {count}. Die letzte: {fault}</translation>
+    </message>
+    <message>
         <source>Control of: {name}</source>
         <translation>Bedienelement von: {name}</translation>
     </message>
@@ -140,6 +144,23 @@
         <translation>Trainee</translation>
     </message>
     <message>
+        <source>When silent: stop</source>
+        <extracomment>What the choice says, and what it means.</extracomment>
+        <translation>Wenn es schweigt: anhalten</translation>
+    </message>
+    <message>
+        <source>Held still, the device must report at least once a second, or it counts as released.</source>
+        <translation>Ruhig gehalten muss das Gerät mindestens einmal je Sekunde melden, sonst gilt es als losgelassen.</translation>
+    </message>
+    <message>
+        <source>When silent: continue</source>
+        <translation>Wenn es schweigt: weiterfahren</translation>
+    </message>
+    <message>
+        <source>The robot continues while the device is silent, even if its link has failed. Only for a device on a cable that reports nothing while it is held still.</source>
+        <translation>Der Roboter fährt weiter, während das Gerät schweigt, selbst wenn seine Verbindung ausgefallen ist. Nur für ein Gerät am Kabel, das ruhig gehalten nichts meldet.</translation>
+    </message>
+    <message>
         <source>Mapping</source>
         <translation>Belegung</translation>
     </message>
@@ -152,8 +173,16 @@
         <translation>Plätze tauschen</translation>
     </message>
     <message>
+        <source>When the device is silent</source>
+        <translation>Wenn das Gerät schweigt</translation>
+    </message>
+    <message>
         <source>Mapping of {device}</source>
         <translation>Belegung von {device}</translation>
+    </message>
+    <message>
+        <source>the device has no action yet</source>
+        <translation>das Gerät hat noch keine Aktion</translation>
     </message>
     <message>
         <source>{name}: {message}, {target}. Press again to cancel.</source>

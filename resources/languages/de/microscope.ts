@@ -442,6 +442,10 @@
         <translation>Wartet auf das erste Bild</translation>
     </message>
     <message>
+        <source>{lost} lost</source>
+        <translation>{lost} verloren</translation>
+    </message>
+    <message>
         <source>Choose a camera under Tools, Camera, and open it.</source>
         <translation>Unter Kamera, neben dem Bild, eine wählen und öffnen.</translation>
     </message>

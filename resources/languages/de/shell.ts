@@ -723,6 +723,14 @@
         <translation>Version, Lizenz und Ordner</translation>
     </message>
     <message>
+        <source>{what}: not run, because it may move or switch something and {panel} was hidden. {panel} is open now. Check it, then run the command again.</source>
+        <translation>{what}: nicht ausgeführt, weil es etwas bewegen oder schalten kann und {panel} verdeckt war. {panel} ist jetzt offen. Prüfen, dann den Befehl erneut ausführen.</translation>
+    </message>
+    <message>
+        <source>its panel is missing; use the menu</source>
+        <translation>das zugehörige Panel fehlt; das Menü benutzen</translation>
+    </message>
+    <message>
         <source>Panel</source>
         <translation>Panel</translation>
     </message>
@@ -1047,6 +1055,10 @@
         <translation>Nicht jetzt: {reason}.</translation>
     </message>
     <message>
+        <source>Press Enter to open {panel}. This may move or switch something, and runs only while {panel} is visible.</source>
+        <translation>Eingabetaste öffnet {panel}. Dies kann etwas bewegen oder schalten und läuft nur, solange {panel} sichtbar ist.</translation>
+    </message>
+    <message>
         <source>Press Enter to run it.</source>
         <translation>Enter führt es aus.</translation>
     </message>
@@ -1329,6 +1341,7 @@
     </message>
     <message>
         <source>Switching the model …</source>
+        <extracomment>Makes a request once the machine rests, as one whose effects were switched soon does.</extracomment>
         <translation>Modell wird gewechselt …</translation>
     </message>
     <message>

@@ -43,6 +43,10 @@
         <translation>Einlernen</translation>
     </message>
     <message>
+        <source>Dry run: {verdict}. The tip stays inside its bounds.</source>
+        <translation>Probelauf: {verdict}. Die Spitze bleibt innerhalb ihrer Grenzen.</translation>
+    </message>
+    <message>
         <source>Not playable: {objection}{more}</source>
         <translation>Nicht abspielbar: {objection}{more}</translation>
     </message>
@@ -401,6 +405,26 @@
     <message>
         <source>{text!r} is not a bound: enter a number above 0 in {unit} with a decimal point, or leave it empty</source>
         <translation>{text!r} ist keine Grenze: eine Zahl über 0 in {unit} mit Dezimalkomma eingeben oder leer lassen</translation>
+    </message>
+    <message>
+        <source>Speed limit</source>
+        <translation>Geschwindigkeitsgrenze</translation>
+    </message>
+    <message>
+        <source>The robot file states no speed limit for these axes. Enter the greatest speed at which each may move.</source>
+        <translation>Die Roboterdatei nennt für diese Achsen keine Geschwindigkeitsgrenze. Für jede die größte Geschwindigkeit eingeben, mit der sie fahren darf.</translation>
+    </message>
+    <message>
+        <source>the trajectory reaches {speed}</source>
+        <translation>die Trajektorie erreicht {speed}</translation>
+    </message>
+    <message>
+        <source>Greatest speed of {axis}</source>
+        <translation>Größte Geschwindigkeit von {axis}</translation>
+    </message>
+    <message>
+        <source>In {unit}, above 0</source>
+        <translation>In {unit}, größer als 0</translation>
     </message>
 </context>
 </TS>
