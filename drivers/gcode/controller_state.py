@@ -10,7 +10,7 @@ known, and it was requested after the latest command.
 
 import logging
 from collections import deque
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping
 from contextlib import suppress
 
 import numpy as np
@@ -24,8 +24,9 @@ from rotemina.drivers.gcode.dialogue import HALT, JOG_CANCEL, RESET, Dialogue, R
 from rotemina.drivers.gcode.error_texts import describe_alarm, describe_error
 from rotemina.drivers.gcode.grbl_reports import Alarm, Answer, Status, Welcome
 from rotemina.drivers.gcode.machine_states import MachineState, interpret_state
+from rotemina.drivers.gcode.position_reports import PositionReports
 from rotemina.drivers.gcode.straight_move import StraightMove
-from rotemina.drivers.reading_check import REPORTS_OF_A_NEW_POSITION, ReadingCheck
+from rotemina.drivers.reading_check import REPORTS_OF_A_NEW_POSITION
 from rotemina.drivers.samples import DeviceState, Samples
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
@@ -79,7 +80,7 @@ class Controller:
     ) -> None:
         assert status.position is not None, "the opening refuses one without"
         self.dialogue = dialogue
-        self.known: set[str] = set()  # axes whose position is
+        self.reports = PositionReports(axes, settings, dialogue.guard)
         self.fault: str | None = None
         self._name, self._settings, self._clock, self._port = name, settings, clock, port
         self._poll_s, self._homing_s = poll_s, homing_s
@@ -87,7 +88,6 @@ class Controller:
         self._lost: str | None = None
         self._position = status.position
         self._machine = interpret_state(status)
-        self._strange_word: str | None = None  # a state that only the latest report had
         self._asked_s = float("-inf")
         self._rows: list[tuple[float, tuple[float, ...]]] = []
         # Written by whichever thread stops, compared by the driver's own.
@@ -98,21 +98,15 @@ class Controller:
         self._speeds: dict[str, float] = {}
         self._permit: Permit | None = None
         self._move: StraightMove | None = None
-        self._tried: set[str] = set()  # axes seen to go where they are sent, since they were homed
         self._searches: deque[tuple[str, tuple[str, ...]]] = deque()  # line, axes; first: now
         self._homed: set[str] = set()  # axes whose switch was found, to be located by a report
         self._unlock = False
         self._deaf = False  # after an alarm it may answer nothing but a reset
-        self._use_axes(axes)
 
     def trust_count(self) -> None:
         """Take the controller's count for the position, where it lies within every range."""
-        if self._machine.position_lost:
-            return
-        values = self._values(self._position)
-        for axis, value in zip(self._axes, values, strict=True):
-            if axis.low - axis.tolerance <= value <= axis.high + axis.tolerance:
-                self.known.add(axis.name)
+        if not self._machine.position_lost:
+            self.reports.trust_count(self._position)
 
     # --- how it stands -----------------------------------------------------------------------
 
@@ -175,13 +169,13 @@ class Controller:
         speeds = {**{k: v for k, v in self._speeds.items() if k not in targets}, **speeds}
         under_way = self._move is not None
         move = None
-        if not under_way and self.ready and not self._readings.is_in_doubt:
+        if not under_way and self.ready and not self.reports.is_in_doubt:
             move = self._move_to(targets, speeds)
             if move is None:
                 return
         with permit.passing():
             if move is not None:
-                line = move.line(self._position, on_trial=self._untried)
+                line = move.line(self._position, on_trial=self.reports.untried)
                 assert line is not None, "of a move that begins nothing has been sent"
                 self.dialogue.say(line)
             elif under_way:  # it brakes and forgets; then the new move begins
@@ -213,7 +207,7 @@ class Controller:
         """Search for switches: each line with the axes that it is for."""
         with permit.passing():
             self._searches = lines  # before the line goes: a stop that follows must reset
-            self._forget_position(axis for _, axes in lines for axis in axes)
+            self.reports.forget(axis for _, axes in lines for axis in axes)
             self.dialogue.say(lines[0][0])
         self._permit = permit
 
@@ -254,11 +248,11 @@ class Controller:
             self._welcomed()
 
     def _take_status(self, status: Status, reception: Reception) -> None:
-        if not self._is_usable(status, reception):
+        if not self.reports.is_usable(status, reception):
             self.dialogue.count_discarded()
-            if self._readings.shows_new_position:
-                self._readings.restart()
-                self._forget_position(self._names)
+            if self.reports.shows_new_position:
+                self.reports.expect_anywhere()
+                self.reports.forget(self.reports.names)
                 self._give_up(
                     message(
                         "engine",
@@ -286,27 +280,13 @@ class Controller:
         self._heed_state()
         self._arrive()
 
-    def _is_usable(self, status: Status, reception: Reception) -> bool:
-        """Return whether a report is complete, plausible, and of a state that is no slip."""
-        if status.position is None or len(status.position) < len(self._axes):
-            return False
-        known = [index for index, name in enumerate(self._names) if name in self.known]
-        values = self._values(status.position)
-        if not self._readings.accepts(values, reception.asked_s, reception.received_s, known):
-            return False
-        # A byte that was lost makes a strange word once; a strange state says it again.
-        strange = None if interpret_state(status).recognized else status.state
-        usable = strange is None or strange == self._strange_word
-        self._strange_word = strange
-        return usable
-
     def _heed_state(self) -> None:
         """Lock motion where the controller itself forbids it."""
         machine = self._machine
         expected = self._braking or self._stops or self._reset_s is not None
-        locked_already = machine.position_lost and not self.known and self._move is None
+        locked_already = machine.position_lost and not self.reports.known and self._move is None
         if machine.position_lost:
-            self._forget_position(self._names)
+            self.reports.forget(self.reports.names)
         if machine.fault is None or self.fault is not None or self._searches:
             return
         if (expected and machine.holds) or (machine.alarm and locked_already):
@@ -316,26 +296,14 @@ class Controller:
         self.fault = machine.fault
 
     def _locate_homed_axes(self, taken_s: float) -> None:
-        """Find out where the count of homed axes begins; their position is known from now on.
-
-        Two reports in a row agree on it, so it is no slip of the line.
-        """
+        """Find out where homed axes are. Two reports in a row agree on it, so it is no slip."""
         homed, self._homed = self._homed, set()
         try:
-            axes = tuple(
-                axis.located(self._position[axis.number], self._settings)
-                if axis.name in homed
-                else axis
-                for axis in self._axes
-            )
+            self.reports.locate(homed, self._position, taken_s)
         except InputError as error:
             _LOG.warning("%s: %s", self._name, error)
             self._end_move()
             self.fault = str(error)
-            return
-        self._use_axes(axes)
-        self._readings.restart(self._values(self._position), taken_s)
-        self.known |= homed
 
     def _arrive(self) -> None:
         """End a move whose end has been reached, and one that goes elsewhere."""
@@ -343,13 +311,13 @@ class Controller:
         if move is None:
             return
         if strayed := move.strayed(self._position):
-            self._forget_position(axis.name for axis in move.axes)
+            self.reports.forget(axis.name for axis in move.axes)
             self._give_up(strayed)
             return
-        self._tried.update(move.passed_trial(self._position))
+        self.reports.confirm_direction(move.passed_trial(self._position))
         if self._machine.moving or self.dialogue.awaited is not None or self._braking:
             return
-        untried = [axis.name for axis in move.axes if axis.name not in self._tried]
+        untried = [axis.name for axis in move.axes if axis.name in self.reports.untried]
         if not move.fully_sent and not untried:
             return
         if short := move.missed(self._position):
@@ -374,7 +342,7 @@ class Controller:
             self._homed |= set(self._searches.popleft()[1])
             # Some answer no query while they home, and then the last one at an unknown time.
             self.dialogue.abandon_query()
-            self._readings.restart()
+            self.reports.expect_anywhere()
             self._used_s = self._clock()
 
     def _alarmed(self, alarm: Alarm) -> None:
@@ -384,7 +352,7 @@ class Controller:
         self._end_move()
         self._searches.clear()
         self._homed.clear()
-        self._forget_position(self._names)
+        self.reports.forget(self.reports.names)
         self._deaf = True
         # A homing that is stopped ends with an alarm of its own.
         if alarm.number != _HOMING_RESET_ALARM or not self.stop_pending:
@@ -393,7 +361,7 @@ class Controller:
 
     def _welcomed(self) -> None:
         if self._reset_s is None and not self._stops and self.fault is None:
-            self._forget_position(self._names)
+            self.reports.forget(self.reports.names)
             self.fault = message(
                 "engine",
                 "the controller was reset from outside, or lost its supply; clear the fault, "
@@ -485,13 +453,13 @@ class Controller:
         begins = self._move is None
         if self._move is None:
             # It still brakes, or nobody knows where it is: the move waits.
-            if self._machine.moving or self._readings.is_in_doubt:
+            if self._machine.moving or self.reports.is_in_doubt:
                 return
             self._move = self._move_to(self._targets, self._speeds)
             if self._move is None:
                 self._end_move()
                 return
-        line = self._move.line(self._position, on_trial=self._untried)
+        line = self._move.line(self._position, on_trial=self.reports.untried)
         if line is not None:
             with permit.passing(begins=begins):
                 self.dialogue.say(line)
@@ -500,12 +468,8 @@ class Controller:
         self, targets: Mapping[str, float], speeds: Mapping[str, float]
     ) -> StraightMove | None:
         return StraightMove.of(
-            self._axes, self._position, targets, speeds, self.dialogue.round_trip_s
+            self.reports.axes, self._position, targets, speeds, self.dialogue.round_trip_s
         )
-
-    @property
-    def _untried(self) -> list[str]:
-        return [name for name in self._names if name not in self._tried]
 
     def _may_be_silent(self) -> bool:
         """Whether it answers no questions now: while it homes, and after an alarm."""
@@ -515,22 +479,6 @@ class Controller:
         self._move = None
         if not keep:
             self._targets, self._speeds = {}, {}
-
-    def _use_axes(self, axes: tuple[StageAxis, ...]) -> None:
-        """Work with axes that are counted so from now on."""
-        self._axes = axes
-        self._names = tuple(axis.name for axis in axes)
-        self._readings = ReadingCheck([axis.reading_bounds for axis in axes])
-        self.dialogue.guard.permit_ranges({axis.letter: axis.permitted_targets for axis in axes})
-
-    def _forget_position(self, names: Iterable[str]) -> None:
-        forgotten = set(names)
-        self.known -= forgotten
-        self._tried -= forgotten
-
-    def _values(self, position: Sequence[float]) -> tuple[float, ...]:
-        """Return a report's position in m or rad."""
-        return tuple(axis.value(position[axis.number]) for axis in self._axes)
 
     def _give_up(self, fault: str) -> None:
         """Halt and say why."""
@@ -573,7 +521,7 @@ class Controller:
             ).fill(port=self._port, seconds=rounded(lost_s, 2))
             raise ConnectionLostError(self._lost)
         if now_s - self._used_s > lost_s and self.fault is None:
-            self._forget_position(self._names)
+            self.reports.forget(self.reports.names)
             self._give_up(
                 message(
                     "engine",
@@ -585,8 +533,8 @@ class Controller:
     def _samples(self) -> Samples:
         rows, self._rows = self._rows, []
         if not rows:
-            return Samples.none(len(self._axes))
-        position = np.array([self._values(at) for _, at in rows])
+            return Samples.none(len(self.reports.axes))
+        position = np.array([self.reports.values(at) for _, at in rows])
         none = np.full(position.shape, np.nan)
         time_s = np.array([time_s for time_s, _ in rows])
         return Samples(time_s, position, position, none, np.full(len(rows), -1))

@@ -191,7 +191,7 @@ class GcodeStage(Homer, Linked):
 
     def _status(self) -> DeviceStatus:
         controller = self._opened
-        unhomed = tuple(axis for axis in self.axes if axis not in controller.known)
+        unhomed = tuple(axis for axis in self.axes if axis not in controller.reports.known)
         return DeviceStatus(
             controller.state,
             fault=controller.fault,
