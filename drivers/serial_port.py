@@ -91,7 +91,7 @@ def open_port(url: str, baud: int) -> Port:
         )
     if url.startswith(_REMOTE):
         _LOG.warning(
-            "%s: whoever reaches this address can move the machine: nothing is authenticated or "
+            "%s: anyone who reaches this address can move the machine: nothing is authenticated or "
             "encrypted; use it inside a trusted network only",
             url,
         )

@@ -11,7 +11,7 @@ from rotemina.drivers.samples import Samples
 
 # Of a move: what no axis does from one sample to the next. A report that cannot be true is farther.
 _JUMP = 0.5
-# Longer than a device goes on by what it was told, shorter than a move through a whole range.
+# Longer than a device moves on without its host, shorter than a move through a whole range.
 _PAUSE_S = 1.5
 # In which a driver may notice a pause, and its axes brake.
 _BRAKING_S = 0.3

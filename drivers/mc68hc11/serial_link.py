@@ -98,7 +98,7 @@ class Link:
         self._sent = self._refused = self._discarded = self._repeated = 0
         #: The last check of what is written; it knows the boards' axes once they were added.
         self.guard = LineGuard()
-        #: Why the gate or the guard held a frame back; whoever serves the link takes it.
+        #: Why the gate or the guard held a frame back; the thread that serves the link takes it.
         self.held_back: DriverError | None = None
         self._bytes = [0, 0]  # out, in
         self._load, self._load_since_s = 0.0, clock()

@@ -550,7 +550,7 @@ class SilentOnASlowLine(Cabled):
 
 
 class ResumesAfterAPause(Cabled):
-    """Goes on with what it was told, whoever watches."""
+    """Continues its motion after a pause."""
 
     virtual_time = False
 
