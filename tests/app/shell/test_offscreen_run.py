@@ -35,7 +35,17 @@ def test_a_motion_begins_once_nothing_is_handed_over_any_more(window, monkeypatc
     assert after > LOOKS
 
 
-def test_a_signal_while_a_panel_is_made_ends_the_run(window, tmp_path, monkeypatch):
+@pytest.fixture
+def terminal_signals():
+    """Handle SIGINT as a program of a terminal does; in a job of the background it is ignored."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+def test_a_signal_while_a_panel_is_made_ends_the_run(
+    window, tmp_path, monkeypatch, terminal_signals
+):
     class InterruptedPanel(Panel):
         title = "Interrupted"
 
@@ -50,6 +60,7 @@ def test_a_signal_while_a_panel_is_made_ends_the_run(window, tmp_path, monkeypat
         return window
 
     monkeypatch.setattr(offscreen_run, "make_window", make_window)
+    monkeypatch.setattr(window.workbench, "start", lambda: None)  # it is running
     monkeypatch.setattr(offscreen_run, "worn_effects", lambda _: ())
     with pytest.raises(KeyboardInterrupt):
         offscreen_run.run(window.workbench.session, tmp_path)
