@@ -24,6 +24,9 @@ ROUNDING_SHARE = 0.05
 # What the limits take a device's set-point period to be where it does not tell its own.
 SETPOINT_PERIOD_S = 1e-3
 _BLOCK = 500_000  # points judged at once, where every row is held for long: bounds memory
+# Intervals: a bound that asks for a longer window lets an axis hardly start, and it sees no more
+# than a window over the whole command.
+_MAX_WINDOW = 100_000
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -82,8 +85,10 @@ def accelerations(
     another and overlap.
     """
     interval = min(float(np.median(np.diff(time_s))), period_s)
-    n = 1 if bound is None else window_rows(interval, resolution, bound)
     rows = len(time_s)
+    n = 1
+    if bound is not None:
+        n = min(window_rows(interval, resolution, bound), max(rows, _MAX_WINDOW))
     block = max(2 * n, _BLOCK // (4 * n))
     for begin in range(0, rows - 1, block):
         first, last = max(begin - 2 * n, 0), min(begin + block + 2 * n, rows)

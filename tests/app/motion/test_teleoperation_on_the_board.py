@@ -257,7 +257,9 @@ def steer_and_switch(operator):
     stick.tell(x=0.0)
     operator.until(lambda: not any(one.waiting for one in teleoperator.state.coordinates))
     stick.tell(y=1.0)
-    operator.look_on(1.0)
+    operator.look_on(0.5)
+    stick.tell(y=0.99)  # this stick reports only changes: held still, it would count as released
+    operator.look_on(0.5)
     stick.tell(y=0.0)
     operator.press(Action.LAW)
     assert teleoperator.state.law is LawKind.POSITION

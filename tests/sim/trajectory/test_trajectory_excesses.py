@@ -164,6 +164,12 @@ def test_a_held_jump_is_a_start_and_a_halt_however_long_the_rows_are_held(interv
     assert value == pytest.approx(step / 7e-3**2, rel=1e-6)
 
 
+def test_an_axis_that_can_hardly_start_is_judged_without_an_endless_window():
+    robot = with_axis("x", max_speed=None, max_acceleration=1e-20)
+    violations = found(robot, trajectory("x", ramp(0.01, 0.001, 0.1)))
+    assert violations[Quantity.ACCELERATION].bound == 1e-20
+
+
 def test_rows_that_come_a_little_late_are_followed_not_held():
     """A recorded command has jitter; a stand of 10 µs would pose as a halt."""
     robot = with_axis("x", sensor=None)
