@@ -12,6 +12,7 @@ from itertools import count
 from time import monotonic
 from typing import ClassVar
 
+from PySide6.QtCore import QEvent, QObject
 from PySide6.QtWidgets import QAbstractButton, QWidget
 
 from rotemina.app.motion.state import SessionState
@@ -92,27 +93,54 @@ class Panel(QWidget):
         super().__init__()
         self.workbench = workbench
         self._looks: list[Callable[[SessionState], object]] = []
+        self._frame_looks: list[tuple[Callable[[SessionState], object], bool]] = []
         self._made = next(_made)
         # Those out of sight look in turns, not all at one frame: the golden ratio spreads them.
         self._followed_s = monotonic() - HIDDEN_S * (0.618 * self._made % 1.0)
+        self.installEventFilter(_LookWhenShown(self))
 
     def follow(self, look: Callable[[SessionState], object]) -> None:
         """Call ``look`` with the machine's state ten times a second, less often while out of sight.
 
-        It is also called as soon as the machine begins to move, comes to rest or is locked.
-        Actions of menus that depend on it stay right that way.
+        It is also called as soon as the machine begins to move, comes to rest or is locked, and
+        before the panel is painted: once after construction, and again whenever it is shown. So
+        buttons and actions that ``look`` enables are right in every picture of the panel.
         """
         if not self._looks:
             self.workbench.refreshed.connect(self._hear)  # forgotten with the panel
         self._looks.append(look)
+
+    def follow_frames(self, look: Callable[[SessionState], object], *, shown: bool = False) -> None:
+        """Call ``look`` in every frame, also while out of sight, and before the panel is painted.
+
+        With ``shown`` it is called with the state of what is shown, which may be a replay;
+        otherwise with the machine's.
+        """
+        (self.workbench.shown if shown else self.workbench.refreshed).connect(look)
+        self._frame_looks.append((look, shown))
+
+    def look_now(self) -> None:
+        """Call everything that follows the machine with its present state, and wait for no frame.
+
+        Whatever makes a panel calls this afterwards, as :func:`make_panel` does.
+        """
+        session, source = self.workbench.session, self.workbench.source
+        state = session.snapshot()
+        with self.workbench.turns.suspended():
+            self._look_at(state)
+            for look, shown in self._frame_looks:
+                look(source.snapshot() if shown and source is not session else state)
 
     def _hear(self, state: SessionState) -> None:
         now_s = monotonic()
         hidden = not self.isVisible() and self.window().isVisible()
         if now_s - self._followed_s >= HIDDEN_S if hidden else self.texts_due:
             self._followed_s = now_s
-            for look in self._looks:
-                look(state)
+            self._look_at(state)
+
+    def _look_at(self, state: SessionState) -> None:
+        for look in self._looks:
+            look(state)
 
     @property
     def texts_due(self) -> bool:
@@ -126,3 +154,38 @@ class Panel(QWidget):
         while (parent := widget.parentWidget()) is not None:
             widget = parent
         return widget
+
+
+class _LookWhenShown(QObject):
+    """Has a panel show the present state as soon as it is shown, before it is painted.
+
+    No method of the panel does this, so that a panel with a ``showEvent`` of its own need not call
+    the one of its base class.
+    """
+
+    def __init__(self, panel: Panel) -> None:
+        super().__init__(panel)
+        self._panel = panel
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
+        """Look when the panel is shown."""
+        if event.type() == QEvent.Type.Show:
+            self._panel.look_now()
+        return False
+
+
+def make_panel(kind: type[Panel], workbench: Workbench) -> Panel:
+    """Make a panel that shows the machine's present state.
+
+    Raises
+    ------
+    Exception
+        Whatever its constructor raises, or what follows the machine when it is first called.
+    """
+    panel = kind(workbench)
+    try:
+        panel.look_now()
+    except BaseException:
+        panel.deleteLater()  # it would fail again in every frame
+        raise
+    return panel

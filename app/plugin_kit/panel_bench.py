@@ -1,7 +1,7 @@
 """A test bench for panels: a simulated machine, no window, manual time."""
 
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -15,7 +15,7 @@ from rotemina.app.display_units import axis_scale
 from rotemina.app.motion.compared_run import Run, compared
 from rotemina.app.motion.playback import PlaybackPhase
 from rotemina.app.motion.session import MotionSession
-from rotemina.app.panel import Panel
+from rotemina.app.panel import Panel, make_panel
 from rotemina.app.settings import Settings
 from rotemina.app.shell import theme as themes
 from rotemina.app.shell.loaded_trajectory import Plan
@@ -47,6 +47,17 @@ class PanelBench:
         self.workbench = panel.workbench
         self._session = session
         self._clock = clock
+        self._others: list[Panel] = []  # end with the bench: nothing ends before its window closes
+
+    def make_another(self) -> Panel:
+        """Make another panel of this kind on the same workbench, as the machine stands now."""
+        self._others.append(make_panel(type(self.panel), self.workbench))
+        return self._others[-1]
+
+    @property
+    def panels(self) -> tuple[Panel, ...]:
+        """All panels of the bench."""
+        return self.panel, *self._others
 
     def advance(self, seconds: float, *, read: bool = True) -> None:
         """Advance time and show it; without ``read`` the machine has nothing to say meanwhile."""
@@ -110,12 +121,22 @@ class PanelBench:
             raise TimeoutError(f"{name}: it was stopped before its first row")
         return run
 
+    def change_unseen(self, change: Callable[[MotionSession], object]) -> None:
+        """Change the machine's state, as another part of the window does, and show nothing yet."""
+        change(self._session)
+        self._clock.advance(_READ_S)
+        self._session.run_once()
+
     def refresh(self) -> None:
         """Update the panel with the machine's state, as the window does once a frame."""
+        self.emit_state()
+        QCoreApplication.processEvents()
+
+    def emit_state(self) -> None:
+        """Update the panel as :meth:`refresh` does, but let no event be processed."""
         state = self._session.snapshot()
         self.workbench.refreshed.emit(state)
         self.workbench.shown.emit(state)
-        QCoreApplication.processEvents()
 
     def text_of(self, axis: str) -> str:
         """Return the latest reading of an axis as screens write it."""
@@ -140,17 +161,17 @@ def panel_bench(kind: type[Panel], robot: str = "rotemina") -> Iterator[PanelBen
         themes.prepare(application, themes.DARK)
         settings = Settings(Path(folder) / "settings.json")
         workbench = Workbench(session, settings, themes.DARK, Path(folder) / "played")
-        panel = None
+        bench = None
         try:
             session.connect()
             session.run_once()
-            panel = kind(workbench)
-            themes.dress(panel, themes.DARK)
-            yield PanelBench(panel, session, clock)
+            bench = PanelBench(make_panel(kind, workbench), session, clock)
+            themes.dress(bench.panel, themes.DARK)
+            yield bench
         finally:
             workbench.close()
-            for widget in (panel, workbench):
-                if widget is not None and isValid(widget):  # a check may have ended it before
+            for widget in (*(bench.panels if bench is not None else ()), workbench):
+                if isValid(widget):  # a check may have ended it before
                     widget.deleteLater()
             QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
 

@@ -3,7 +3,7 @@
 import logging
 from collections.abc import Callable, Iterator, Mapping, MutableMapping
 
-from rotemina.app.panel import Panel
+from rotemina.app.panel import Panel, make_panel
 from rotemina.app.shell.language import add_texts_of
 from rotemina.app.shell.panel_declarations import Declarations, DeclaredPanel, PanelKind
 from rotemina.app.shell.workbench import Workbench
@@ -58,7 +58,7 @@ class Panels(MutableMapping[str, Panel]):
             kind = self.kinds[name]
             if isinstance(kind, DeclaredPanel):
                 kind = self.kinds[name] = kind.load()
-            panel = self.made[name] = kind(self._workbench)
+            panel = self.made[name] = make_panel(kind, self._workbench)
         except BaseException as error:  # whatever it raises, the window goes on
             logger.exception("panel %s cannot be made", name)
             del self.kinds[name]

@@ -1,5 +1,8 @@
 """Turns in which texts are written anew: a share of them in each frame, as nobody reads faster."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 from rotemina.app.motion.state import SessionState
 
 TURNS = 3  # frames, of 30 a second, between two looks of the same
@@ -27,6 +30,15 @@ class Turns:
     def end(self) -> None:
         """End it."""
         self._turn = None
+
+    @contextmanager
+    def suspended(self) -> Iterator[None]:
+        """Let everybody look while this lasts, also in the middle of a frame."""
+        turn, self._turn = self._turn, None
+        try:
+            yield
+        finally:
+            self._turn = turn
 
     def due(self, number: int) -> bool:
         """Return whether one of this number looks now."""

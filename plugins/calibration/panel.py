@@ -63,8 +63,6 @@ class CalibrationPanel(Panel):
         offer_in_palette(
             self.procedure.plan, self.procedure.fit, self.procedure.stop, safe_while_hidden=True
         )
-        # Buttons are right at once: until the first frame a run without a plan could be asked for.
-        self._refresh(workbench.session.snapshot())
         self._look()
 
     # --- plan and run -----------------------------------------------------------------------------

@@ -106,8 +106,8 @@ class ControlPanel(Panel):
         self.tabs.currentChanged.connect(self._turn_to)
         parts = self.head, (self._scrolled_axes(), 1), self.tabs, self.pages
         in_column(*parts, on=self, margins=0, spacing=0)
-        workbench.shown.connect(self._show)
         self.follow(self._refresh)
+        self.follow_frames(self._show, shown=True)
         offer_in_palette(self.positions.change, self.axes.narrow, self.axes.whole)
 
     def _pages(self) -> tuple[tuple[str, QWidget], ...]:

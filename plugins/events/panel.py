@@ -46,7 +46,7 @@ class EventsPanel(Panel):
         self.show_log.clicked.connect(lambda: self.main_window.show_log())
         self._lay_out()
         offer_in_palette(self.show_log, safe_while_hidden=True)
-        workbench.refreshed.connect(self._look)
+        self.follow_frames(self._look)
         workbench.noticed.connect(self.journal.tell)
         workbench.theme_changed.connect(self._colour)
 

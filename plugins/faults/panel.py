@@ -54,7 +54,6 @@ class FaultsPanel(Panel):
         self.follow(self._refresh)
         workbench.theme_changed.connect(self.table.use_theme)
         workbench.closing.connect(self._unsubscribe)
-        self._refresh(workbench.session.snapshot())
 
     def copy_all(self) -> None:
         """Put the chosen rows, or all where none is chosen, on the clipboard."""

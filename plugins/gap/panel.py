@@ -117,7 +117,7 @@ class GapPanel(Panel):
         self.unseen.experiment_played.connect(self._use_played)
         self.unseen.proved.connect(self._take_proof)
         self.workbench.run_changed.connect(self.unseen.prove)
-        self.workbench.refreshed.connect(self._follow_motion)
+        self.follow_frames(self._follow_motion)
         self.workbench.diagnosis_asked.connect(self._start_asked)
         self.workbench.closing.connect(self.diagnosing.close)
         self.workbench.theme_changed.connect(result.set_theme)

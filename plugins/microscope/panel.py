@@ -180,7 +180,7 @@ class MicroscopePanel(Panel):
         self._came.connect(self._take, Qt.ConnectionType.QueuedConnection)
         leave = self.microscope.camera.listen(self._hear)
         bench.closing.connect(leave)
-        bench.refreshed.connect(self.refresh)
+        self.follow_frames(self.refresh)
         bench.theme_changed.connect(self._use_theme)
 
     # --- what happens -----------------------------------------------------------------------------

@@ -64,7 +64,6 @@ class PenetrationPanel(Panel):
         offer_in_palette(self.bar.arm, self.cells.next)
         offer_in_palette(self.cells.export, safe_while_hidden=True)
         self._read_log()
-        self._refresh(workbench.session.snapshot())
 
     # --- parts ------------------------------------------------------------------------------------
 

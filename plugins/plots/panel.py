@@ -91,7 +91,7 @@ class PlotsPanel(Panel):
         self._waiting: list[Sequence[AxisPlot]] = []  # to be drawn as the others are already
         self._next = QTimer(self, singleShot=True, interval=0)
         self._next.timeout.connect(self._draw_next)
-        workbench.shown.connect(self._show_age)
+        self.follow_frames(self._show_age, shown=True)
         workbench.shown.connect(lambda _: self._refresh_by_parts())
         workbench.replaying.changed.connect(self._begin_anew)
         workbench.theme_changed.connect(self._use_theme)

@@ -102,7 +102,7 @@ class View3dPanel(Panel):
         self._lay_out()
         offer_in_palette(*self.views.values(), self.browser, safe_while_hidden=True)
         self.show_state()
-        workbench.shown.connect(self.refresh)
+        self.follow_frames(self.refresh, shown=True)
         workbench.theme_changed.connect(self._use_theme)
         workbench.closing.connect(self._close)
 

@@ -6,8 +6,10 @@ import pytest
 from PySide6.QtWidgets import QTabWidget
 
 from rotemina.app import panel as panels
+from rotemina.app.motion.session import MotionSession
 from rotemina.app.panel import HIDDEN_S, Panel
 from rotemina.app.plugin_kit.panel_bench import panel_bench
+from rotemina.app.shell.panel_host import Panels
 from rotemina.app.shell.turns import TURNS
 from rotemina.drivers.samples import DeviceState
 
@@ -23,6 +25,11 @@ class Looking(Panel):
     def look(self, state):
         assert state.measured
         self.looks += 1
+
+
+class Failing(Looking):
+    def look(self, state):
+        raise ValueError("no such axis")
 
 
 @pytest.fixture
@@ -82,3 +89,36 @@ def test_texts_are_written_in_turns_and_at_once_when_it_moves_or_is_locked(chang
         assert sum(looked(changed)) == 2
         workbench.refreshed.emit(changed)  # by hand: all
         assert all(panel.texts_due for panel in panels)
+
+
+class Following(Panel):
+    title = "Following"
+
+    def __init__(self, workbench):
+        super().__init__(workbench)
+        self.seen = []
+        self.follow(lambda state: self.seen.append(state.latched))
+        self.follow_frames(lambda state: self.seen.append(state.latched), shown=True)
+
+
+def test_a_panel_shows_the_present_state_when_it_is_made_and_whenever_it_is_shown():
+    with panel_bench(Following) as bench:
+        panel = bench.panel
+        assert panel.seen == [None, None]  # before any frame
+        bench.change_unseen(MotionSession.emergency_stop)
+        panel.seen.clear()
+        panel.workbench.turns.begin(bench.workbench.session.snapshot())
+        panel.show()  # in the middle of a frame too
+        panel.workbench.turns.end()
+        assert len(panel.seen) == 2
+        assert all(panel.seen)
+
+
+def test_a_panel_that_cannot_show_the_present_state_is_left_out():
+    with panel_bench(Looking) as bench:
+        host, left_out = Panels(bench.workbench, {"failing": Failing, "good": Looking}), {}
+        host.failed = left_out.__setitem__
+        host.make_all()
+        assert left_out == {"failing": "ValueError: no such axis"}
+        assert list(host) == ["good"]
+        host["good"].deleteLater()

@@ -5,7 +5,7 @@ import sys
 import pytest
 from PySide6.QtCore import QTimer
 from PySide6.QtGui import QPainter
-from PySide6.QtWidgets import QLabel, QVBoxLayout
+from PySide6.QtWidgets import QLabel, QPushButton, QVBoxLayout
 
 from rotemina.app.panel import Panel
 from rotemina.app.plugin_kit.panel_bench import panel_bench
@@ -60,6 +60,24 @@ class Nameless(GoodPanel):
     title = " "
 
 
+class EnabledLate(GoodPanel):
+    def __init__(self, workbench):
+        super().__init__(workbench)
+        self.move = QPushButton("Move")
+        self.layout().addWidget(self.move)
+        workbench.refreshed.connect(self.enable)
+
+    def enable(self, state):
+        self.move.setEnabled(state.locked is None)
+
+
+class EnabledAtOnce(EnabledLate):
+    def __init__(self, workbench):
+        super().__init__(workbench)
+        workbench.refreshed.disconnect(self.enable)
+        self.follow(self.enable)
+
+
 class Unmade(GoodPanel):
     def __init__(self, workbench):
         raise SystemExit(3)
@@ -71,6 +89,7 @@ def failures(kind):
 
 def test_a_good_panel_passes():
     assert failures(GoodPanel) == {}
+    assert failures(EnabledAtOnce) == {}
 
 
 @pytest.mark.parametrize(
@@ -81,6 +100,11 @@ def test_a_good_panel_passes():
         (BadListener, "informed", "KeyError: 'thy'"),
         (Clinging, "closed", "already deleted"),
         (BadTimer, "painted", "ZeroDivisionError"),
+        (
+            EnabledLate,
+            "enabled-at-once",
+            "the machine was locked, the first refresh changed 'Move'",
+        ),
         (Nameless, "described", "the title ' '"),
         (Unmade, "described", "it raised SystemExit: 3"),
     ],
