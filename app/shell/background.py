@@ -21,6 +21,7 @@ class _Request(NamedTuple):
     kind: str
     done: Callable[..., None]
     failed: Callable[[str], None]
+    replaced: Callable[[], None]
 
 
 def _outcome(work: Callable[[], object]) -> tuple[object, str]:
@@ -38,9 +39,9 @@ def _outcome(work: Callable[[], object]) -> tuple[object, str]:
 class Background(QObject):
     """Runs functions one by one on a thread; their answers arrive on the window's thread.
 
-    An answer that was overtaken by a later request of the same kind is dropped. The thread is
-    there only while there is something to do. (It is none of Qt's pool: that keeps much of what it
-    has run, and with it the records that this was about.)
+    An answer that was overtaken by a later request of the same kind is dropped, and ``replaced`` is
+    called in its place. The thread is there only while there is something to do. (It is none of
+    Qt's pool: that keeps much of what it has run, and with it the records that this was about.)
     """
 
     _finished = Signal(int, object, object)
@@ -61,14 +62,17 @@ class Background(QObject):
         work: Callable[[], Answer],
         done: Callable[[Answer], None],
         failed: Callable[[str], None],
+        replaced: Callable[[], None] = lambda: None,
     ) -> None:
-        """Start ``work``; call ``done(answer)`` or ``failed(message)`` on the window's thread.
+        """Start ``work``; call one of the others on the window's thread when it has ended.
 
+        That is ``done(answer)``, ``failed(message)``, or ``replaced()`` if a later request of the
+        same kind has taken its place.
         The message of an :class:`InputError` knows its page of the help.
         """
         self._count += 1
         number = self._latest[kind] = self._count
-        self._requests[number] = _Request(kind, done, failed)
+        self._requests[number] = _Request(kind, done, failed, replaced)
         with self._guard:
             self._waiting.append((number, work))
             if self._thread is None:
@@ -103,6 +107,7 @@ class Background(QObject):
     def _deliver(self, number: int, answer: object, failure: str) -> None:
         request = self._requests.pop(number)
         if self._latest.get(request.kind) != number:
+            request.replaced()
             return
         del self._latest[request.kind]
         if failure:

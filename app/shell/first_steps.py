@@ -6,6 +6,7 @@ from typing import NamedTuple
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QSizePolicy, QToolButton
 
+from rotemina.app.motion.playback import PlaybackPhase
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
@@ -46,7 +47,9 @@ class FirstSteps(QFrame):
         self.stay = button(translate("shell", "Simulator"), self._stay)
         self.connect_ = button(translate("shell", "Connect …"), self._connect)
         self.load = button(translate("shell", "Load example"), self._load)
-        self.play = button(translate("shell", "Play"), workbench.toggle_playback)
+        self.play = button(
+            translate("shell", "Play"), lambda: workbench.press_play(PlaybackPhase.IDLE)
+        )
         self.diagnose = button(translate("shell", "Diagnose"), self._diagnose)
         self.close_ = QToolButton()
         self.close_.setText("✕")
@@ -106,6 +109,10 @@ class FirstSteps(QFrame):
         def no_play(state: SessionState) -> str | None:
             if bench.plan is None:
                 return translate("shell", "there is no trajectory; load one first")
+            if bench.playback.state.phase is PlaybackPhase.PAUSED:
+                return translate("shell", "a trajectory is paused; resume or end it")
+            if bench.at_rest.against_another is not None:
+                return bench.at_rest.against_another
             if state.activity is not DeviceState.IDLE:
                 return translate("shell", "the axes are still moving")
             return bench.plan.refusal or state.locked

@@ -3,11 +3,10 @@
 from collections.abc import Callable
 from typing import NamedTuple
 
-from PySide6.QtWidgets import QPushButton
-
 from rotemina.app.motion.state import Connection, SessionState
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.operator_requests import Requests
+from rotemina.app.widgets.changing_button import ChangingButton
 from rotemina.app.widgets.controls import plain_tip
 
 
@@ -58,11 +57,11 @@ def help_in(state: SessionState, requests: Requests) -> Help | None:
     return None
 
 
-class HelpingButton(QPushButton):
+class HelpingButton(ChangingButton):
     """Shows what helps now; unseen where nothing needs to."""
 
     def __init__(self, requests: Requests) -> None:
-        super().__init__()
+        super().__init__("")  # a double click on Release must not home
         self._requests = requests
         self._run: Callable[[], object] | None = None
         self.clicked.connect(lambda _: self._run and self._run())

@@ -33,12 +33,14 @@ class Requests(QObject):
     Signals
     -------
     refused(str) : a request that was not taken, and why.
+    withdrawn(str) : a request that waited ended without effect, and why.
     acted() : a request was taken.
     ports_offered(tuple of OfferedPort) : where virtual boards listen now.
     panel_asked(str) : the panel of that name is to be shown.
     """
 
     refused = Signal(object)
+    withdrawn = Signal(str)
     acted = Signal()
     ports_offered = Signal(object)
     panel_asked = Signal(str)

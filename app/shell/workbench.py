@@ -6,7 +6,7 @@ from enum import StrEnum
 from pathlib import Path
 from typing import TypeVar
 
-from PySide6.QtCore import QTimer, Signal
+from PySide6.QtCore import QMetaMethod, QTimer, Signal
 
 from rotemina.app.microscope.microscope import Microscope
 from rotemina.app.motion.compared_run import Run, compared, compared_again
@@ -33,7 +33,7 @@ from rotemina.app.settings import Settings
 from rotemina.app.shell.background import Background
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.help_topics import Explained, page_for, page_of, remedy_of
-from rotemina.app.shell.language import translate
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.loaded_trajectory import Plan
 from rotemina.app.shell.operator_requests import Requests
 from rotemina.app.shell.penetration_records import PenetrationRecords
@@ -41,7 +41,7 @@ from rotemina.app.shell.played_records import PlayedRecords
 from rotemina.app.shell.progress_line import Progress
 from rotemina.app.shell.record_library import RecordLibrary
 from rotemina.app.shell.replaying import Replaying, opened, remark
-from rotemina.app.shell.requests_at_rest import AtRest
+from rotemina.app.shell.requests_at_rest import AtRest, WaitingRequest
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.turns import Turns
 from rotemina.drivers.gate import Permit
@@ -54,6 +54,8 @@ logger = logging.getLogger(__name__)
 Answer = TypeVar("Answer")
 
 FRAME_MS = 33  # screens are read at most this often
+#: Said where a request to play is withdrawn before it has had an effect.
+NOT_PLAYED = marked("shell", "Not played: {why}. Press Play again.")
 
 
 class Level(StrEnum):
@@ -71,7 +73,8 @@ class Workbench(Requests):
     What moves or connects the machine is among
     :class:`~rotemina.app.shell.operator_requests.Requests`: a refusal becomes a notice.
 
-    ``plan`` is the trajectory in hand, ``run`` the last comparison, ``run_path`` the file of its
+    ``plan`` is the trajectory in hand, ``planning`` the name of one whose dry run is under way or
+    "", ``run`` the last comparison, ``run_path`` the file of its
     record, ``record`` what would be saved, and ``unsaved`` a played record that no file holds yet:
     each is written into ``played_folder`` by itself as soon as it ends. ``pace`` (times as fast as
     the trajectory says) and ``bounds`` (of the deviation of readings from the model, m or rad by
@@ -95,8 +98,8 @@ class Workbench(Requests):
     busy_changed(str) : what is being worked on in the background, or "".
     noticed(Level, Explained) : something to tell the operator, a text with its page of the help.
     diagnosis_asked() : the records that are chosen are to be diagnosed.
-    speed_limit_asked(Plan, callable) : it is to be played by a call, but nothing limits the speed
-        of an axis.
+    speed_limit_asked(Plan, callable, WaitingRequest) : it is to be played by a call, but nothing
+        limits the speed of an axis; the request waits for the answer.
     stopped() : someone asked for a stop; what waits for an answer is withdrawn.
     theme_changed(Theme)
     closing() : the window goes; what a panel has under way must end before this returns.
@@ -112,7 +115,7 @@ class Workbench(Requests):
     noticed = Signal(object, object)
     theme_changed = Signal(object)
     diagnosis_asked = Signal()
-    speed_limit_asked = Signal(object, object)
+    speed_limit_asked = Signal(object, object, object)
     stopped = Signal()
     closing = Signal()
     _happened = Signal(object)
@@ -127,6 +130,7 @@ class Workbench(Requests):
         self.settings = settings
         self.theme = theme
         self.plan: Plan | None = None
+        self.planning = ""
         self.run: Run | None = None
         self.run_path: Path | None = None
         self.record: Record | None = None
@@ -171,6 +175,9 @@ class Workbench(Requests):
         self.replaying = Replaying(session, self.operation.penetration)
         self._happened.connect(self._on_event)
         self.refused.connect(lambda reason: self.notify(Level.ERROR, reason, about=page_of(reason)))
+        self.withdrawn.connect(
+            lambda text: self.notify(Level.WARNING, text, about="motion.md#requests-that-wait")
+        )
         self._unsubscribe = session.subscribe(self._happened.emit)
         #: Makes a request once the machine rests, as one whose effects were switched soon does.
         self.at_rest = AtRest(self)
@@ -256,19 +263,40 @@ class Workbench(Requests):
     def play(self, permit: Permit | None = None) -> None:
         """Play the planned trajectory; a refusal becomes a notice.
 
-        A ``permit`` is that of the request, where it waited: nothing plays if a stop came since.
-        A machine that is about to rest is waited for.
+        A ``permit`` is that of the request, where it waited: nothing plays if a stop came since,
+        and that is reported. A machine that is about to rest is waited for.
         """
-        plan, permit = self.plan, permit or self.session.permit()
-        if plan is None:
+        plan = self.plan
+        request = WaitingRequest(self, translate("shell", NOT_PLAYED), permit)
+        if self.planning:
+            text = translate("shell", "the dry run of {name} has not ended yet")
+            request.withdraw(text.format(name=self.planning))
+        elif plan is None:
             text = translate("shell", "There is no trajectory to play: load one first.")
             self.notify(Level.WARNING, text, about="trajectory.md")
         elif self.ask(plan.dry_run.require):
             checked, pace, bounds = plan.dry_run.require(), self.pace, dict(self.bounds)
             self.at_rest.do(
-                lambda: self.playback.play(checked, speed=pace, bounds=bounds, permit=permit),
-                permit,
+                request,
+                lambda: self.playback.play(
+                    checked, speed=pace, bounds=bounds, permit=request.permit
+                ),
             )
+
+    def press_play(self, shown: PlaybackPhase) -> None:
+        """Do what a button says that plays, pauses or resumes; it was written for this phase.
+
+        The playback may have gone on since: what the button did not say is not done.
+        """
+        if self.playback.state.phase is shown:
+            self.toggle_playback()
+        else:
+            text = translate(
+                "shell",
+                "Nothing was done: the playback began, paused or ended just before the press. "
+                "Read the button, then press again.",
+            )
+            self.notify(Level.WARNING, text, about="motion.md#requests-that-wait")
 
     def toggle_playback(self) -> None:
         """Play, pause, or continue, whichever comes next."""
@@ -281,13 +309,29 @@ class Workbench(Requests):
         else:
             self.play_limited(self.plan, self.play)
 
-    def play_limited(self, plan: Plan | None, play: Callable[[], object]) -> None:
-        """Call ``play``, after the operator has limited axes whose speed nothing limits."""
+    def play_limited(
+        self,
+        plan: Plan | None,
+        play: Callable[[], object],
+        request: WaitingRequest | None = None,
+    ) -> None:
+        """Call ``play``, after the operator has limited axes whose speed nothing limits.
+
+        ``request`` is what waits for that answer, where there is one already.
+        """
         checked = None if plan is None else plan.dry_run.checked
-        if checked is not None and self.playback.axes_without_speed_limit(checked):
-            self.speed_limit_asked.emit(plan, play)
-        else:
+        if checked is None or not self.playback.axes_without_speed_limit(checked):
             play()
+        elif self.isSignalConnected(QMetaMethod.fromSignal(self.speed_limit_asked)):
+            asked = request or WaitingRequest(self, translate("shell", NOT_PLAYED))
+            self.speed_limit_asked.emit(plan, play, asked)
+        else:
+            text = translate(
+                "shell",
+                "Not played: nothing limits the speed of an axis, and the panel Trajectory, which "
+                "asks for a limit, is missing. State a limit in the robot file.",
+            )
+            self.notify(Level.ERROR, text, about="trajectory.md")
 
     def step_playback(self, rows: int) -> None:
         """Go some rows on, or back, and rest there."""
@@ -315,13 +359,64 @@ class Workbench(Requests):
 
     def plan_trajectory(self, name: str, trajectory: Record) -> None:
         """Try a trajectory on the model and take it in hand."""
-        self._plan(name, translate("shell", "Dry run …"), lambda: trajectory)
+        self._plan(name, translate("shell", "Dry run …"), lambda: trajectory, renews=True)
 
-    def _plan(self, name: str, doing: str, read: Callable[[], Record]) -> None:
+    def plan_and_play(
+        self,
+        name: str,
+        trajectory: Record,
+        request: WaitingRequest,
+        play: Callable[[Plan], object],
+    ) -> None:
+        """Take a trajectory in hand and, if its dry run permits it, call ``play`` with the plan.
+
+        The request waits until then; if it is withdrawn meanwhile, nothing is played.
+        """
+
+        def done(plan: Plan) -> None:
+            self.take_plan(plan)
+            if not plan.dry_run.allowed:
+                request.give_up()  # taking the plan has reported why
+            elif request.waits:
+                play(plan)
+
+        def replaced() -> None:
+            request.withdraw(translate("shell", "another trajectory was loaded meanwhile"))
+
+        self._plan(
+            name,
+            translate("shell", "Dry run …"),
+            lambda: trajectory,
+            done,
+            undone=request.give_up,
+            replaced=replaced,
+        )
+
+    def _plan(
+        self,
+        name: str,
+        doing: str,
+        read: Callable[[], Record],
+        done: Callable[[Plan], None] | None = None,
+        *,
+        undone: Callable[[], None] = lambda: None,
+        replaced: Callable[[], None] | None = None,
+        renews: bool = False,
+    ) -> None:
+        self.planning = name
+
         def work() -> Plan:
             return Plan.tried(self.session, name, read())
 
-        self.work("plan", doing, work, self.take_plan)
+        def planned(plan: Plan) -> None:
+            self.planning = ""
+            (done or self.take_plan)(plan)
+
+        def failed() -> None:
+            self.planning = ""
+            undone()
+
+        self.work("plan", doing, work, planned, failed, replaced=replaced, renews=renews)
 
     def plan_again(self, plan: Plan) -> None:
         """Try the trajectory in hand again, on another model or device."""
@@ -330,6 +425,7 @@ class Workbench(Requests):
             translate("shell", "Dry run …"),
             lambda: Plan.tried(self.session, plan.name, plan.trajectory),
             self._renew_plan,
+            renews=True,
         )
 
     def open_record(self, path: Path, columns: str | None = None) -> None:
@@ -394,11 +490,16 @@ class Workbench(Requests):
         work: Callable[[], Answer],
         done: Callable[[Answer], None],
         undone: Callable[[], None] = lambda: None,
+        *,
+        replaced: Callable[[], None] | None = None,
+        renews: bool = False,
     ) -> None:
         """Do something in the background and hand its answer on; a failure becomes a notice.
 
         ``kind`` tells requests apart: of one kind only the latest answer counts. ``doing`` is
-        shown meanwhile; ``undone`` is called after a failure.
+        shown meanwhile; ``undone`` is called after a failure. If a later request of the same kind
+        takes its place, ``replaced`` is called; without it a notice says so, unless it only
+        ``renews`` what was worked out before, as typing does.
         """
 
         def finished(answer: Answer) -> None:
@@ -410,8 +511,14 @@ class Workbench(Requests):
             self.notify(Level.ERROR, message)
             undone()
 
+        def report_replaced() -> None:
+            if not renews:
+                text = translate("shell", "Replaced by a newer request: {doing}")
+                self.notify(Level.INFO, text.format(doing=doing))
+            undone()
+
         self.busy_changed.emit(doing)
-        self._background.run(kind, work, finished, failed)
+        self._background.run(kind, work, finished, failed, replaced or report_replaced)
 
     def read_file(
         self,
@@ -438,7 +545,9 @@ class Workbench(Requests):
             self.notify(Level.GOOD, translate("shell", "Saved {path}").format(path=path))
             saved()
 
-        self.work(kind, translate("shell", "Writing {name} …").format(name=path.name), write, done)
+        doing = translate("shell", "Writing {name} …").format(name=path.name)
+        # Of a kind of its own: each file that is written is reported.
+        self.work(f"{kind} {path}", doing, write, done)
 
     def long_work(
         self,
@@ -464,7 +573,7 @@ class Workbench(Requests):
             undone()
 
         self.progress = progress
-        self._background.run(kind, lambda: work(progress), finished, failed)
+        self._background.run(kind, lambda: work(progress), finished, failed, undone)
 
     def _end_progress(self, progress: Progress) -> None:
         if self.progress is progress:
@@ -602,6 +711,7 @@ class Workbench(Requests):
                 translate("shell", "Comparing model and machine …"),
                 lambda: compared_again(event.model, run, self.session.memory),
                 self._renew_run,
+                renews=True,
             )
 
 

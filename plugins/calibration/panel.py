@@ -13,6 +13,7 @@ from rotemina.app.panel import Area, Panel, offer_in_palette
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.file_dialog import ask_files
 from rotemina.app.shell.language import marked
+from rotemina.app.shell.requests_at_rest import WaitingRequest
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.scroll_areas import lay_beside, tabbed
@@ -29,6 +30,7 @@ from rotemina.sim.records.record import Record
 from rotemina.sim.trajectory.checked_trajectory import CheckedTrajectory
 from rotemina.sim.trajectory.dry_run import dry_run
 
+NOT_RUN = mark("Not run: {why}. Press Run again.")
 RECORDS = mark("Records (*.csv *.txt *.dat *.gz);;All files (*)")
 _ISO, _STORED = 1, 2  # tabs
 _WIDTH = 276  # of the procedure at least, px
@@ -81,11 +83,12 @@ class CalibrationPanel(Panel):
 
     def start(self) -> None:
         """Play the planned motion; sensor and laser are recorded."""
-        if self._motion is None or self._run is not None:
+        if self._run is not None or self._motion is None:
+            why = tr("there is no plan yet") if self._run is None else tr("a run is in progress")
+            WaitingRequest(self.workbench, tr(NOT_RUN)).withdraw(why)
             return
         run = CalibrationRun(self.workbench.session, self.procedure.chosen, self._motion)
         self._run = run
-        permit = self.workbench.session.permit()
 
         def refused() -> None:
             run.close()
@@ -93,7 +96,9 @@ class CalibrationPanel(Panel):
                 self._run = None
                 self.procedure.told.setText(self._plan_text)
 
-        self.workbench.at_rest.do(lambda: run.start(permit=permit), permit, undone=refused)
+        request = WaitingRequest(self.workbench, tr(NOT_RUN), undone=refused)
+        self.workbench.at_rest.do(request, lambda: run.start(permit=request.permit))
+        self.look_now()
 
     def stop(self) -> None:
         """Stop the machine; nothing of the run is kept."""
@@ -169,7 +174,8 @@ class CalibrationPanel(Panel):
             state = RunState(Phase.MOVING)
         motion = self._motion.commands if self._motion is not None else None
         if run is not None and motion is not None:
-            self.procedure.show_run(state, motion.duration_s)
+            waits = self.workbench.at_rest.words if run.state.phase is Phase.IDLE else ""
+            self.procedure.show_run(state, motion.duration_s, waits)
         self.procedure.refresh(session, motion, state)
         if run is None or state.phase is Phase.MOVING:
             return
@@ -220,7 +226,8 @@ class CalibrationPanel(Panel):
             for problem in answer[1]:
                 self.workbench.notify(Level.WARNING, problem, about=self)
 
-        self.workbench.work("stored calibrations", tr("Reading calibrations …"), work, done)
+        doing = tr("Reading calibrations …")
+        self.workbench.work("stored calibrations", doing, work, done, renews=True)
 
     def _ask_records(self) -> None:
         title = tr("Records with sensor and laser")

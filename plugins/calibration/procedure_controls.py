@@ -72,10 +72,10 @@ class Procedure(QWidget):
         """The axis."""
         return str(self.axis.currentData())
 
-    def show_run(self, state: RunState, duration_s: float) -> None:
-        """Show how far the run is."""
+    def show_run(self, state: RunState, duration_s: float, waits: str) -> None:
+        """Show how far the run is; ``waits`` is what it waits for, empty where it has begun."""
         self.progress.setValue(round(1000 * state.progress))
-        self.told.setText(progress(state, duration_s))
+        self.told.setText(waits or progress(state, duration_s))
 
     def refresh(self, session: SessionState, motion: Record | None, run: RunState) -> None:
         """Enable what can be done now, and say why the rest cannot."""

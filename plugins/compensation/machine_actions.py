@@ -2,14 +2,16 @@
 
 from collections.abc import Callable
 
+from rotemina.app.display_units import label
 from rotemina.app.motion.compensation import NamedInverse
 from rotemina.app.motion.regulation import NamedRegulation, regulation_of
 from rotemina.app.motion.state import Event, PlaybackFinished, SessionState
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.workbench import Workbench
+from rotemina.app.shell.requests_at_rest import WaitingRequest
+from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow
 from rotemina.drivers.samples import DeviceState
-from rotemina.plugins.compensation import tr
+from rotemina.plugins.compensation import mark, tr
 from rotemina.plugins.compensation.controls import Controls
 from rotemina.plugins.compensation.inverse_training import Learned
 from rotemina.plugins.compensation.plot_views import LiveView
@@ -30,6 +32,8 @@ from rotemina.sim.feedback.gains import Gains
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.tuning.tuning_result import Tuning
+
+NOT_PLAYED = mark("Not played: {why}. Press the button again.")
 
 
 class Actuation:
@@ -54,6 +58,8 @@ class Actuation:
             self._workbench.ask(lambda: session.inverses.remove(axis))
             return
         if learned is None or learned.axis != axis:
+            text = tr("Nothing is applied: no inverse of {axis} is trained. Train one first.")
+            self._workbench.notify(Level.WARNING, text.format(axis=label(axis)))
             return
         kind = self._controls.kind.currentData()
         name = f"{NAMES[kind]}, {source}"
@@ -97,9 +103,13 @@ class Actuation:
         """Swing over all that the inverse saw, with the inverse on."""
         session, axis = self._workbench.session, self._controls.chosen
         inverse = session.inverses.applied.get(axis)
-        if inverse is not None:
-            start = session.snapshot().command[axis]
-            self._play(lambda: conditioning(self._workbench.robot, inverse.model, start))
+        if inverse is None:
+            WaitingRequest(self._workbench, tr(NOT_PLAYED)).withdraw(
+                tr("no inverse is active: apply one first")
+            )
+            return
+        start = session.snapshot().command[axis]
+        self._play(lambda: conditioning(self._workbench.robot, inverse.model, start))
 
     def try_it(self, begun: Callable[[], None]) -> None:
         """Play decaying swings, and show the error beside those of other states.
@@ -134,10 +144,12 @@ class Actuation:
         controls.apply.setText(tr(APPLY[loop_on]))
         said = exceedance_text(session.inverses.exceedance(axis))
         at_limit = tr(AT_A_LIMIT) if axis in session.loops.limited else ""
-        controls.beyond.setText(" ".join(filter(None, (said, at_limit))))
+        waits = self._workbench.at_rest.words
+        controls.beyond.setText(" ".join(filter(None, (waits, said, at_limit))))
         moves = None if state.activity is DeviceState.IDLE else tr("the axis is moving")
         locked = spoken(state.locked) if state.locked else None
-        still = locked or moves or owners_text(state.owners)
+        waiting = self._workbench.at_rest.against_another
+        still = locked or waiting or moves or owners_text(state.owners)
         no_axis = None if axis else tr("the robot has no piezo in open loop")
         allow(controls.switch, still or (None if inverse_on else other), self._switch_tip())
         no_loop = session.loops.unavailable or no_axis
@@ -161,8 +173,8 @@ class Actuation:
 
     def _play(self, motion: Callable[[], Record], begun: Callable[[], None] = lambda: None) -> None:
         session = self._workbench.session
-        permit = session.permit()
-        self._workbench.at_rest.do(lambda: session.play(motion(), permit=permit), permit, begun)
+        request = WaitingRequest(self._workbench, tr(NOT_PLAYED), done=begun)
+        self._workbench.at_rest.do(request, lambda: session.play(motion(), permit=request.permit))
 
     @property
     def _unit(self) -> str:

@@ -7,13 +7,16 @@ from PySide6.QtWidgets import QMessageBox, QWidget
 
 from rotemina.app.display_units import label
 from rotemina.app.motion.model_in_use import CONTACT_LIKE, NOTED, ModelInUse
+from rotemina.app.shell.requests_at_rest import WaitingRequest
 from rotemina.app.shell.workbench import Workbench
-from rotemina.plugins.gap import tr
+from rotemina.plugins.gap import mark, tr
 from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.plugins.gap.unseen_motion_reduction import Proof
 from rotemina.plugins.gap.words import all_of, effect_word
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Tap
+
+NOT_USED = mark("The model stays: {why}. Press Use corrected model again.")
 
 
 class ModelSwitch(QObject):
@@ -52,7 +55,14 @@ class ModelSwitch(QObject):
         question.setDefaultButton(no)
         question.button(yes).setText(tr("Use anyway"))
         question.button(no).setText(tr("Not now"))
-        question.finished.connect(lambda said: self.use(answer) if said == yes else None)
+        request = WaitingRequest(self._workbench, tr(NOT_USED))
+
+        def answered(reply: int) -> None:
+            if request.waits and reply == yes:  # no stop has withdrawn it, and reported that
+                self.use(answer)
+            request.give_up()
+
+        question.finished.connect(answered)
         self._workbench.stopped.connect(question.reject)
         question.setModal(False)
         question.show()

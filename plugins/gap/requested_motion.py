@@ -5,11 +5,13 @@ from PySide6.QtWidgets import QMessageBox, QWidget
 
 from rotemina.app.display_units import axis_scale, label
 from rotemina.app.shell.loaded_trajectory import Plan
-from rotemina.app.shell.pending_confirmations import Pending
+from rotemina.app.shell.requests_at_rest import WaitingRequest
 from rotemina.app.shell.workbench import Run, Workbench
-from rotemina.plugins.gap import tr
+from rotemina.plugins.gap import mark, tr
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Robot
+
+NOT_PLAYED = mark("Not played: {why}. Ask for the motion again.")
 
 
 class Playing(QObject):
@@ -25,10 +27,7 @@ class Playing(QObject):
     def __init__(self, workbench: Workbench, parent: QObject) -> None:
         super().__init__(parent)
         self._workbench = workbench
-        #: Name of the motion whose dry run is waited for; who stops meanwhile wants it no more.
-        self._waiting: Pending[str] = Pending(workbench.session)
         self._under_way: str | None = None
-        workbench.plan_changed.connect(self._planned)
         workbench.run_changed.connect(self._ran)
 
     def ask(self, window: QWidget, title: str, name: str, trajectory: Record) -> None:
@@ -44,31 +43,35 @@ class Playing(QObject):
         question.setDefaultButton(no)
         question.button(yes).setText(tr("Play"))
         question.button(no).setText(tr("Not now"))
-        question.finished.connect(lambda said: self.play(name, trajectory) if said == yes else None)
+        request = WaitingRequest(self._workbench, tr(NOT_PLAYED))
+
+        def answered(answer: int) -> None:
+            if request.waits and answer == yes:  # no stop has withdrawn it, and reported that
+                self.play(name, trajectory)
+            request.give_up()
+
+        question.finished.connect(answered)
         self._workbench.stopped.connect(question.reject)
         question.setModal(False)
         question.show()
 
     def play(self, name: str, trajectory: Record) -> None:
         """Try a motion on the model, and play it if it stays inside all limits."""
-        self._waiting.put(name)
         self._under_way = None
-        self._workbench.plan_trajectory(name, trajectory)
+        request = WaitingRequest(self._workbench, tr(NOT_PLAYED))
+        self._workbench.plan_and_play(
+            name, trajectory, request, lambda plan: self._play(plan, request)
+        )
 
-    def _planned(self, plan: Plan) -> None:
-        if plan.name != self._waiting.what:
-            return  # one from before, planned anew for another model
-        self._waiting.take()
-        checked = plan.dry_run.checked
-        if checked is not None:
-            # The motion was made within what the records show, so it needs no question. A higher
-            # pace would go beyond that.
-            playback = self._workbench.playback
-            figures = plan.dry_run.axes
-            missing = playback.axes_without_speed_limit(checked)
-            playback.limit_speeds(checked, {axis: figures[axis].peak_speed for axis in missing})
-            self._under_way = plan.name
-            self._workbench.play(self._waiting.permit)
+    def _play(self, plan: Plan, request: WaitingRequest) -> None:
+        # The motion was made within what the records show, so it needs no question. A higher pace
+        # would go beyond that.
+        playback, checked = self._workbench.playback, plan.dry_run.require()
+        figures = plan.dry_run.axes
+        missing = playback.axes_without_speed_limit(checked)
+        playback.limit_speeds(checked, {axis: figures[axis].peak_speed for axis in missing})
+        self._under_way = plan.name
+        self._workbench.play(request.permit)
 
     def _ran(self, run: Run) -> None:
         if run.name == self._under_way:

@@ -15,9 +15,10 @@ from rotemina.app.display_units import label
 from rotemina.app.motion.playback import PlaybackPhase, PlaybackState
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import error_text, spoken
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.loaded_trajectory import Plan
-from rotemina.app.shell.pending_confirmations import Pending
-from rotemina.app.shell.workbench import Run, Workbench
+from rotemina.app.shell.requests_at_rest import WaitingRequest
+from rotemina.app.shell.workbench import NOT_PLAYED, Run, Workbench
 from rotemina.app.widgets.controls import allow, set_property
 from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column, in_grid, in_row
@@ -26,7 +27,6 @@ from rotemina.plugins.identification import mark, tr
 from rotemina.plugins.identification.excitation import ExcitationRequest, Prepared, Wave, prepared
 from rotemina.sim.errors import InputError
 from rotemina.sim.quantities import parsed
-from rotemina.sim.records.record import Record
 
 CHECKING = mark("Computing the motion and checking it on the model …")
 _AMPLITUDE = mark(
@@ -51,8 +51,8 @@ class ExciteView(QWidget):
         super().__init__()
         self._workbench = workbench
         self.motion: Prepared | None = None
-        #: To be played as soon as it is in hand.
-        self._awaited: Pending[Record] = Pending(workbench.session)
+        #: Waits until the dry run of the motion has ended.
+        self._request: WaitingRequest | None = None
         self._last: Prepared | None = None  # what was played last
         self.axis, self.wave = QComboBox(), QComboBox()
         for name in workbench.robot.axes:
@@ -114,19 +114,23 @@ class ExciteView(QWidget):
             except InputError as error:
                 return error_text(error)
 
-        self._workbench.work("excitation", tr(CHECKING), work, self._take)
+        self._workbench.work("excitation", tr(CHECKING), work, self._take, renews=True)
 
     def start(self) -> None:
         """Take the motion in hand as the window's trajectory, and play it."""
-        if self.motion is None or self.motion.digest is None:
+        motion, bench = self.motion, self._workbench
+        request = WaitingRequest(bench, translate("shell", NOT_PLAYED))
+        if motion is None or motion.digest is None:
+            request.withdraw(tr("the motion is not ready"))
             return
-        self._last = self.motion
-        self._awaited.put(self.motion.made.record)
-        self._workbench.plan_trajectory(self.motion.name, self.motion.made.record)
+        self._last, self._request = motion, request
+        record = motion.made.record
+        bench.plan_and_play(motion.name, record, request, lambda plan: self._play(plan, request))
 
     def halt(self) -> None:
         """Stop the machine, and end the playback."""
-        self._awaited.withdraw()
+        if self._request is not None:
+            self._request.give_up()
         self._workbench.end_playback()
 
     def played(self, run: Run) -> Prepared | None:
@@ -140,26 +144,14 @@ class ExciteView(QWidget):
         super().showEvent(event)
         if self.motion is None:
             self.prepare()
+        self.refresh(self._workbench.session.snapshot())
 
     # --- what may be done -------------------------------------------------------------------------
 
     def refresh(self, session: SessionState) -> None:
         """Show what can be done now, who drives the axis, and how far the motion is."""
         plan, playback = self._workbench.plan, self._workbench.playback
-        if plan is not None and self._awaited.what is plan.trajectory:
-            self._awaited.withdraw()
-            permit = self._awaited.permit
-            # At its own pace, and without a bound of the deviation from the model: that is what
-            # the motion is to show. All limits hold as ever.
-            if self._workbench.ask(plan.dry_run.require):
-                checked = plan.dry_run.require()
-                self._workbench.play_limited(
-                    plan,
-                    lambda: self._workbench.ask_aside(
-                        lambda: playback.play(checked, permit=permit)
-                    ),
-                )
-            self.begun.emit()
+        waiting = self._waiting  # a stop is noticed while out of sight too
         if not self.isVisible():
             return
         state = playback.state
@@ -175,7 +167,7 @@ class ExciteView(QWidget):
         allow(
             self.play, self._why_not(session, state), tr("Play the motion and analyse the record")
         )
-        waits = under_way or self._awaited.what is not None
+        waits = under_way or waiting
         allow(
             self.stop,
             None if waits else tr("the motion is not playing"),
@@ -184,13 +176,33 @@ class ExciteView(QWidget):
         share = state.path_s / state.duration_s if under_way and state.duration_s else 0.0
         self.progress.setValue(round(1000 * share))
 
+    @property
+    def _waiting(self) -> bool:
+        return self._request is not None and self._request.waits
+
+    def _play(self, plan: Plan, request: WaitingRequest) -> None:
+        """Play the motion, whose dry run has ended.
+
+        It is played at its own pace, and without a bound of the deviation from the model, because
+        that deviation is what the motion is to show. All limits hold as ever.
+        """
+        playback, checked = self._workbench.playback, plan.dry_run.require()
+        self._workbench.play_limited(
+            plan,
+            lambda: request.make(lambda: playback.play(checked, permit=request.permit)),
+            request,
+        )
+        self.begun.emit()
+
     def _why_not(self, session: SessionState, state: PlaybackState) -> str | None:
         motion = self.motion
         if motion is None:
             return tr("the motion is not ready")
         if motion.digest is None:
             return motion.objection
-        if self._awaited.what is not None or state.phase is PlaybackPhase.PLAYING:
+        if self._waiting:
+            return tr("it waits until the dry run has ended")
+        if state.phase is PlaybackPhase.PLAYING:
             return tr("a trajectory is playing")
         if session.locked is not None:
             return spoken(session.locked)
@@ -203,6 +215,7 @@ class ExciteView(QWidget):
             self.motion = answer
             self.told.setText(answer.words)
         set_property(self.told, "bad", isinstance(answer, str) or answer.digest is None)
+        self.refresh(self._workbench.session.snapshot())
 
     def _changed(self) -> None:
         self._name_fields()
@@ -216,10 +229,6 @@ class ExciteView(QWidget):
         self.frequency.setPlaceholderText(tr("up to [Hz]") if upper else tr("frequency [Hz]"))
         self.time.setPlaceholderText(tr("rest [s]") if stairs else tr("duration [s]"))
 
-    def _plan_changed(self, plan: Plan) -> None:
-        if plan.trajectory is not self._awaited.what:
-            self._awaited.withdraw()  # another trajectory was taken in hand
-
     def _connect(self) -> None:
         for choice in (self.axis, self.wave):
             choice.activated.connect(lambda _: self._changed())
@@ -229,7 +238,6 @@ class ExciteView(QWidget):
         self.play.clicked.connect(self.start)
         self.stop.clicked.connect(self.halt)
         self._workbench.refreshed.connect(self.refresh)
-        self._workbench.plan_changed.connect(self._plan_changed)
 
     def _typed(self) -> None:
         """Make the motion again where a text is another; leaving a field alone changes nothing."""

@@ -1,6 +1,7 @@
 """Running jobs with pause and stop, and the outcome of the last run."""
 
 from collections.abc import Callable
+from typing import TypeVar
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFrame, QLabel, QProgressBar, QPushButton, QWidget
@@ -18,10 +19,11 @@ from rotemina.app.widgets.layouts import in_column, in_grid, in_row
 from rotemina.app.widgets.scroll_areas import scrolled
 from rotemina.plugins.job import tr, words
 from rotemina.plugins.job.words import Running
-from rotemina.plugins.trajectory.playback_controls import against_playing, play_word
+from rotemina.plugins.trajectory.playback_controls import PlayButton, waiting_words
 from rotemina.sim.records.record import Tap
 
 _STEPS = 1000
+_Button = TypeVar("_Button", bound=QPushButton)
 
 
 class Card(QFrame):
@@ -52,6 +54,10 @@ class Card(QFrame):
         button = QPushButton(text)
         button.clicked.connect(lambda _: run())
         allow(button, None, tip)
+        return self.add(button)
+
+    def add(self, button: _Button) -> _Button:
+        """Add a button that acts by itself."""
         self._buttons.addWidget(button)
         return button
 
@@ -145,8 +151,7 @@ class JobPanel(Panel):
         self.end = self.playback.add_button(
             tr("End"), tr("Stop; the next playback starts from the beginning"), bench.end_playback
         )
-        self.play = self.playback.add_button("", "", bench.toggle_playback)
-        self.play.setProperty("primary", True)
+        self.play = self.playback.add(PlayButton(bench))
 
     def _make_others(self) -> None:
         stop, held = tr("Stop"), tr("Stop all axes and hold their positions (Esc)")
@@ -184,17 +189,14 @@ class JobPanel(Panel):
         bench = self.workbench
         playback = bench.playback.state
         name = bench.plan.name if bench.plan is not None else ""
-        self.playback.show_running(words.playback(playback, name))
-        playing = playback.phase is PlaybackPhase.PLAYING
         idle = playback.phase is PlaybackPhase.IDLE
+        running = words.playback(playback, name)
+        if idle and (waits := waiting_words(bench)):
+            running = running._replace(doing=waits)
+        self.playback.show_running(running)
         self.load.setVisible(idle)
         self.end.setVisible(not idle)
-        self.play.setText(play_word(playback.phase))
-        allow(
-            self.play,
-            None if playing else against_playing(bench, state),
-            tr("Play, pause or resume (Ctrl+P); the axes first move to the first row"),
-        )
+        self.play.refresh(state)
 
     def _end_recording(self) -> None:
         recorder = self.workbench.operation.recording

@@ -21,6 +21,7 @@ from rotemina.app.panel import Area, Panel, offer_in_palette
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked
 from rotemina.app.shell.loaded_trajectory import Plan
+from rotemina.app.shell.requests_at_rest import WaitingRequest
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import set_property
 from rotemina.app.widgets.labels import LiveLabel, heading, plain_text
@@ -232,22 +233,25 @@ class TrajectoryPanel(Panel):
         dialog.accepted.connect(use)
         dialog.show()
 
-    def _ask_speed_limit(self, plan: Plan, play: Callable[[], object]) -> None:
+    def _ask_speed_limit(
+        self, plan: Plan, play: Callable[[], object], request: WaitingRequest
+    ) -> None:
         """Ask how fast the axes without a speed limit may move, then play."""
-        if any(one.isVisible() for one in self.window().findChildren(SpeedLimitDialog)):
-            return  # it was asked for twice
+        for asked in self.window().findChildren(SpeedLimitDialog):
+            if asked.isVisible():  # it was asked for twice: the latest counts
+                asked.reject()
         bench, run = self.workbench, plan.dry_run
         checked = run.require()
         missing = bench.playback.axes_without_speed_limit(checked)
-        dialog = SpeedLimitDialog(missing, run.axes, self.window())
+        dialog = SpeedLimitDialog(missing, run.axes, request, self.window())
 
         def limit_and_play(speeds: dict[str, float]) -> None:
             bench.playback.limit_speeds(checked, speeds)
             play()
 
         dialog.limited.connect(limit_and_play)
-        bench.stopped.connect(dialog.reject)
-        bench.plan_changed.connect(dialog.reject)
+        bench.stopped.connect(dialog.close_if_stopped)
+        bench.plan_changed.connect(dialog.close_for_another)
         dialog.show()
 
     def _fill(self, plan: Plan) -> None:

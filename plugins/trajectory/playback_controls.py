@@ -6,6 +6,7 @@ from rotemina.app.motion.playback import PlaybackPhase, PlaybackState
 from rotemina.app.motion.retiming import FASTEST, SLOWEST
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.changing_button import ChangingButton
 from rotemina.app.widgets.controls import allow, fill, named
 from rotemina.app.widgets.layouts import in_row
 from rotemina.drivers.samples import DeviceState
@@ -20,6 +21,7 @@ def against_playing(workbench: Workbench, session: SessionState) -> str | None:
     """Return why the plan in hand cannot be played, or gone on with, now; None: it can."""
     paused = workbench.playback.state.phase is PlaybackPhase.PAUSED
     missing = None if paused else _missing(workbench)
+    missing = missing or workbench.at_rest.against_another
     if missing is None and session.locked is None and session.activity is not DeviceState.IDLE:
         return tr("the axes are still moving")
     return missing or session.locked
@@ -28,9 +30,37 @@ def against_playing(workbench: Workbench, session: SessionState) -> str | None:
 def _missing(workbench: Workbench) -> str | None:
     """Return what is wrong with the plan in hand, or None."""
     plan = workbench.plan
+    if workbench.planning:
+        return tr("the dry run of {name} is under way").format(name=workbench.planning)
     if plan is None or not plan.dry_run.allowed:
         return tr(_EMPTY if plan is None else _FORBIDDEN)
     return plan.refusal or None
+
+
+def waiting_words(workbench: Workbench) -> str:
+    """Return what the button that plays waits for; empty while it waits for nothing."""
+    if workbench.planning:
+        return tr("Dry run of {name} …").format(name=workbench.planning)
+    return workbench.at_rest.words
+
+
+class PlayButton(ChangingButton):
+    """Plays, pauses or resumes the trajectory in hand, as it says."""
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__(*map(play_word, PlaybackPhase))
+        self._workbench = workbench
+        self._shown = PlaybackPhase.IDLE
+        self.setProperty("primary", True)
+        self.clicked.connect(lambda _: workbench.press_play(self._shown))
+
+    def refresh(self, session: SessionState) -> None:
+        """Show what the next press does, or why it can do nothing now."""
+        self._shown = self._workbench.playback.state.phase
+        playing = self._shown is PlaybackPhase.PLAYING
+        self.show_meaning(play_word(self._shown), stops=playing)
+        tip = tr("Play, pause or resume (Ctrl+P); the axes first move to the first row")
+        allow(self, None if playing else against_playing(self._workbench, session), tip)
 
 
 def play_word(phase: PlaybackPhase) -> str:
@@ -45,9 +75,7 @@ class Transport(QWidget):
     def __init__(self, workbench: Workbench) -> None:
         super().__init__()
         self._workbench = workbench
-        self.play = QPushButton(tr("Play"))
-        self.play.setProperty("primary", True)
-        self.play.clicked.connect(workbench.toggle_playback)
+        self.play = PlayButton(workbench)
         self.end = QPushButton(tr("End"))
         self.end.clicked.connect(workbench.end_playback)
         self.back, self.forward = QPushButton(tr("◂ Step")), QPushButton(tr("Step ▸"))
@@ -85,10 +113,7 @@ class Transport(QWidget):
         missing = _missing(self._workbench)
         playing = state.phase is PlaybackPhase.PLAYING
         paused = state.phase is PlaybackPhase.PAUSED
-        self.play.setText(play_word(state.phase))
-        why = None if playing else against_playing(self._workbench, session)
-        tip = tr("Play, pause or resume (Ctrl+P); the axes first move to the first row")
-        allow(self.play, why, tip)
+        self.play.refresh(session)
         allow(
             self.end,
             None if playing or paused else tr("nothing is playing"),
@@ -119,7 +144,7 @@ class Transport(QWidget):
     def _show_progress(self, state: PlaybackState) -> None:
         if state.phase is PlaybackPhase.IDLE:
             fill(self.progress, 0)
-            self.progress.setFormat("")
+            self.progress.setFormat(waiting_words(self._workbench))
             return
         share = state.path_s / state.duration_s if state.duration_s else 0.0
         fill(self.progress, round(1000 * share))

@@ -6,6 +6,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QFormLayout, QLineEdit, QWidget
 
 from rotemina.app.display_units import label
+from rotemina.app.shell.requests_at_rest import WaitingRequest
 from rotemina.app.widgets.controls import named
 from rotemina.app.widgets.labels import plain_text
 from rotemina.plugins.trajectory import tr
@@ -24,9 +25,15 @@ class SpeedLimitDialog(QDialog):
     limited = Signal(object)
 
     def __init__(
-        self, axes: Sequence[str], figures: Mapping[str, AxisFigures], parent: QWidget
+        self,
+        axes: Sequence[str],
+        figures: Mapping[str, AxisFigures],
+        request: WaitingRequest,
+        parent: QWidget,
     ) -> None:
         super().__init__(parent)
+        self._request = request
+        self.rejected.connect(request.give_up)
         self.setWindowTitle(tr("Speed limit"))
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.fields: dict[str, QLineEdit] = {}
@@ -63,6 +70,16 @@ class SpeedLimitDialog(QDialog):
         self.accepted.connect(lambda: self.limited.emit(self._speeds()))
         self.setMinimumWidth(380)
         self._show_state()
+
+    def close_if_stopped(self) -> None:
+        """Close where a stop has withdrawn the request, which reports it."""
+        if not self._request.waits:
+            self.reject()
+
+    def close_for_another(self) -> None:
+        """Close because another trajectory was loaded."""
+        self._request.withdraw(tr("another trajectory was loaded meanwhile"))
+        self.reject()
 
     def _speeds(self) -> dict[str, float]:
         """Return the speeds that are valid so far."""

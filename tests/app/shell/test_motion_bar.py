@@ -1,7 +1,5 @@
 """Phase, emergency stop and reconnection in the tool bar, and the status line."""
 
-from dataclasses import replace
-
 import pytest
 from PySide6.QtCore import QEvent, QPoint, Qt
 from PySide6.QtGui import QKeyEvent
@@ -11,8 +9,6 @@ from PySide6.QtWidgets import QApplication, QDockWidget, QFileDialog, QMessageBo
 from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.panel import Panel
 from rotemina.app.shell.motion_bar import LARGE, SMALL
-from rotemina.app.shell.operator_requests import Requests
-from rotemina.app.shell.requests_at_rest import AtRest
 from rotemina.app.shell.stop_controls import RELEASE_AFTER_S, EmergencyButton, StopWatch
 from rotemina.app.shell.workbench import Level
 from rotemina.drivers.mc68hc11.driver import MC68HC11
@@ -374,39 +370,3 @@ def test_play_waits_until_what_was_switched_has_settled(qtbot, window):
     )
     bench.stop()
     assert not [text for text in told if "still moving" in text]
-
-
-class Moving(Requests):
-    """A machine that never comes to rest, and what is asked of it."""
-
-    def __init__(self, session):
-        super().__init__(session)
-        self.asked = []
-
-    def ask_aside(self, request, done=None, undone=None):
-        self.asked.append(request)
-
-
-def test_what_waits_for_rest_ends_with_a_stop_or_after_two_seconds(window, monkeypatch):
-    session = window.workbench.session
-    monkeypatch.setattr(type(session), "at_rest", False)
-    requests, now = Moving(session), [0.0]
-    waits = AtRest(requests, lambda: now[0])
-    state = replace(session.snapshot(), activity=DeviceState.MOVING, locked=None)
-    monkeypatch.setattr(session, "snapshot", lambda: state)
-    undone = []
-    waits.do("replaced", session.permit(), undone=lambda: undone.append("replaced"))
-    waits.do("first", session.permit(), undone=lambda: undone.append("first"))
-    assert waits.waiting
-    assert undone == ["replaced"]
-    session.stop()
-    waits.look(state)
-    assert not waits.waiting
-    assert undone == ["replaced", "first"]
-    waits.do("second", session.permit())
-    now[0] = 1.9
-    waits.look(state)
-    assert requests.asked == []
-    now[0] = 2.0
-    waits.look(state)
-    assert requests.asked == ["second"]  # which is refused, with the reason
