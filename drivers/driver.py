@@ -11,6 +11,8 @@ before the device: hooks get a permit, and write inside ``with permit.passing():
 import time
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
+from contextlib import suppress
+from enum import StrEnum
 from types import MappingProxyType
 from typing import ClassVar, final
 
@@ -28,6 +30,16 @@ from rotemina.sim.robot.model import Robot
 from rotemina.sim.trajectory.axis_limits import check_speeds, check_target
 
 _CLOSED = DeviceStatus(DeviceState.CLOSED)
+
+
+class MachineKind(StrEnum):
+    """What moves when a device is commanded."""
+
+    REAL = "real"
+    #: A program behaves like the device, byte for byte, at the other end of a line.
+    VIRTUAL = "virtual"
+    #: The driver itself computes the machine; there is no device.
+    SIMULATED = "simulated"
 
 
 class Driver(ABC):
@@ -59,6 +71,8 @@ class Driver(ABC):
     #: By how much the time of a sample may be wrong where the device has no clock of its own, s.
     stamp_error_s: float = 0.0
     default_settings: ClassVar[Mapping[str, SettingValue]] = MappingProxyType({})
+    #: What the device is before it was opened; only a driver without a device knows.
+    built_in_kind: ClassVar[MachineKind | None] = None
 
     def __init__(
         self,
@@ -74,6 +88,7 @@ class Driver(ABC):
         #: What every motion passes; a program that owns the driver puts its own gate here.
         self.gate = Gate(clock)
         self._is_open = False
+        self._machine_kind = self.built_in_kind
         self._last_time_s = float("-inf")
 
     def __init_subclass__(cls) -> None:
@@ -82,7 +97,8 @@ class Driver(ABC):
         for base in cls.__mro__[1:]:
             for name, member in vars(base).items():
                 # Compared as found: a class mixed in from elsewhere must not override either.
-                if getattr(member, "__final__", False) and getattr(cls, name) is not member:
+                rule = member.fget if isinstance(member, property) else member
+                if getattr(rule, "__final__", False) and getattr(cls, name) is not member:
                     raise TypeError(
                         f"{cls.__name__}.{name}: final in {base.__name__}; fill _{name}"
                     )
@@ -104,6 +120,12 @@ class Driver(ABC):
             )
         self._last_time_s = float("-inf")
         self._open()
+        try:
+            self._machine_kind = MachineKind(self._identify())
+        except BaseException:
+            with suppress(Exception):  # the first failure is the one to report
+                self._close()
+            raise
         self._is_open = True
 
     @final
@@ -113,6 +135,21 @@ class Driver(ABC):
             return
         self._is_open = False
         self._close()
+
+    @property
+    @final
+    def machine_kind(self) -> MachineKind:
+        """What moves when the device is commanded, as it said when it was opened last; any thread.
+
+        It stays after the device was closed or lost. Unless a device says otherwise it is real.
+        """
+        return self._machine_kind or MachineKind.REAL
+
+    @property
+    @final
+    def is_identified(self) -> bool:
+        """Whether :attr:`machine_kind` is known, rather than assumed; any thread."""
+        return self._machine_kind is not None
 
     @property
     def stop_pending(self) -> bool:
@@ -293,6 +330,13 @@ class Driver(ABC):
     @abstractmethod
     def _close(self) -> None:
         """Disconnect; the device holds."""
+
+    def _identify(self) -> MachineKind:
+        """Return what the device has said of itself while it was opened; asks nothing.
+
+        A device is virtual only if all of it has said so in messages that arrived undamaged.
+        """
+        return self.built_in_kind or MachineKind.REAL
 
     @abstractmethod
     def _status(self) -> DeviceStatus:

@@ -7,7 +7,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, final
 
-from rotemina.drivers.driver import Driver
+from rotemina.drivers.driver import Driver, MachineKind
 from rotemina.drivers.errors import LimitError, StateError
 from rotemina.drivers.gate import Permit, Purpose
 from rotemina.drivers.samples import DeviceState
@@ -23,6 +23,8 @@ if TYPE_CHECKING:  # a board's commands need none of it
 
 class EffectCarrier(Driver, ABC):
     """A simulated device whose imperfections can be switched and tuned while it runs."""
+
+    built_in_kind = MachineKind.SIMULATED
 
     @property
     @abstractmethod

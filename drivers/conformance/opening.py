@@ -13,9 +13,9 @@ from rotemina.drivers.abilities import (
 )
 from rotemina.drivers.conformance.bench import Bench
 from rotemina.drivers.conformance.check import check
-from rotemina.drivers.conformance.findings import at_most, demand, refused, within
-from rotemina.drivers.driver import Driver
-from rotemina.drivers.errors import StateError
+from rotemina.drivers.conformance.findings import Inapplicable, at_most, demand, refused, within
+from rotemina.drivers.driver import Driver, MachineKind
+from rotemina.drivers.errors import DriverError, StateError
 from rotemina.drivers.samples import DeviceState
 from rotemina.drivers.settings import SettingError
 from rotemina.sim.trajectory.axis_limits import RANGE_SLACK
@@ -113,6 +113,35 @@ def reopening(bench: Bench) -> None:
         for axis in subject.axes if subject.driver.status().position_known else ():
             seen, expected = float(after[axis.index]), float(before[axis.index])
             within(f"axis {axis.name} reopened at", seen, expected, axis.half_step, axis.unit)
+
+
+@check(moves=False)
+def identity(bench: Bench) -> None:
+    """It is a real machine until it says otherwise, and says the same each time it is opened."""
+    driver = bench.make({})
+    before = driver.machine_kind
+    demand(
+        before is not MachineKind.VIRTUAL,
+        f"before it was opened it is {before}",
+        f"{MachineKind.REAL}, or {MachineKind.SIMULATED} where the driver has no device",
+    )
+    with bench.opened(to_move=False) as subject:
+        driver = subject.driver
+        first = driver.machine_kind
+        demand(
+            (first is MachineKind.SIMULATED) == (before is MachineKind.SIMULATED),
+            f"it is {before} before it is opened and {first} afterwards",
+            "simulated both times or never",
+        )
+        driver.close()
+        closed = driver.machine_kind
+        demand(closed is first, f"closed it is {closed}", f"{first}, as while it was open")
+        try:
+            driver.open()
+        except DriverError as error:  # the matter of another check
+            raise Inapplicable(f"it could not be opened again: {error}") from error
+        again = driver.machine_kind
+        demand(again is first, f"opened again it is {again}", f"{first}, as at first")
 
 
 @check(moves=False)

@@ -26,11 +26,14 @@ class ControllerSettings:
     options : str
         Letters of what it was built with, ``[OPT:…]``.
     firmware : Firmware
+    is_virtual : bool
+        Whether it says that it is a program.
     """
 
     texts: Mapping[str, str] = field(default_factory=dict)
     options: str = ""
     firmware: Firmware = Firmware.GRBL
+    is_virtual: bool = False
 
     def number(self, name: int | str) -> float | None:
         """Return a setting as a number; None where it is missing or no number."""

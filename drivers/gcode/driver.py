@@ -10,6 +10,7 @@ from typing import ClassVar
 from rotemina.drivers.abilities import Homer, Linked
 from rotemina.drivers.axes import AxisDescription
 from rotemina.drivers.clock import Clock
+from rotemina.drivers.driver import MachineKind
 from rotemina.drivers.errors import DriverError, LimitError, StateError
 from rotemina.drivers.gate import Permit
 from rotemina.drivers.gcode.controller_settings import ControllerSettings
@@ -154,6 +155,10 @@ class GcodeStage(Homer, Linked):
         if self.settings["trust_position"] and info.status.state == "Idle":
             controller.trust_count()
         self._controller = controller
+
+    def _identify(self) -> MachineKind:
+        virtual = self._controller_settings.is_virtual
+        return MachineKind.VIRTUAL if virtual else MachineKind.REAL
 
     def _matched(self, info: ControllerInfo, url: str) -> tuple[StageAxis, ...]:
         count = len(info.status.position or ())

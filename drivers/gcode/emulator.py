@@ -12,6 +12,7 @@ from math import pi
 
 from rotemina.drivers.gcode.blocks import Blocks
 from rotemina.drivers.gcode.coordinates import check_stage
+from rotemina.drivers.gcode.grbl_reports import VIRTUAL
 from rotemina.drivers.gcode.parser import LineError, Target, jog_of, motion_of
 from rotemina.sim.robot.model import Robot
 
@@ -305,6 +306,7 @@ class EmulatedStage:
         if text == "I":
             self._say("[VER:1.1h.20190830:]")
             self._say(f"[OPT:{self._options},{_MOST_BLOCKS},{_RX_BYTES}]")
+            self._say(f"[{VIRTUAL}]")
         elif text == "$":
             for number, value in sorted(self.settings.items()):
                 self._say(f"${number}={value:.3f}" if number >= 100 else f"${number}={value:g}")

@@ -11,6 +11,8 @@ _STATUS = re.compile(r"<(\w*)(?::(\d+))?\|([^<>]*)>")
 _NUMBERED = re.compile(r"(error|ALARM):(\d+)")
 _SETTING = re.compile(r"\$([\w/]+)=(.*)")
 _COORDINATE = re.compile(r"[+-]?\d+(\.\d*)?")
+#: The note of a controller that is a program; it adds that to its build info ($I).
+VIRTUAL = "MACHINE:virtual"
 #: The older form of a status, of GRBL 0.9 and before: commas where 1.1 has bars.
 OLD_STATUS = re.compile(r"<\w+,[MW]Pos:")
 

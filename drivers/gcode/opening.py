@@ -9,7 +9,15 @@ from rotemina.drivers.gcode.controller_settings import ControllerSettings, homin
 from rotemina.drivers.gcode.dialogue import HALT, RESET, Dialogue, Reception
 from rotemina.drivers.gcode.error_texts import Firmware, identify_firmware
 from rotemina.drivers.gcode.first_contact import explain_contact
-from rotemina.drivers.gcode.grbl_reports import Answer, Message, Note, Setting, Status, Welcome
+from rotemina.drivers.gcode.grbl_reports import (
+    VIRTUAL,
+    Answer,
+    Message,
+    Note,
+    Setting,
+    Status,
+    Welcome,
+)
 from rotemina.drivers.gcode.machine_states import interpret_state
 from rotemina.sim.messages import marked, message
 from rotemina.sim.quantities import rounded
@@ -143,12 +151,14 @@ class Opening:
             self.empty()
 
     def _read_settings(self, letters: Sequence[str]) -> ControllerSettings:
-        options, texts = "", dict[str, str]()
+        options, texts, is_virtual = "", dict[str, str](), False
         for note in self._asked("$I"):
             if isinstance(note, Note):
                 self._greetings.append(note.text)
                 if note.text.startswith("OPT:"):
                     options = note.text.removeprefix("OPT:").split(",")[0]
+                # The whole line: nothing that a damaged or longer line contains counts.
+                is_virtual = is_virtual or note.text == VIRTUAL
         firmware = identify_firmware("\n".join(self._greetings))
         lines = ["$$"]
         if firmware is Firmware.FLUID_NC:
@@ -158,7 +168,7 @@ class Opening:
             for setting in self._asked(line):
                 if isinstance(setting, Setting):
                     texts[setting.name.lower()] = setting.text
-        return ControllerSettings(texts, options, firmware)
+        return ControllerSettings(texts, options, firmware, is_virtual)
 
     def _rest(self) -> None:
         end_s = self._clock() + _REST_S

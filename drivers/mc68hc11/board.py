@@ -73,6 +73,7 @@ class Board:
         self.grid: Grid | None = None
         self.identity: Identity | None = None
         self.rates: Rates | None = None
+        self.kind = b""  # as it said when it was opened
         self.round_trip_s = 0.0  # as it was measured when the board was opened
         self.telemetry_ms = 0  # the period that it has acknowledged
         self.latest: Telemetry | None = None

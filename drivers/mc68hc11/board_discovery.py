@@ -10,9 +10,16 @@ from rotemina.drivers.clock import Clock
 from rotemina.drivers.errors import DriverError, DriverTimeoutError, ProtocolError
 from rotemina.drivers.gate import Permit
 from rotemina.drivers.mc68hc11.board import Board
-from rotemina.drivers.mc68hc11.board_messages import AxisDescription, Identity, Rates, Telemetry
+from rotemina.drivers.mc68hc11.board_messages import (
+    AxisDescription,
+    BoardKind,
+    Identity,
+    Rates,
+    Telemetry,
+)
 from rotemina.drivers.mc68hc11.dialogue import Request, Urgency
 from rotemina.drivers.mc68hc11.host_messages import (
+    AskKind,
     AskRates,
     ClearFault,
     DescribeAxis,
@@ -39,6 +46,7 @@ _TRIPS_A_WATCH = 3  # the longest that a board hears nothing while it is opened,
 _TRIPS_A_SAMPLE = 4  # on a shared bus, where boards are polled and requests take turns with polls
 _MAX_SAMPLE_S = 0.5  # between two samples: longer is a lost connection
 _SLOW_S = 0.1  # from such a round trip on a warning says that a stop takes longer
+_TRIPS_TO_SAY_KIND = 4  # a board that ignores the question is a real one
 _TRIPS = 3  # of which the quickest counts: one may be late on a busy computer
 _ASK_S = 1.0
 _REQUESTS, _PARAMETERS = 12, 30  # one after the other, of the boards of a line
@@ -108,6 +116,7 @@ class Opening:
             board.clock.drifts = not board.link.half_duplex
         for board in self._boards:
             self._measure(board)
+        self._ask_kinds()
         self._ask()
         trust = Trust(self._robot, self._boards)
         trust.compare()
@@ -233,6 +242,25 @@ class Opening:
                     names=names,
                 )
             )
+
+    def _ask_kinds(self) -> None:
+        """Ask each board whether it is a program; one that does not say so is a real board."""
+        for board in self._boards:
+            wait_s = _TRIPS_TO_SAY_KIND * len(self._boards) * board.link.answer_s
+            board.dialogue.ask(
+                Request(
+                    message=AskKind(),
+                    answer=BoardKind,
+                    answered=partial(_told_kind, board),
+                    expires_s=self._clock() + wait_s,
+                )
+            )
+        self._wait(
+            self._quiet,
+            _ASK_S,
+            marked("engine", "to say what it is"),
+            requests=2 * _TRIPS_TO_SAY_KIND * len(self._boards),
+        )
 
     def _ask(self) -> None:
         wrong: list[str] = []
@@ -399,6 +427,11 @@ class Opening:
 def _identified(board: Board, told: Message, _now_s: float) -> None:
     assert isinstance(told, Identity), "it was matched"
     board.identity = told
+
+
+def _told_kind(board: Board, told: Message, _now_s: float) -> None:
+    assert isinstance(told, BoardKind), "it was matched"
+    board.kind = told.kind
 
 
 def _rated(board: Board, told: Message, _now_s: float) -> None:

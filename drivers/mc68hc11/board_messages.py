@@ -188,3 +188,10 @@ class Rates(Message, code=0x87, layout="HHHHHH"):
     capture_three: int
     segments: int
     tick: int
+
+
+@dataclass(frozen=True, slots=True)
+class BoardKind(Message, code=0x89):
+    """What the board is: `VIRTUAL` of a program, anything else of a real board."""
+
+    kind: bytes

@@ -8,13 +8,14 @@ from types import MappingProxyType
 from typing import ClassVar
 
 from rotemina.drivers.clock import Clock
-from rotemina.drivers.driver import Driver
+from rotemina.drivers.driver import Driver, MachineKind
 from rotemina.drivers.errors import ConnectionLostError, DriverError
 from rotemina.drivers.gate import Permit, Purpose
 from rotemina.drivers.mc68hc11.axes import board_axes
 from rotemina.drivers.mc68hc11.board import Board
 from rotemina.drivers.mc68hc11.dialogue import Urgency
 from rotemina.drivers.mc68hc11.driver_session import Session
+from rotemina.drivers.mc68hc11.protocol_codes import VIRTUAL
 from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
 from rotemina.drivers.serial_port import OpenPort, open_port
 from rotemina.drivers.settings import SettingError, SettingValue
@@ -122,6 +123,10 @@ class Connected(Driver):
             permit=self.gate.permit(Purpose.SERVICE),
         )
         self._period_s = self._session.setpoint_period_s
+
+    def _identify(self) -> MachineKind:
+        virtual = all(board.kind == VIRTUAL for board in self._running.boards)
+        return MachineKind.VIRTUAL if virtual else MachineKind.REAL
 
     def _close(self) -> None:
         session, self._session = self._session, None

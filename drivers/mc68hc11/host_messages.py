@@ -60,6 +60,11 @@ class AskRates(Message, code=0x07):
 
 
 @dataclass(frozen=True, slots=True)
+class AskKind(Message, code=0x08):
+    """Are you a program? The answer is a `BoardKind`; real boards and older ones refuse."""
+
+
+@dataclass(frozen=True, slots=True)
 class MoveTo(Message, code=0x10, layout="BiI"):
     """Go to a position, no faster than this."""
 

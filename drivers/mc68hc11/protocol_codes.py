@@ -7,6 +7,7 @@ LCD_COLUMNS, LCD_ROWS = 20, 2
 SEGMENTS = 32  # of an on-board profile
 QUEUE = 32  # segments of set-points that wait in a board
 AXES = 3  # of one board
+VIRTUAL = b"virtual"  # what a board that is a program says of itself; real ones say nothing
 
 
 class Fault(IntEnum):

@@ -10,6 +10,7 @@ from rotemina.drivers.mc68hc11.protocol_codes import (
     LCD_COLUMNS,
     LCD_ROWS,
     VERSION,
+    VIRTUAL,
     Ability,
     Fault,
     Refusal,
@@ -46,6 +47,10 @@ def _identify(board: Firmware, _: host_messages.Identify) -> Message:
     return board_messages.Identity(
         VERSION, abilities, count, board.line.baud, len(own), own.fingerprint, name
     )
+
+
+def _say_kind(_board: Firmware, _: host_messages.AskKind) -> Message:
+    return board_messages.BoardKind(VIRTUAL)
 
 
 def _poll(board: Firmware, _: host_messages.Poll) -> Message:
@@ -134,6 +139,7 @@ HANDLERS: tuple[tuple[type[Message], Callable[[Firmware, Any], Message | None]],
     (host_messages.DescribeAxis, _describe_axis),
     (host_messages.Watch, _watch),
     (host_messages.AskRates, _ask_rates),
+    (host_messages.AskKind, _say_kind),
     (host_messages.ReadParameter, _read_parameter),
     (host_messages.WriteParameter, _write_parameter),
     (host_messages.ShowText, _show_text),

@@ -14,6 +14,7 @@ from rotemina.drivers.clock import VirtualClock
 from rotemina.drivers.conformance.bench import Bench, bench_of
 from rotemina.drivers.conformance.check import Verdict
 from rotemina.drivers.conformance.suite import CHECKS, checks_named, run_checks
+from rotemina.drivers.driver import MachineKind
 from rotemina.drivers.errors import ConnectionLostError
 from rotemina.drivers.gcode.driver import GcodeStage
 from rotemina.drivers.gcode.emulator import EmulatedStage
@@ -142,6 +143,20 @@ class ComesBackElsewhere(Cabled):
     def _close(self):
         super()._close()
         self._position = self._position + 1e-5
+
+
+class ChangesItsKind(Cabled):
+    """Says that it is a real machine when it is opened again."""
+
+    _openings = 0
+
+    def _identify(self):
+        self._openings += 1
+        return MachineKind.SIMULATED if self._openings == 1 else MachineKind.REAL
+
+
+class AssumedVirtual(Cabled):
+    built_in_kind = MachineKind.VIRTUAL
 
 
 class DriftsAtRest(Cabled):
@@ -559,6 +574,8 @@ MUTANTS = {
     TouchesWhenMade: "making",
     ClosesBadly: "reopening",
     ComesBackElsewhere: "reopening",
+    ChangesItsKind: "identity",
+    AssumedVirtual: "identity",
     DriftsAtRest: "opens-at-rest",
     HandsOutTwice: "reading-fast",
     NamesRowsAtRest: "samples-follow",
@@ -672,6 +689,32 @@ def test_a_driver_that_does_one_thing_wrong_fails_the_check_meant_for_it(mutant)
     results = run_checks(bench(mutant))
     failed = {one.name: one.note for one in results if one.verdict is Verdict.FAILED}
     assert set(failed) == {MUTANTS[mutant]}, failed
+
+
+@pytest.mark.parametrize(
+    ("mutant", "note"),
+    [(ChangesItsKind, "opened again it is real"), (AssumedVirtual, "before it was opened it is")],
+)
+def test_a_driver_that_is_not_sure_what_it_drives_fails(mutant, note):
+    (check,) = checks_named(["identity"])
+    result = check.run(bench(mutant))
+    assert result.verdict is Verdict.FAILED
+    assert note in result.note
+
+
+@pytest.mark.parametrize(
+    ("driver", "robot", "device"),
+    [
+        (MC68HC11, "picma", lambda robot: VirtualBoards(robot, ports=1).lines[0]),
+        (GcodeStage, "xyz", EmulatedStage),
+    ],
+    ids=["boards", "stage"],
+)
+def test_the_shipped_drivers_say_the_same_of_a_device_each_time(driver, robot, device):
+    described = load_robot(robot)
+    (check,) = checks_named(["identity"])
+    result = check.run(line_bench(driver, described, device(described), {}))
+    assert result.verdict is Verdict.PASSED, result.note
 
 
 def test_a_driver_that_goes_on_after_a_pause_fails():

@@ -5,7 +5,7 @@ import pytest
 
 from rotemina.drivers.abilities import TrajectoryPlayer
 from rotemina.drivers.clock import VirtualClock
-from rotemina.drivers.driver import Driver
+from rotemina.drivers.driver import Driver, MachineKind
 from rotemina.drivers.errors import (
     ConnectionLostError,
     DriverError,
@@ -73,6 +73,56 @@ def samples(time_s, **changes):
         "playback_row": np.full(n, -1),
     }
     return Samples(**(arrays | changes))
+
+
+def test_a_device_that_says_nothing_of_itself_is_a_real_machine():
+    driver = Plain()
+    assert (driver.machine_kind, driver.is_identified) == (MachineKind.REAL, False)
+    driver.open()
+    assert (driver.machine_kind, driver.is_identified) == (MachineKind.REAL, True)
+
+
+class Emulated(Plain):
+    """Says what it is, if it is asked while it answers."""
+
+    said = MachineKind.VIRTUAL
+
+    def _open(self):
+        super()._open()
+        if self.said == "nothing":
+            raise ConnectionLostError("nobody answers")
+
+    def _identify(self):
+        return self.said
+
+
+def test_what_a_device_said_of_itself_stays_until_it_says_something_else():
+    driver = Emulated()
+    driver.open()
+    driver.close()
+    assert driver.machine_kind is MachineKind.VIRTUAL
+    driver.said = "nothing"
+    with pytest.raises(ConnectionLostError):
+        driver.open()
+    assert driver.machine_kind is MachineKind.VIRTUAL
+    driver.said = MachineKind.REAL  # another device at the same port
+    driver.open()
+    assert driver.machine_kind is MachineKind.REAL
+
+
+def test_a_device_whose_word_makes_no_sense_is_closed_again():
+    driver = Emulated()
+    driver.said = "imaginary"
+    with pytest.raises(ValueError, match="imaginary"):
+        driver.open()
+    assert driver.calls == ["open", "close"]
+    assert driver.status().state is DeviceState.CLOSED
+    assert driver.machine_kind is MachineKind.REAL
+
+
+def test_a_driver_cannot_override_what_its_device_said():
+    with pytest.raises(TypeError, match="machine_kind: final in Driver"):
+        type("Boastful", (Plain,), {"machine_kind": MachineKind.VIRTUAL})
 
 
 def test_a_faulty_device_is_not_moved(plain):

@@ -40,7 +40,7 @@ def unlocked(host):
         (b"?", "<Alarm|MPos:0.000,0.000,0.000|FS:0,0>\r\n"),
         (b"G0 X-1\n", "error:9\r\n"),
         (b"$J=X-1 F100\n", "error:9\r\n"),
-        (b"$I\n", "[VER:1.1h.20190830:]\r\n[OPT:VH,15,128]\r\nok\r\n"),
+        (b"$I\n", "[VER:1.1h.20190830:]\r\n[OPT:VH,15,128]\r\n[MACHINE:virtual]\r\nok\r\n"),
     ],
 )
 def test_locked_it_tells_and_moves_nothing(host, said, answered):

@@ -21,6 +21,7 @@ _REPORTS = {
         board_messages.Captured,
         board_messages.Parameter,
         board_messages.Rates,
+        board_messages.BoardKind,
         board_messages.Inputs,
     )
 }
