@@ -1,11 +1,12 @@
 """The link to a device: its driver, the gate, the queue, and the worker that talks to it."""
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 
 from rotemina.app.motion.mailbox import A, Ask, ConnectionRequest, Mailbox, RefusedError, able
 from rotemina.app.motion.recent_history import LiveHistory
-from rotemina.app.motion.state import NOT_CONNECTED, Connection, SessionState
+from rotemina.app.motion.state import NOT_CONNECTED, Alarmed, Connection, SessionState
 from rotemina.app.motion.stop import StopRequest
 from rotemina.app.motion.subscribers import Subscribers
 from rotemina.app.motion.worker import Worker
@@ -14,7 +15,7 @@ from rotemina.drivers.clock import Clock
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.gate import Gate, Permit, Purpose
 from rotemina.sim.messages import Message, message
-from rotemina.sim.quantities import fixed
+from rotemina.sim.quantities import fixed, rounded
 from rotemina.sim.trajectory.speed_and_acceleration import SETPOINT_PERIOD_S
 
 _EXCHANGED = message("engine", "another device is being connected; wait")
@@ -69,6 +70,9 @@ class DeviceLink:
         self.barred: str | None = None
         #: Host time of the latest stop, whoever asked for it; None before the first.
         self.stop_asked_s: float | None = None
+        self._emit = subscribers.emit
+        # Each hangs in its driver, which may still be open; replaced as a whole.
+        self._left_alone: tuple[Worker, ...] = ()
         self._stale_after_s = stale_after_s
         self._stop: StopRequest | None = None
 
@@ -80,21 +84,51 @@ class DeviceLink:
             driver.setpoint_period_s if isinstance(driver, TrajectoryPlayer) else SETPOINT_PERIOD_S
         )
 
-    def connect(self) -> None:
+    def connect(self) -> ConnectionRequest:
         """Ask the worker to connect."""
-        self.mailbox.request_connection(ConnectionRequest(self.driver))
+        return self._request(self.driver)
 
-    def disconnect(self) -> None:
+    def disconnect(self) -> ConnectionRequest:
         """Ask the worker to release the device."""
-        self.mailbox.request_connection(ConnectionRequest(None))
+        return self._request(None)
 
-    def exchange(self, driver: Driver) -> None:
+    def exchange(self, driver: Driver) -> ConnectionRequest:
         """Ask the worker to release the device and to connect to another one."""
         # Until the worker has exchanged them, both drivers are stopped and neither is moved.
         driver.gate = self.gate
         self.driver = driver
         self.gate.reconnected()
-        self.connect()
+        self._stop = None  # it was the stop of the device before
+        return self.connect()
+
+    def replace_hung_worker(self, request: ConnectionRequest, patience_s: float) -> Worker | None:
+        """Return a new worker in place of one that has not come to a request; None if it has.
+
+        What the old one was to do the new one does; what hangs is left alone, and that is told.
+        """
+        if not request.claim():
+            return None
+        hung = self.worker
+        self.worker = hung.successor()
+        self._left_alone = (*(one for one in self._left_alone if not one.has_ended), hung)
+        self.gate.reconnected()
+        self.mailbox.repeat_connection_request(request)
+        self._emit(
+            Alarmed(
+                message(
+                    "engine",
+                    "{name} has not answered for {seconds} s and could not be disconnected: the "
+                    "program leaves it alone. If its machine moves, use its emergency stop "
+                    "switch; check cable and device",
+                ).fill(name=hung.driver.name, seconds=rounded(patience_s, 2))
+            )
+        )
+        return self.worker
+
+    def _request(self, driver: Driver | None) -> ConnectionRequest:
+        request = ConnectionRequest(driver)
+        self.mailbox.request_connection(request)
+        return request
 
     def ask(self, action: Callable[[Driver, Permit], None], permit: Permit | None = None) -> None:
         """Have something done on the thread that talks to the driver.
@@ -153,6 +187,10 @@ class DeviceLink:
         drivers = dict.fromkeys((self.worker.driver, self.driver))
         self.gate.stop(latch)
         self.mailbox.clear()
+        for worker in self._left_alone:
+            if not worker.has_ended:
+                with suppress(Exception):  # nobody relies on a device that hangs
+                    worker.driver.halt()
         failure = None
         for driver in drivers:
             try:
@@ -164,6 +202,9 @@ class DeviceLink:
     def snapshot(self) -> SessionState:
         """Return the present state, without the tip's."""
         state = self.worker.state
+        if self.worker.driver is not self.driver:
+            # Nothing that the device before said is true of the one that is being connected.
+            state = SessionState(connection=Connection.CONNECTING)
         latched = self.gate.latched
         locked = self._locked(state)
         if latched is not None:

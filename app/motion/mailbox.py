@@ -168,11 +168,20 @@ Command = (
 )
 
 
-@dataclass(frozen=True, slots=True)
 class ConnectionRequest:
-    """The desired connection: a ``driver``, or None to disconnect."""
+    """The desired connection: a ``driver``, or None to disconnect; done by whoever claims it."""
 
-    driver: Driver | None
+    def __init__(self, driver: Driver | None) -> None:
+        self.driver = driver
+        self._lock = threading.Lock()
+        self._is_claimed = False
+
+    def claim(self) -> bool:
+        """Return whether nobody has claimed it before; any thread."""
+        with self._lock:
+            is_first = not self._is_claimed
+            self._is_claimed = True
+        return is_first
 
 
 class Posted(NamedTuple):
@@ -268,10 +277,20 @@ class Mailbox:
 
     def request_connection(self, request: ConnectionRequest) -> None:
         """Ask the worker to connect or disconnect, and wake it; the latest request counts."""
-        self._connection_request = request
+        with self._lock:
+            before, self._connection_request = self._connection_request, request
+        if before is not None:
+            before.claim()  # nobody does it any more
         self.wake_event.set()
+
+    def repeat_connection_request(self, request: ConnectionRequest) -> None:
+        """Ask again for a connection that was claimed and not made, unless a newer one waits."""
+        with self._lock:
+            if self._connection_request in (None, request):
+                self._connection_request = ConnectionRequest(request.driver)
 
     def take_connection_request(self) -> ConnectionRequest | None:
         """Return the pending change of the connection, if any."""
-        request, self._connection_request = self._connection_request, None
+        with self._lock:
+            request, self._connection_request = self._connection_request, None
         return request

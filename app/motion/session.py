@@ -16,7 +16,7 @@ from rotemina.app.motion.device_service import Service
 from rotemina.app.motion.guard import Guard
 from rotemina.app.motion.heartbeat import Heartbeat
 from rotemina.app.motion.live_models import PreparedModel
-from rotemina.app.motion.mailbox import RefusedError
+from rotemina.app.motion.mailbox import ConnectionRequest, RefusedError
 from rotemina.app.motion.model_in_use import ModelInUse
 from rotemina.app.motion.motion_requests import Moves
 from rotemina.app.motion.narrowed_ranges import NarrowedRanges
@@ -34,6 +34,7 @@ from rotemina.app.motion.subscribers import Subscribers
 from rotemina.app.motion.tip_bounds import TipBounds
 from rotemina.app.motion.tool import Tool
 from rotemina.app.motion.undo import Undo
+from rotemina.app.motion.worker import Worker
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.gate import Epoch, Permit, Purpose
@@ -41,6 +42,8 @@ from rotemina.drivers.samples import DeviceState
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import rounded
 
+#: How long a device may take to be released or to be opened when another one is wanted, s.
+MAX_RELEASE_S = 3.0
 _MOVES = (DeviceState.MOVING, DeviceState.PLAYING, DeviceState.HOMING)
 
 
@@ -71,6 +74,9 @@ class MotionSession:
         How many commands may wait.
     stale_after_s : float
         Motion is refused when the latest sample is older.
+    max_release_s : float
+        A device that takes longer to do what is under way, when it is to be released or another
+        one is to be connected, is left alone: a new thread goes on without it.
     local_time : callable
         The time of day, for what is told to people.
 
@@ -106,6 +112,7 @@ class MotionSession:
         period_s: float | None = None,
         queue_size: int = 16,
         stale_after_s: float = 1.0,
+        max_release_s: float = MAX_RELEASE_S,
         local_time: Callable[[], datetime] = datetime.now,
     ) -> None:
         clock = clock if clock is not None else driver.clock
@@ -143,6 +150,7 @@ class MotionSession:
         self._link, self._admission, self._moves = link, admission, moves
         self._subscribers = subscribers
         self._period_s = period_s if period_s is not None else driver.service_period_s
+        self._max_release_s = max_release_s
         self._local_time = local_time
         self._thread: threading.Thread | None = None
         self._closing = threading.Event()
@@ -177,8 +185,7 @@ class MotionSession:
                 message("engine", "the session has already been started; create a new one")
             )
         self._link.connect()
-        self._thread = threading.Thread(target=self._run, name="motion session", daemon=True)
-        self._thread.start()
+        self._start_thread(self._link.worker)
 
     def close(self, timeout_s: float = 5.0) -> bool:
         """Stop, release the device and end the worker; safe to call twice.
@@ -197,7 +204,7 @@ class MotionSession:
 
     def connect(self) -> None:
         """Ask the worker to connect; for a program that steps :meth:`run_once` itself."""
-        self._link.connect()
+        self._expect(self._link.connect())
 
     def reconnect(self) -> None:
         """Connect again after a failure; never happens automatically.
@@ -205,21 +212,34 @@ class MotionSession:
         Raises
         ------
         RefusedError
-            If the session is connected.
+            If the session is connected, or an earlier call still hangs in the driver.
         """
-        if self._link.worker.state.connection in (Connection.CONNECTED, Connection.CONNECTING):
+        connection = self._link.snapshot().connection
+        if connection is Connection.CONNECTING:
+            raise RefusedError(message("engine", "the device is being connected; wait"))
+        if connection is Connection.CONNECTED:
             raise RefusedError(message("engine", "the device is connected"))
-        self._link.connect()
+        if self._link.worker.driver_hangs:
+            raise RefusedError(
+                message(
+                    "engine",
+                    "{name} still hangs in an earlier call; choose Connect on the panel "
+                    "Connection to open it anew, or another device",
+                ).fill(name=self.driver.name)
+            )
+        self._expect(self._link.connect())
 
     def disconnect(self) -> None:
         """Stop, and release the device; it holds."""
         self.stop(message("engine", "the device is being released"))
-        self._link.disconnect()
+        self._expect(self._link.disconnect())
 
     def use(self, driver: Driver) -> None:
         """Stop, release the device, and connect to another one.
 
-        It has neither inverses nor loops, and no way leads back to where the first one was.
+        It has neither inverses nor loops, and no way leads back to where the first one was. A
+        stop that is latched stays so. This never waits: a device that hangs is left alone after
+        ``max_release_s``.
 
         Raises
         ------
@@ -240,7 +260,7 @@ class MotionSession:
             )
         self.stop(message("engine", "another device is being connected"))
         self._period_s = driver.service_period_s
-        self._link.exchange(driver)
+        self._expect(self._link.exchange(driver))
         self.inverses.forget()
         self.loops.forget()
         self.backlash.forget()
@@ -252,14 +272,17 @@ class MotionSession:
 
         What an operator began moves on only as long as he can see it.
         """
+        self._step(self._link.worker)
+
+    def _step(self, worker: Worker) -> None:
         self.pulse.beat()
         self._stop_after_pause()
-        state = self._link.worker.state
+        state = worker.state
         moves = state.activity in _MOVES and not state.stopping
         if moves and self.screen.silent:
             self.stop(message("engine", "the window does not respond"))
-        self._link.worker.run_once()
-        if self._link.worker.state.connection is not state.connection:
+        worker.run_once()
+        if worker.state.connection is not state.connection:
             self._pauses.restart()  # connecting takes its time
 
     def _stop_after_pause(self) -> None:
@@ -413,14 +436,37 @@ class MotionSession:
         """Note a contact: effects learned from the present motion may come from it."""
         self._link.worker.notes.add(what)
 
-    def _run(self) -> None:
+    def _expect(self, request: ConnectionRequest) -> None:
+        """Have another thread do a request where the present one does not come to it in time."""
+        if self._thread is None:
+            return
+        timer = threading.Timer(self._max_release_s, self._replace_hung_worker, (request,))
+        timer.daemon = True
+        timer.start()
+
+    def _replace_hung_worker(self, request: ConnectionRequest) -> None:
+        if self._closing.is_set():
+            return
+        worker = self._link.replace_hung_worker(request, self._max_release_s)
+        if worker is not None:
+            self._pauses.restart()
+            self._start_thread(worker)
+
+    def _start_thread(self, worker: Worker) -> None:
+        self._thread = threading.Thread(
+            target=self._run, args=(worker,), name="motion session", daemon=True
+        )
+        self._thread.start()
+
+    def _run(self, worker: Worker) -> None:
         mailbox = self._link.mailbox
         next_s = time.monotonic()
-        while not self._closing.is_set():
-            self.run_once()
+        while not self._closing.is_set() and not worker.is_retired:
+            self._step(worker)
             # By the clock, not after the work: what is late once is not late for ever.
             next_s = max(next_s + self._period_s, time.monotonic())
             mailbox.wake_event.wait(next_s - time.monotonic())
             mailbox.wake_event.clear()
-        self.pulse.end()
-        self._link.worker.shut_down()
+        if not worker.is_retired:
+            self.pulse.end()
+        worker.shut_down()

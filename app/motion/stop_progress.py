@@ -32,6 +32,10 @@ class StopTracking:
             self._failure = failure
         self._to_tell.append(request)
 
+    def restart(self) -> None:
+        """Forget how earlier stops went: they were of another device."""
+        self.asked_s = self._rested_s = self._unconfirmed_s = self._failure = None
+
     def unreported(self) -> Iterator[StopRequest]:
         """Yield each stop that has not been reported yet."""
         while self._to_tell:

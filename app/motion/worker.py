@@ -14,6 +14,7 @@ from rotemina.app.motion.held_inverses import HeldInverses
 from rotemina.app.motion.live_models import LiveModels, ModelOutputs, PreparedModel
 from rotemina.app.motion.mailbox import (
     ClearFault,
+    ConnectionRequest,
     Drive,
     Home,
     Mailbox,
@@ -49,7 +50,7 @@ from rotemina.app.motion.stop_progress import StopTracking
 from rotemina.app.motion.stop_send_latency import StopLatency
 from rotemina.drivers.abilities import Homer, Linked
 from rotemina.drivers.clock import Clock
-from rotemina.drivers.driver import Driver
+from rotemina.drivers.driver import Driver, MachineKind
 from rotemina.drivers.errors import DriverError, StateError
 from rotemina.drivers.gate import Gate
 from rotemina.drivers.line_quality import LinkQuality
@@ -106,12 +107,71 @@ class Worker:
         self._portions = SamplePortions()
         self._stirred = False  # since the state was published
         self._stops = StopTracking(clock)
+        #: Whether another worker has taken the place of this one, which hangs in its driver.
+        self.is_retired = False
+        #: Whether it has released its driver for good.
+        self.has_ended = False
+        self._predecessor: Worker | None = None
 
     @property
     def at_rest(self) -> bool:
         """Whether nothing moves, waits, or was handed over since the device was looked at last."""
         resting = self.state.activity is DeviceState.IDLE
         return resting and not self._mailbox.busy and not self._stirred
+
+    @property
+    def driver_hangs(self) -> bool:
+        """Whether an earlier worker still hangs in this worker's driver, which is left alone."""
+        before = self._predecessor
+        if before is None:
+            return False
+        return not before.has_ended or before.driver_hangs
+
+    def successor(self) -> "Worker":
+        """Return a worker that takes the place of this one, which hangs in its driver.
+
+        Whatever this one still does when its driver returns changes nothing of what the session
+        shows, and passes no gate. Called on another thread.
+        """
+        with suppress(Exception):  # it may not hang after all
+            self._end_recording(completed=False)
+        made = Worker(
+            self.driver,
+            self._gate,
+            self._mailbox,
+            self._history,
+            self._clock,
+            self._emit,
+            self._tell,
+        )
+        if self._next.connection is Connection.CONNECTED:
+            self._trust.doubt(LOST, self._lost_axes())
+        made.corrections, made.ownership, made.latency = (
+            self.corrections,
+            self.ownership,
+            self.latency,
+        )
+        made.models, made.notes, made._trust = self.models, self.notes, self._trust
+        made.executor = made._executor_of(self.driver)
+        made._stops, made.state, made._predecessor = self._stops, self.state, self
+        made._set_disconnected(Connection.DISCONNECTED, None)
+        self._retire()
+        return made
+
+    def _retire(self) -> None:
+        """Replace everything that is shared by something that nobody looks at."""
+        self.is_retired = True
+        gate = Gate(self._clock)
+        gate.stop(latch=message("engine", "another device is connected"))
+        self.driver.gate = self._gate = gate
+        self._mailbox = Mailbox(1)
+        self._emit = self._tell = _ignore
+        self._history = LiveHistory(self.driver.axes, seconds=1.0, rate_hz=1.0)
+        self.corrections = SensorCorrections(self.driver.axes)
+        self.ownership, self.latency = Ownership(), StopLatency()
+        self.models, self.notes = LiveModels(self.driver), PlaybackNotes()
+        self._trust = PositionTrust(self.driver.robot)
+        self._stops = StopTracking(self._clock)
 
     def stopped(self, host_time_s: float, failure: Exception | None, request: StopRequest) -> None:
         """Note, from any thread, that a stop was handed to the device, or failed to be."""
@@ -177,6 +237,7 @@ class Worker:
         """Stop and release the device."""
         self._release_device()
         self._publish()
+        self.has_ended = True
 
     def _let_go(self) -> None:
         """Forget all requests, and stop as far as possible; there is nobody left to tell."""
@@ -184,30 +245,35 @@ class Worker:
         self._mailbox.clear()
         self.executor.forget()
         self.ownership.release()
-        with suppress(Exception):  # the link may be gone
-            self.driver.stop()
+        if not self.driver_hangs:
+            with suppress(Exception):  # the link may be gone
+                self.driver.stop()
 
     def _release_device(self) -> None:
         self._let_go()
         self._end_recording(completed=False)
-        with suppress(Exception):
-            self.driver.close()
+        if not self.driver_hangs:
+            with suppress(Exception):
+                self.driver.close()
         self._set_disconnected(Connection.DISCONNECTED, self._next.fault)
 
     def _use(self, driver: Driver) -> None:
-        if driver is not self.driver:
-            self.driver = driver
-            self.executor = self._executor_of(driver)
+        if driver is self.driver:
+            return
+        # Nothing of the device before is shown from here on.
+        self._next = _CONNECTING
+        self._publish()
+        self._history.clear()
+        self._stops.restart()
+        if not _is_same_machine(driver, self.driver):
             self._trust.confirm()  # another device vouches for itself
+        self.driver, self._predecessor = driver, None
+        self.executor = self._executor_of(driver)
 
     def _cycle(self) -> None:
         request = self._mailbox.take_connection_request()
         if request is not None:
-            if request.driver is not self.driver:
-                self._release_device()
-            if request.driver is not None:
-                self._use(request.driver)
-                self._connect()
+            self._change_connection(request)
         if self._next.connection is not Connection.CONNECTED:
             return
         if (failure := self._stops.take_failure()) is not None:
@@ -215,12 +281,25 @@ class Worker:
         self._execute()
         self._take_samples()
 
+    def _change_connection(self, request: ConnectionRequest) -> None:
+        driver = request.driver
+        is_other = driver is not self.driver
+        if is_other:
+            self._release_device()
+        if not request.claim() or driver is None:
+            return  # where another has claimed it, releasing took too long
+        self._use(driver)
+        self._connect()
+        latched = self._gate.latched
+        if is_other and latched is not None:
+            self._publish()
+            text = message("engine", "{stop} is still active with {name}; release it to move")
+            self._emit(Alarmed(text.fill(stop=latched, name=driver.name)))
+
     def _connect(self) -> None:
         if self._next.connection is Connection.CONNECTED:
             return
-        self._next = SessionState(
-            connection=Connection.CONNECTING, locked=message("engine", "connecting; wait")
-        )
+        self._next = _CONNECTING
         self._publish()
         self._mailbox.clear()
         self._stops.take_failure()
@@ -404,7 +483,21 @@ class Worker:
 _TAKEN_OFF = message(
     "engine", "the inverse of axis {axes} is off: the axis receives its targets as commands"
 )
+_CONNECTING = SessionState(
+    connection=Connection.CONNECTING, locked=message("engine", "connecting; wait")
+)
 _STIRRING = (Move, Drive, Play, Home, RunProfile, SetVoltage)
+
+
+def _ignore(*_: object) -> None:
+    """Tell nobody."""
+
+
+def _is_same_machine(driver: Driver, other: Driver) -> bool:
+    """Return whether two drivers reach the same machine, which stays where it is meanwhile."""
+    is_computed = driver.built_in_kind is MachineKind.SIMULATED  # each begins anew
+    same = type(driver) is type(other) and driver.settings == other.settings
+    return same and not is_computed
 
 
 def _told(state: SessionState) -> tuple[object, ...]:
