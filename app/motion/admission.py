@@ -113,6 +113,7 @@ class Admission:
         driven = tuple(axes)
         with self._link.worker.ownership.claimed(driven, owner):
             self._link.mailbox.post(command, permit.owned(driven, owner))
+        self._link.note_accepted(permit.epoch)
         self.note_approached({}, driven)
 
     def queue_move(self, command: Command, permit: Permit, axes: Iterable[str], owner: str) -> None:

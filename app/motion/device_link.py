@@ -13,7 +13,7 @@ from rotemina.app.motion.worker import Worker
 from rotemina.drivers.abilities import TrajectoryPlayer
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.driver import Driver
-from rotemina.drivers.gate import Gate, Permit, Purpose
+from rotemina.drivers.gate import Epoch, Gate, Permit, Purpose
 from rotemina.sim.messages import Message, message
 from rotemina.sim.quantities import fixed, rounded
 from rotemina.sim.trajectory.speed_and_acceleration import SETPOINT_PERIOD_S
@@ -75,6 +75,8 @@ class DeviceLink:
         self._left_alone: tuple[Worker, ...] = ()
         self._stale_after_s = stale_after_s
         self._stop: StopRequest | None = None
+        self._stop_epoch = Epoch()  # right after that stop
+        self._accepted_epoch = Epoch()  # of the permit of the latest accepted request
 
     @property
     def setpoint_period_s(self) -> float:
@@ -186,6 +188,7 @@ class DeviceLink:
         # During an exchange the worker still has the previous driver.
         drivers = dict.fromkeys((self.worker.driver, self.driver))
         self.gate.stop(latch)
+        self._stop_epoch = self.gate.epoch
         self.mailbox.clear()
         for worker in self._left_alone:
             if not worker.has_ended:
@@ -199,22 +202,39 @@ class DeviceLink:
                 failure = error
         self.worker.stopped(asked_s, failure, request)
 
+    def note_accepted(self, epoch: Epoch) -> None:
+        """Note that the machine is operated again: a stop before this epoch is history."""
+        self._accepted_epoch = epoch
+
+    @property
+    def is_untouched_since_stop(self) -> bool:
+        """Whether nothing has moved, and no motion was accepted, since the latest stop."""
+        accepted, stopped = self._accepted_epoch.stops, self._stop_epoch.stops
+        return accepted < stopped and self.worker.is_resting_since_stop
+
     def snapshot(self) -> SessionState:
         """Return the present state, without the tip's."""
         state = self.worker.state
         if self.worker.driver is not self.driver:
             # Nothing that the device before said is true of the one that is being connected.
             state = SessionState(connection=Connection.CONNECTING)
+        age_s, silent_s = self._age_s(state), state.silent_s
+        if self._is_stale(state):
+            silent_s = max(silent_s, age_s or 0.0)
+        now, stopped = self.gate.epoch, self._stop_epoch
+        same = (now.releases, now.connections) == (stopped.releases, stopped.connections)
         latched = self.gate.latched
         locked = self._locked(state)
         if latched is not None:
             locked = message("engine", "{stop} is active; release it first").fill(stop=latched)
         return replace(
             state,
-            age_s=self._age_s(state),
+            age_s=age_s,
+            silent_s=silent_s,
             locked=locked,
             queued=len(self.mailbox),
             stop=self._stop,
+            halted=same and self.is_untouched_since_stop,
             latched=latched,
             owners=self.worker.ownership.owners,
             stop_latency=self.worker.latency.figures(),
@@ -246,12 +266,17 @@ class DeviceLink:
         """Return why no motion is accepted, but for a latch."""
         if self.worker.driver is not self.driver:
             return _EXCHANGED
-        age_s = self._age_s(state)
-        if state.locked is None and age_s is not None and age_s > self._stale_after_s:
+        if state.locked is None and self._is_stale(state):
             return message(
                 "engine", "the device has sent nothing for {seconds} s; wait, or reconnect"
-            ).fill(seconds=fixed(age_s, 1))
+            ).fill(seconds=fixed(self._age_s(state) or 0.0, 1))
         return state.locked or self.barred
+
+    def _is_stale(self, state: SessionState) -> bool:
+        """Return whether a connected device should have sent a sample long ago."""
+        age_s = self._age_s(state)
+        connected = state.connection is Connection.CONNECTED
+        return connected and age_s is not None and age_s > self._stale_after_s
 
     def _age_s(self, state: SessionState) -> float | None:
         received_s = state.sample_host_time_s

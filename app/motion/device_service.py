@@ -69,6 +69,7 @@ class Service:
         self._link.refuse_unconnected()
         if self._link.worker.state.fault is not None:
             self._link.mailbox.post(ClearFault(), permit)
+            self._link.note_accepted(permit.epoch)
 
     @property
     def effects(self) -> tuple[AxisEffect, ...] | None:

@@ -199,6 +199,7 @@ class Mailbox:
         self.wake_event = threading.Event()
         self._commands: deque[Posted] = deque()
         self._in_hand: Posted | None = None
+        self._dropped_plays: list[Play] = []
         self._connection_request: ConnectionRequest | None = None
         self._lock = threading.Lock()
 
@@ -248,8 +249,16 @@ class Mailbox:
     def clear(self) -> None:
         """Drop every command."""
         with self._lock:
+            dropped = (posted.command for posted in self._commands)
+            self._dropped_plays += [each for each in dropped if isinstance(each, Play)]
             self._commands.clear()
             self._in_hand = None
+
+    def take_dropped_plays(self) -> list[Play]:
+        """Return the trajectories that were dropped since the last call, before they began."""
+        with self._lock:
+            dropped, self._dropped_plays = self._dropped_plays, []
+        return dropped
 
     def holds_play(self) -> bool:
         """Whether a trajectory waits to be played, or a profile to be run."""

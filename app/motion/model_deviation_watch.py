@@ -61,6 +61,12 @@ class DeviationWatch:
         self._count = 0
 
     @property
+    def bounds(self) -> dict[str, float]:
+        """The bound of each axis that has one, m or rad."""
+        pairs = zip(self._axes, self._bounds.tolist(), strict=True)
+        return {axis: bound for axis, bound in pairs if np.isfinite(bound)}
+
+    @property
     def gaps(self) -> dict[str, Gap]:
         """How far model and machine have been apart, of each axis; empty before the first sample.
 
@@ -71,6 +77,10 @@ class DeviationWatch:
         rms = np.sqrt(self._squares / self._count)
         pairs = zip(self._axes, rms.tolist(), self._peak.tolist(), strict=True)
         return {axis: Gap(one, peak) for axis, one, peak in pairs if np.isfinite(one)}
+
+    def restart(self) -> None:
+        """Forget for how long an axis has been beyond its bound, as after a pause."""
+        self._since_s[:] = np.nan
 
     def add(
         self, samples: Samples, model: FloatArray, nominal: FloatArray | None = None

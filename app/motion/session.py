@@ -339,6 +339,15 @@ class MotionSession:
         """Refuse all motion for this reason, on any path, until None; present motion continues."""
         self._link.barred = reason
 
+    def dismiss_stop(self) -> None:
+        """Count the latest stop as past: the machine is being prepared for its next motion."""
+        self._link.note_accepted(self._link.gate.epoch)
+
+    @property
+    def is_untouched_since_stop(self) -> bool:
+        """Whether nothing has moved, and no motion was accepted, since the latest stop."""
+        return self._link.is_untouched_since_stop
+
     @property
     def stop_asked_s(self) -> float | None:
         """Host time of the latest stop, by anyone; None before the first."""

@@ -80,6 +80,11 @@ class SessionState:
         Whether a stop was requested and the device has not been seen at rest since.
     stop : StopRequest or None
         The latest stop: who asked, why and when.
+    halted : bool
+        Whether that stop is the last thing that happened: nothing has moved since, and no motion,
+        release or connection was accepted.
+    link_lost : bool
+        Whether the connection failed because the device stopped answering, not for another reason.
     latched : str or None
         Why the emergency stop is latched, until it is released.
     doubt : str or None
@@ -121,6 +126,8 @@ class SessionState:
     silent_s: float = 0.0
     stopping: bool = False
     stop: StopRequest | None = None
+    halted: bool = False
+    link_lost: bool = False
     latched: str | None = None
     doubt: str | None = None
     owners: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))

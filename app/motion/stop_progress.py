@@ -9,6 +9,7 @@ from rotemina.app.motion.stop import StopRequest
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.samples import DeviceState
 
+_MOVING = (DeviceState.MOVING, DeviceState.PLAYING, DeviceState.HOMING)
 _MOST_STOPS = 16  # that wait to be told
 
 
@@ -24,6 +25,8 @@ class StopTracking:
         self._unconfirmed_s: float | None = None
         self._failure: Exception | None = None
         self._to_tell: deque[StopRequest] = deque(maxlen=_MOST_STOPS)
+        self._latest: StopRequest | None = None
+        self._moved_after: StopRequest | None = None  # the stop after whose end something moved
 
     def note(self, host_time_s: float, failure: Exception | None, request: StopRequest) -> None:
         """Note, from any thread, that a stop was handed to the device, or failed to be."""
@@ -31,6 +34,13 @@ class StopTracking:
         if failure is not None:  # a later stop that succeeds does not mend what this one found
             self._failure = failure
         self._to_tell.append(request)
+        self._latest = request  # after ``asked_s``: a stop that is seen is seen to be under way
+
+    @property
+    def is_latest(self) -> bool:
+        """Whether nothing has moved since the latest stop ended; False before the first stop."""
+        latest = self._latest
+        return latest is not None and latest is not self._moved_after
 
     def restart(self) -> None:
         """Forget how earlier stops went: they were of another device."""
@@ -62,8 +72,10 @@ class StopTracking:
 
     def followed(self, state: SessionState, activity: DeviceState) -> SessionState:
         """Return the state with whether the machine is still stopping, or how long that took."""
-        asked_s = self.asked_s
+        latest, asked_s = self._latest, self.asked_s
         if asked_s is None:
+            if activity in _MOVING:
+                self._moved_after = latest
             return state
         if asked_s == self._rested_s:
             self.asked_s = None

@@ -40,6 +40,7 @@ from rotemina.app.motion.state import (
     Event,
     Faulted,
     ModelChanged,
+    PlaybackFinished,
     SessionState,
     StateChanged,
     Stopped,
@@ -114,6 +115,11 @@ class Worker:
         self._predecessor: Worker | None = None
 
     @property
+    def is_resting_since_stop(self) -> bool:
+        """Whether the device has not been seen to move since the latest stop brought it to rest."""
+        return self._stops.is_latest
+
+    @property
     def at_rest(self) -> bool:
         """Whether nothing moves, waits, or was handed over since the device was looked at last."""
         resting = self.state.activity is DeviceState.IDLE
@@ -183,12 +189,16 @@ class Worker:
         """Do one cycle. Whatever the driver raises ends in the failed state, never in here."""
         for request in self._stops.unreported():
             self._emit(Stopped(request))
+        for play in self._mailbox.take_dropped_plays():
+            self._emit(_never_began(play))
         try:
             self._cycle()
         except Exception as error:  # a driver may raise anything; motion must lock and say so
             if self._next.connection is Connection.CONNECTED:
                 self._trust.doubt(LOST, self._lost_axes())
-            self._fail(_described(error))
+            self._fail(
+                _described(error), link_lost=isinstance(error, ConnectionError | TimeoutError)
+            )
         self._publish()
 
     def use_model(self, prepared: PreparedModel) -> None:
@@ -333,6 +343,8 @@ class Worker:
                     self._next = replace(self._next, fault=None)
             except (InputError, StateError) as error:
                 self._emit(CommandRefused(str(error)))
+            if isinstance(posted.command, Play) and self.executor.recorder is None:
+                self._emit(_never_began(posted.command))
         try:
             self.executor.go_on()
         except (InputError, StateError) as error:
@@ -449,9 +461,11 @@ class Worker:
         if recorder is not None:
             self._emit(self.notes.finished(recorder, self.models.model, completed=completed))
 
-    def _fail(self, message: str) -> None:
+    def _fail(self, message: str, *, link_lost: bool) -> None:
         """Lock motion; only an explicit reconnection ends this."""
         self.notes.add(message)
+        was_connected = self._next.connection is Connection.CONNECTED
+        self._next = replace(self._next, link_lost=link_lost and was_connected)
         self._let_go()
         with suppress(Exception):
             self.driver.close()
@@ -503,6 +517,11 @@ def _is_same_machine(driver: Driver, other: Driver) -> bool:
 def _told(state: SessionState) -> tuple[object, ...]:
     """Return what of a state is worth an event; positions are read from the history instead."""
     return (state.phase, state.activity, state.fault, state.locked, state.position_known)
+
+
+def _never_began(play: Play) -> PlaybackFinished:
+    """Return the end of a playback of which the device has played nothing."""
+    return PlaybackFinished(None, completed=False, shown=play.shown)
 
 
 def _described(error: Exception) -> str:

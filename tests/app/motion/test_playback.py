@@ -272,3 +272,145 @@ def test_a_trajectory_keeps_the_speed_limit_that_it_was_given_at_any_pace(unlimi
 def test_a_speed_limit_that_is_none_is_refused(stepped, playback, speeds):
     with pytest.raises(OutOfLimitsError, match="must be a finite number above 0"):
         playback.limit_speeds(swing(stepped.session.robot), speeds)
+
+
+# --- moved during a pause -------------------------------------------------------------------------
+
+
+@pytest.fixture
+def paused(stepped, playback):
+    """Pause a swing of x at about row 700, and return the trajectory."""
+    trajectory = swing(stepped.session.robot)
+    playback.play(trajectory)
+    until_row(stepped, playback, 700)
+    playback.pause()
+    stepped.until_idle()
+    stepped.step(0.02, 3)
+    return trajectory
+
+
+def test_axes_that_were_moved_in_a_pause_are_named_with_their_distance(stepped, playback, paused):
+    assert playback.state.moved == {}
+    session = stepped.session
+    session.jog("y", 2.7e-3)
+    assert playback.state.moved == {}  # not before it rests
+    stepped.until_idle()
+    assert playback.state.moved == {"y": pytest.approx(2.7e-3)}
+    for request in (playback.resume, playback.step):
+        with pytest.raises(RefusedError, match=r"axis y moved 2\.7 mm since the pause; move it"):
+            request()
+    assert playback.state.phase is PlaybackPhase.PAUSED
+    session.stop()  # another stop makes no other place of the pause
+    stepped.step(0.02, 5)
+    assert playback.state.moved == {"y": pytest.approx(2.7e-3)}
+    session.jog("y", -2.7e-3)
+    stepped.until_idle()
+    assert playback.state.moved == {}
+    playback.resume()
+    stepped.until_idle()
+    assert playback.state.row == ROWS - 1
+
+
+def test_less_than_the_noise_of_a_sensor_is_no_motion(stepped, playback, paused):
+    stepped.session.jog("x", 0.1e-6)  # its sensor has steps of 0.1 µm
+    stepped.until_idle()
+    assert playback.state.moved == {}
+    stepped.session.jog("x", 0.2e-6)
+    stepped.until_idle()
+    assert playback.state.moved == {"x": pytest.approx(0.3e-6)}
+
+
+def test_axes_move_back_slowly_and_then_it_resumes(stepped, playback, paused):
+    session = stepped.session
+    row = playback.state.row
+    session.go_to({"x": 0.03, "y": 0.03})
+    stepped.until_idle()
+    began = stepped.clock()
+    playback.move_back()
+    speeds, before = [], session.snapshot().command
+    while not session.at_rest:
+        after = stepped.step(0.02).command
+        speeds += [abs(after[axis] - before[axis]) / 0.02 for axis in "xy"]
+        before = after
+    assert 0.9e-3 < max(speeds) < 1.1e-3  # a tenth of 10 mm/s
+    assert stepped.clock() - began > 2.0
+    wanted = paused.commands.signal("x", Tap.CMD)
+    assert before["x"] == pytest.approx(wanted[row], abs=1e-9)
+    assert playback.state.moved == {}
+    assert playback.state.row == row
+    playback.resume()
+    stepped.until_idle()
+    assert playback.state.row == ROWS - 1
+    assert records(stepped)[-1].signal("x", Tap.CMD)[0] == pytest.approx(wanted[row], abs=1e-12)
+
+
+def test_a_way_back_that_was_stopped_halfway_leaves_the_rest_of_it(stepped, playback, paused):
+    session, permit = stepped.session, stepped.session.permit()
+    session.jog("y", 2e-3)
+    stepped.until_idle()
+    playback.move_back(permit=permit)
+    stepped.step(0.05, 20)
+    session.stop()
+    stepped.until_idle()
+    stepped.step()
+    assert 0.5e-3 < playback.state.moved["y"] < 1.5e-3
+    for request in (playback.move_back, playback.resume):
+        with pytest.raises(RefusedError, match="Not resumed: the machine was stopped again"):
+            request(permit=permit)
+
+
+def test_it_starts_over_at_the_first_row_with_its_bounds(stepped, playback, paused):
+    stepped.session.jog("y", 2e-3)
+    stepped.until_idle()
+    playback.start_over(speed=2.0)
+    stepped.until_idle()
+    assert playback.state.row == ROWS - 1
+    wanted = paused.commands.signal("x", Tap.CMD)
+    assert records(stepped)[-1].signal("x", Tap.CMD)[0] == pytest.approx(wanted[0], abs=1e-12)
+
+
+def test_a_second_resume_is_refused(stepped, playback, paused):
+    playback.resume()
+    with pytest.raises(RefusedError, match="nothing is paused"):
+        playback.resume()
+    stepped.until_idle()
+    assert playback.state.row == ROWS - 1
+
+
+def test_a_playback_that_was_stopped_before_it_began_has_ended(stepped, playback):
+    playback.play(swing(stepped.session.robot))
+    stepped.session.stop()  # the worker has not taken it yet
+    stepped.step()
+    assert playback.state.phase is PlaybackPhase.IDLE
+    assert records(stepped) == [None]
+
+
+def test_a_resumption_that_was_stopped_before_it_began_is_still_paused(stepped, playback, paused):
+    row = playback.state.row
+    playback.resume()
+    stepped.session.stop()
+    stepped.step()
+    assert (playback.state.phase, playback.state.row) == (PlaybackPhase.PAUSED, row)
+    playback.resume()
+    stepped.until_idle()
+    assert playback.state.row == ROWS - 1
+
+
+def test_a_deviation_counts_only_once_the_playback_has_begun(stepped, playback, told, monkeypatch):
+    effect = AxisEffect(axis="zn", id="gain_error", parameters={"error": 0.2})
+    stepped.session.service.set_effects((effect,))
+    stepped.step()
+    playback.play(swing(stepped.session.robot, 20e-6, axis="zn", start=30e-6), bounds={"zn": 8e-6})
+    stepped.until_idle()
+    assert len(told) == 1
+    guard = stepped.session.bounds._guard
+
+    def check(*_):  # the path is being checked, and the machine is at rest beyond the bound
+        stepped.step(0.02, 10)
+
+    monkeypatch.setattr(guard, "play", check)
+    playback.resume()  # which no stop of its own has overtaken
+    assert len(told) == 1
+    stepped.until_idle()
+    state = playback.state
+    assert (state.phase, state.excess, len(told)) == (PlaybackPhase.PAUSED, told[1], 2)

@@ -14,6 +14,7 @@ from rotemina.app.motion.state import (
     CommandRefused,
     Connection,
     Faulted,
+    Phase,
     PlaybackFinished,
     StateChanged,
     Stopped,
@@ -585,3 +586,64 @@ def test_numbers_that_are_none_are_refused_and_the_connection_lives(stepped):
             stepped.session.go_to({"x": at}, speeds=speeds)
     stepped.step()
     assert stepped.session.snapshot().connection is Connection.CONNECTED
+
+
+def test_a_stop_is_the_last_event_only_until_anything_moves_or_is_accepted(stepped):
+    session = stepped.session
+    stepped.step()
+    assert not session.snapshot().halted
+    for operate in (
+        lambda: session.jog("x", 1e-4),
+        session.release,
+        session.dismiss_stop,
+        lambda: stepped.driver.move_to({"x": 0.03}, permit=session.permit()),  # by its own buttons
+    ):
+        session.go_to({"x": 0.02}, speeds={"x": 1e-3})
+        stepped.step()
+        session.stop()
+        assert session.snapshot().halted
+        stepped.until_idle()
+        stepped.step(0.02, 5)
+        assert session.snapshot().halted
+        operate()
+        stepped.step()
+        assert not session.snapshot().halted
+        stepped.until_idle()
+        assert not session.snapshot().halted
+
+
+def test_a_stop_that_overtakes_a_request_stays_the_last_event(stepped):
+    session = stepped.session
+    stepped.step()
+    permit = session.permit()
+    session.stop()
+    with pytest.raises(RefusedError):
+        session.go_to({"x": 0.02}, permit=permit)
+    stepped.step()
+    assert session.snapshot().halted
+
+
+def test_a_lost_link_is_told_from_a_device_that_failed(make_stepped):
+    for error, lost in ((ConnectionError("unplugged"), True), (ValueError("a bug"), False)):
+        stepped = make_stepped()
+
+        def fail(error=error):
+            raise error
+
+        stepped.driver.before["read"] = fail
+        assert stepped.step().link_lost is lost
+    never = make_stepped(connect=False)
+
+    def refuse():
+        raise ConnectionError("no such port")
+
+    never.driver.before["open"] = refuse
+    assert never.connect().step().link_lost is False
+
+
+def test_the_silence_of_a_device_that_sends_nothing_more_is_measured(stepped):
+    stepped.step()
+    stepped.clock.advance(3.0)  # and the worker hangs in the driver
+    state = stepped.session.snapshot()
+    assert state.silent_s == pytest.approx(3.0, abs=0.1)
+    assert state.phase is Phase.SHORT_LOSS
