@@ -5,7 +5,7 @@ import json
 from rotemina.app.motion.model_in_use import fingerprint
 from rotemina.app.motion.ranges import Ranges
 from rotemina.app.settings import Settings
-from rotemina.sim.errors import InputError
+from rotemina.sim.errors import InputError, reason_of
 from rotemina.sim.messages import message
 from rotemina.sim.robot.model import Robot
 
@@ -29,7 +29,7 @@ def kept_ranges(settings: Settings, robot: Robot) -> dict[str, tuple[float, floa
     except (ValueError, TypeError, AttributeError) as error:
         raise InputError(
             message("engine", "preference {key} = {text}: {error}").fill(
-                key=key, text=repr(text), error=str(error)
+                key=key, text=repr(text), error=reason_of(error)
             )
         ) from error
 

@@ -13,7 +13,7 @@ from pydantic import ConfigDict, Field, TypeAdapter, ValidationError
 from pydantic_core import ErrorDetails
 
 from rotemina.app.files import write_text
-from rotemina.sim.errors import InputError
+from rotemina.sim.errors import InputError, reason_of
 from rotemina.sim.input_files import parse_toml, read_text
 from rotemina.sim.messages import Message, joined, marked, message
 from rotemina.sim.robot.schema_errors import bound_of, first_of, suggestion
@@ -80,7 +80,7 @@ class Format(Generic[T]):
             raise FileWriteError(
                 message(
                     "engine", "{parent}: the folder cannot be created ({strerror}); choose another"
-                ).fill(parent=path.parent, strerror=str(error.strerror))
+                ).fill(parent=path.parent, strerror=reason_of(error))
             ) from error
         write_text(path, self.text(value))
 

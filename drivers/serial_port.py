@@ -18,6 +18,7 @@ import serial
 from rotemina.drivers.byte_channels import ByteChannel, open_channel
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.errors import ConnectionLostError, DriverError
+from rotemina.sim.errors import reason_of
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import rounded
 
@@ -240,7 +241,7 @@ class SerialPort:
                     "engine",
                     "{url}: the port has disappeared ({error}). Plug it in and reconnect, then "
                     "check the position of the machine",
-                ).fill(url=self._url, error=str(error))
+                ).fill(url=self._url, error=reason_of(error))
             ) from error
 
 

@@ -10,6 +10,7 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import Any, BinaryIO
 
+from rotemina.sim.errors import reason_of
 from rotemina.sim.messages import joined, marked, message
 
 _DEEPEST = 50  # tables and lists within each other; what we write has fewer than ten
@@ -55,10 +56,9 @@ def open_file(
             )
         ) from cause
     except (OSError, ValueError) as cause:
-        reason = str(getattr(cause, "strerror", None) or cause)
         raise error(
             message("engine", "{name} cannot be read ({reason}){then}").fill(
-                name=name, reason=reason, then=then
+                name=name, reason=reason_of(cause), then=then
             )
         ) from cause
     if most_bytes is not None and size > most_bytes:
@@ -79,7 +79,7 @@ def read_bytes(
         except OSError as cause:
             raise error(
                 message("engine", "{name} cannot be read ({reason}){then}").fill(
-                    name=name, reason=str(cause.strerror), then=then
+                    name=name, reason=reason_of(cause), then=then
                 )
             ) from cause
     if len(data) > most_bytes:  # it grew, or is one whose size the system does not tell
@@ -113,7 +113,7 @@ def parse_toml(text: str, source: str, error: Refusal) -> dict[str, Any]:
     except ValueError as cause:  # of TOML, and of a number of thousands of digits
         raise error(
             message("engine", "{source}: not valid TOML: {cause}").fill(
-                source=source, cause=str(cause)
+                source=source, cause=reason_of(cause)
             )
         ) from cause
     _check(table, source, error)
@@ -145,7 +145,7 @@ def parse_json(text: str | bytes, source: str, error: Refusal) -> Any:
     except ValueError as cause:
         raise error(
             message("engine", "{source}: not valid JSON: {cause}").fill(
-                source=source, cause=str(cause)
+                source=source, cause=reason_of(cause)
             )
         ) from cause
     _check(value, source, error)

@@ -44,6 +44,12 @@ class PlainText(str):
     __slots__ = ()
 
 
+class SystemText(str):
+    """What the operating system or a library says, in a language of its own."""
+
+    __slots__ = ()
+
+
 class AxisName(str):
     """An axis by its id; each wording has a name for it."""
 
@@ -152,6 +158,10 @@ class Wording:
         """Return a text that is no message; a language may know it as a word."""
         return text
 
+    def foreign(self, text: str) -> str:
+        """Return what the system or a library says; a language may quote it."""
+        return text
+
     def conjunction(self, *, one_of_them: bool) -> str:
         """Return the conjunction before the last item of a list."""
         return "or" if one_of_them else "and"
@@ -202,6 +212,8 @@ class Wording:
                 return self.axis(value)
             case EffectName():
                 return self.effect(value)
+            case SystemText():
+                return self.foreign(self.quoted(value))
             case Number():
                 return value.with_sign(self.decimal_sign)
             case str():

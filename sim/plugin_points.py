@@ -8,7 +8,7 @@ from importlib.metadata import EntryPoint
 from types import MappingProxyType
 from typing import Any
 
-from rotemina.sim.errors import InputError
+from rotemina.sim.errors import InputError, reason_of
 from rotemina.sim.messages import message
 from rotemina.sim.plugin_import import import_fault
 
@@ -49,7 +49,7 @@ def load(point: EntryPoint) -> Any:
     except (Exception, SystemExit) as error:  # a plugin may raise anything, and must end nothing
         raise PluginError(
             message("engine", "{value} cannot be imported: {name}: {error}").fill(
-                value=point.value, name=type(error).__name__, error=str(error)
+                value=point.value, name=type(error).__name__, error=reason_of(error)
             )
         ) from error
 

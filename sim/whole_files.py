@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import BinaryIO
 from uuid import uuid4
 
-from rotemina.sim.errors import InputError
+from rotemina.sim.errors import InputError, reason_of
 from rotemina.sim.messages import message
 
 
@@ -47,7 +47,7 @@ def replaced(path: str | PathLike[str]) -> Iterator[BinaryIO]:
             message(
                 "engine",
                 "{name} cannot be written ({reason}); choose another folder, or free disk space",
-            ).fill(name=name, reason=str(error.strerror or error))
+            ).fill(name=name, reason=reason_of(error))
         ) from error
     finally:
         with suppress(OSError):  # such as a folder in its way that is a file

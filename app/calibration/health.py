@@ -19,7 +19,7 @@ from rotemina.sim.identification.loop_figures import loops
 from rotemina.sim.identification.model import Orders
 from rotemina.sim.identification.natural_modes import natural_modes
 from rotemina.sim.identification.output_error import identify_oe
-from rotemina.sim.messages import message
+from rotemina.sim.messages import joined, message
 from rotemina.sim.quantities import fixed
 from rotemina.sim.records.record import Record, Tap
 
@@ -70,7 +70,7 @@ def card_of(record: Record, axis: str) -> tuple[Figure, ...]:
     if not found:
         raise IdentificationError(
             message("engine", "health card: the record gives no figure of {axis}: {names}").fill(
-                axis=axis, names="; ".join(reasons)
+                axis=axis, names=joined(reasons, "; ")
             )
         )
     return tuple(found)

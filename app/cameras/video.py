@@ -11,7 +11,7 @@ from types import MappingProxyType
 from rotemina.app.cameras.video_file import VideoFile
 from rotemina.app.files import Opener, new_file
 from rotemina.drivers.cameras.frame import Frame
-from rotemina.sim.errors import InputError
+from rotemina.sim.errors import InputError, reason_of
 from rotemina.sim.messages import message
 
 _LOG = logging.getLogger(__name__)
@@ -110,7 +110,7 @@ class Video:
                 message(
                     "engine",
                     "{path}: cannot be written ({reason}); make room, or choose another folder",
-                ).fill(path=path, reason=str(error.strerror or error))
+                ).fill(path=path, reason=reason_of(error))
             ) from error
         self._thread = threading.Thread(target=self._run, name="video", daemon=True)
 
@@ -199,7 +199,7 @@ class Video:
         )
 
     def _fail(self, error: Exception) -> None:
-        why = getattr(error, "strerror", None) or f"{type(error).__name__}: {error}"
+        why = reason_of(error)
         kept = self.status.pictures
         failure = message(
             "engine",

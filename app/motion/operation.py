@@ -40,7 +40,7 @@ from rotemina.drivers.inputs.device import InputSource
 from rotemina.drivers.inputs.hub import InputHub
 from rotemina.drivers.inputs.pad import Pad
 from rotemina.drivers.samples import DeviceState
-from rotemina.sim.errors import InputError
+from rotemina.sim.errors import InputError, reason_of
 from rotemina.sim.kinematics.chain import JOINTS, Chain, ChainError
 from rotemina.sim.messages import message
 
@@ -268,7 +268,9 @@ class Operation:
                     )
                 self.session.play(way.trajectory, permit=permit, shown=False)
             except InputError as error:
-                self._told(message("engine", "{what}: {error}").fill(what=what, error=str(error)))
+                self._told(
+                    message("engine", "{what}: {error}").fill(what=what, error=reason_of(error))
+                )
 
         self._planning = threading.Thread(target=plan, name="nano stage", daemon=True)
         self._planning.start()
@@ -397,7 +399,7 @@ class Operation:
     def _step_failed(self, error: Exception) -> None:
         self._told(
             message("engine", "The loop of the input devices failed: {name}: {error}").fill(
-                name=type(error).__name__, error=str(error)
+                name=type(error).__name__, error=reason_of(error)
             )
         )
 
@@ -406,7 +408,7 @@ class Operation:
             return load(path)
         except InputError as error:
             self.problems.append(
-                message("engine", "{error}; presets are used").fill(error=str(error))
+                message("engine", "{error}; presets are used").fill(error=reason_of(error))
             )
             return presets()
 

@@ -11,7 +11,7 @@ from rotemina.app.motion.stop import StopRequest
 from rotemina.app.motion.stop_send_latency import Latency
 from rotemina.drivers.line_quality import LinkQuality
 from rotemina.drivers.samples import DeviceState
-from rotemina.sim.messages import message
+from rotemina.sim.messages import AxisName, joined, message
 from rotemina.sim.records.record import Record
 
 NOT_CONNECTED = message("engine", "not connected; connect first")
@@ -180,7 +180,7 @@ def lock_reason(state: SessionState) -> str | None:
         if not state.unhomed:
             return message("engine", "the position is not known yet")
         unknown = message("engine", "the position of {axes} is not known; home first")
-        return unknown.fill(axes=", ".join(state.unhomed))
+        return unknown.fill(axes=joined(map(AxisName, state.unhomed), ", "))
     if state.doubt is not None:
         return message("engine", "{reason}: the position may be wrong; home, or confirm it").fill(
             reason=state.doubt

@@ -56,8 +56,8 @@ from rotemina.drivers.errors import DriverError, StateError
 from rotemina.drivers.gate import Gate
 from rotemina.drivers.line_quality import LinkQuality
 from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
-from rotemina.sim.errors import InputError
-from rotemina.sim.messages import message
+from rotemina.sim.errors import InputError, reason_of
+from rotemina.sim.messages import AxisName, joined, message
 
 #: Called with samples and what the models say of them.
 Tap = Callable[[Samples, ModelOutputs], None]
@@ -405,7 +405,7 @@ class Worker:
             self.driver.halt()
             found.append(Faulted(message("engine", "stopped: {lock}").fill(lock=lock)))
             if off := self.inverses.forget():
-                found.append(Alarmed(_TAKEN_OFF.fill(axes=", ".join(off))))
+                found.append(Alarmed(_TAKEN_OFF.fill(axes=joined(map(AxisName, off), ", "))))
         return found
 
     def _note_rest(self, status: DeviceStatus) -> None:
@@ -528,5 +528,5 @@ def _described(error: Exception) -> str:
     if isinstance(error, DriverError | InputError):
         return str(error)
     return message("engine", "unexpected {name} from the driver: {error}").fill(
-        name=type(error).__name__, error=str(error)
+        name=type(error).__name__, error=reason_of(error)
     )

@@ -11,7 +11,7 @@ from uuid import uuid4
 from jinja2 import BaseLoader, Environment, StrictUndefined, TemplateNotFound
 
 from rotemina.app.plugin_kit.plugin_kinds import Kind
-from rotemina.sim.errors import InputError
+from rotemina.sim.errors import InputError, reason_of
 from rotemina.sim.messages import message
 
 _NAME = re.compile(r"[a-z][a-z0-9]*(_[a-z0-9]+)*")
@@ -82,7 +82,7 @@ def new_plugin(kind: Kind, name: str, folder: Path) -> Path:
             message(
                 "engine",
                 "{place} cannot be written ({reason}); choose another folder, or free disk space",
-            ).fill(place=place, reason=str(error.strerror or error))
+            ).fill(place=place, reason=reason_of(error))
         ) from error
     finally:
         rmtree(draft, ignore_errors=True)

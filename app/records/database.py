@@ -15,7 +15,7 @@ from itertools import count
 from pathlib import Path
 
 from rotemina.app.records.entry import NEW, Entry, Kind, WorstGap
-from rotemina.sim.errors import InputError
+from rotemina.sim.errors import InputError, reason_of
 from rotemina.sim.messages import message
 
 NAME = "records.sqlite3"
@@ -121,7 +121,7 @@ class RecordStore:
                     "{path}: the library of records cannot be used ({reason}); free disk "
                     "space, or give this user permission to write there. The records "
                     "themselves are untouched",
-                ).fill(path=self.path, reason=str(error))
+                ).fill(path=self.path, reason=reason_of(error))
             ) from error
 
     def _prepare(self, base: sqlite3.Connection) -> None:

@@ -18,6 +18,7 @@ from rotemina.app.motion.recording.recovery import SUFFIX
 from rotemina.app.records.database import DamagedLibraryError, LibraryError, RecordStore
 from rotemina.app.records.entry import Entry, Kind, WorstGap
 from rotemina.app.records.file_facts import digest, of_record, with_facts
+from rotemina.sim.errors import reason_of
 from rotemina.sim.messages import message
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record
@@ -345,5 +346,5 @@ def _unlink(path: Path) -> None:
             message(
                 "engine",
                 "{path} cannot be deleted ({reason}); give this user permission to write there",
-            ).fill(path=path, reason=str(error.strerror or str(error)))
+            ).fill(path=path, reason=reason_of(error))
         ) from error

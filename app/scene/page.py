@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from functools import cache
 from importlib import resources
 
-from rotemina.sim.errors import InputError
+from rotemina.sim.errors import InputError, reason_of
 from rotemina.sim.messages import message
 
 _OWN = {
@@ -47,5 +47,5 @@ def page_files() -> dict[str, PageFile]:
                 "engine",
                 "{filename}: this file of the 3-D view cannot be read: {strerror}; install "
                 "RoTeMiNa again",
-            ).fill(filename=error.filename, strerror=str(error.strerror))
+            ).fill(filename=error.filename, strerror=reason_of(error))
         ) from error

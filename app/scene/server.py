@@ -15,6 +15,7 @@ from rotemina.app.scene.handlers import FileHandler, SceneSocket
 from rotemina.app.scene.page import ViewerError, page_files
 from rotemina.app.scene.scene import Scene
 from rotemina.app.scene.viewers import Viewers
+from rotemina.sim.errors import reason_of
 from rotemina.sim.messages import message
 
 _LOG = logging.getLogger(__name__)
@@ -77,7 +78,7 @@ class ViewServer:
                     "engine",
                     "the 3-D view cannot listen on {host}: {strerror}; a firewall or a limit of "
                     "open files may forbid it",
-                ).fill(host=HOST, strerror=str(error.strerror))
+                ).fill(host=HOST, strerror=reason_of(error))
             ) from error
         application = Application(
             [

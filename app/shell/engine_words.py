@@ -5,12 +5,12 @@ the state of a camera, are among :data:`WORDS`. What is neither, as the text of 
 operating system, is shown as it is.
 """
 
-from rotemina.app.display_units import label
-from rotemina.app.shell.language import marked, translate
-from rotemina.sim.messages import Wording
-from rotemina.sim.quantities import decimal_sign
+from rotemina.app.shell.language import TranslatedWording as TranslatedWording
+from rotemina.app.shell.language import WindowWording as WindowWording
+from rotemina.app.shell.language import error_text as error_text
+from rotemina.app.shell.language import marked
+from rotemina.app.shell.language import spoken as spoken
 
-CONTEXT = "engine"
 # Words of enumerations, which are shown alone or stand in a sentence's fields.
 WORDS = (
     # quantities that a limit is for
@@ -142,42 +142,3 @@ WORDS = (
     marked("engine", "Re-centring"),
     marked("engine", "Preparing"),
 )
-
-
-class TranslatedWording(Wording):
-    """Messages in the language of the window, with the names that axes have in files."""
-
-    @property
-    def decimal_sign(self) -> str:
-        """The sign of the language."""
-        return decimal_sign()
-
-    def text(self, context: str, template: str) -> str:
-        """Return a template in the language of the window."""
-        return translate(context, template)
-
-    def word(self, text: str) -> str:
-        """Return a word of the engine; another text as it is."""
-        return translate(CONTEXT, text) if text else text
-
-    def conjunction(self, *, one_of_them: bool) -> str:
-        """Return what stands before the last one of several."""
-        return translate("engine", "or") if one_of_them else translate("engine", "and")
-
-
-class WindowWording(TranslatedWording):
-    """Messages in the language of the window, with its names of axes."""
-
-    def axis(self, name: str) -> str:
-        """Return what the window calls an axis."""
-        return label(name)
-
-
-def spoken(text: str) -> str:
-    """Return a message or a word of the engine in the language of the window."""
-    return WindowWording().shown(text)
-
-
-def error_text(error: BaseException) -> str:
-    """Return what an error says, in the language of the window."""
-    return spoken(str(error))

@@ -7,12 +7,13 @@ shown: a table is made when its module is imported, before a language is in use.
 are templates and are filled later: ``tr("{n} records").format(n=3)``.
 
 What is below the window says it in messages (:mod:`rotemina.sim.messages`), whose templates are
-translated where they are shown (:mod:`rotemina.app.shell.engine_words`). Numbers have the decimal
-sign of the language. Logs and files are English.
+translated where they are shown: alone by :func:`spoken`, in a field of a text by its ``format``.
+Numbers have the decimal sign of the language. Logs and files are English.
 """
 
 import logging
 from collections.abc import Callable
+from enum import StrEnum
 from functools import partial
 from importlib import resources
 from importlib.resources.abc import Traversable
@@ -20,10 +21,21 @@ from importlib.resources.abc import Traversable
 import numpy as np
 from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QTranslator
 
+from rotemina.app.display_units import label
 from rotemina.app.settings import LANGUAGE as SETTING
 from rotemina.app.settings import Settings
+from rotemina.sim.errors import ToldError, reason_of
+from rotemina.sim.messages import (
+    AxisName,
+    EffectName,
+    Listed,
+    Message,
+    SystemText,
+    Wording,
+    message,
+)
 from rotemina.sim.messages import marked as marked  # which the engines use for theirs
-from rotemina.sim.quantities import formatted, use_decimal_sign
+from rotemina.sim.quantities import decimal_sign, formatted, use_decimal_sign
 
 logger = logging.getLogger(__name__)
 
@@ -32,18 +44,35 @@ ENGLISH = "en"
 #: Each language by what it calls itself.
 LANGUAGES = {ENGLISH: "English", "de": "Deutsch"}
 _PACKAGE = "rotemina.resources.languages"
+_FOREIGN = marked("engine", "the system reports: “{text}”")
+_ENGINE = "engine"  # the context of what is below the window
 _IN_USE = "language"  # property of the application
 
 
+class FilledText(str):
+    """A text that keeps the template it was made from, and what stands in its fields."""
+
+    __slots__ = ("fields", "template")
+    template: str
+    fields: tuple[object, ...]
+
+    def __new__(cls, text: str, template: str, fields: tuple[object, ...]) -> "FilledText":
+        """Return the text with its template and the values of its fields."""
+        made = super().__new__(cls, text)
+        made.template, made.fields = template, fields
+        return made
+
+
 class Template(str):
-    """A text with fields, in which numbers are written as the language in use writes them."""
+    """A text whose fields read as the language in use has them: numbers, messages, errors."""
 
     __slots__ = ()
 
-    def format(self, *values: object, **fields: object) -> str:
+    def format(self, *values: object, **fields: object) -> FilledText:
         """Return it with something in each of its fields."""
         named = {name: _local(value) for name, value in fields.items()}
-        return super().format(*map(_local, values), **named)
+        text = super().format(*map(_local, values), **named)
+        return FilledText(text, str(self), (*values, *fields.values()))
 
 
 class _Number:
@@ -67,12 +96,75 @@ class _Number:
 
 
 def _local(value: object) -> object:
-    return _Number(value) if isinstance(value, float | np.ndarray | np.number) else value
+    match value:
+        case float() | np.ndarray() | np.number():
+            return _Number(value)
+        case Message() | AxisName() | EffectName() | SystemText() | StrEnum() | Listed():
+            return WindowWording().shown(value)
+        case BaseException():
+            return error_text(value)
+    return value
 
 
 def translate(context: str, text: str) -> Template:
     """Return ``text`` in the language in use, itself where it has no translation."""
     return Template(QCoreApplication.translate(context, text))
+
+
+class TranslatedWording(Wording):
+    """Messages in the language of the window, with the names that axes have in files."""
+
+    @property
+    def decimal_sign(self) -> str:
+        """The sign of the language."""
+        return decimal_sign()
+
+    def text(self, context: str, template: str) -> str:
+        """Return a template in the language of the window."""
+        return translate(context, template) if template else template
+
+    def word(self, text: str) -> str:
+        """Return a word of the engine; another text as it is."""
+        return translate(_ENGINE, text) if text else text
+
+    def foreign(self, text: str) -> str:
+        """Return a text of the system in the language of the window, or quoted as foreign."""
+        shown = self.word(text)
+        quoted = self.text(_ENGINE, _FOREIGN)
+        known = shown != text or quoted == _FOREIGN or not any(map(str.isalpha, text))
+        return shown if known else quoted.format(text=text)
+
+    def conjunction(self, *, one_of_them: bool) -> str:
+        """Return what stands before the last one of several."""
+        return translate("engine", "or") if one_of_them else translate("engine", "and")
+
+
+class WindowWording(TranslatedWording):
+    """Messages in the language of the window, with its names of axes."""
+
+    def axis(self, name: str) -> str:
+        """Return what the window calls an axis."""
+        return label(name)
+
+
+def spoken(text: str) -> str:
+    """Return a message or a word of the engine in the language of the window."""
+    return WindowWording().shown(text)
+
+
+def error_text(error: BaseException) -> str:
+    """Return what an error says, in the language of the window."""
+    return spoken(error_message(error))
+
+
+def error_message(error: BaseException) -> str:
+    """Return what an error says as a message; what Python or a library says is marked as such."""
+    if isinstance(error, ToldError):
+        return str(error)
+    if isinstance(error, OSError) and error.filename is not None:
+        told = message("engine", "{file}: {reason}")
+        return told.fill(file=str(error.filename), reason=reason_of(error))
+    return reason_of(error)
 
 
 def texts_of(context: str) -> tuple[Callable[[str], Template], Callable[[str], str]]:

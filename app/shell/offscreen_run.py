@@ -21,7 +21,7 @@ from rotemina.app.shell.window_run import make_window
 from rotemina.app.shell.workbench import Level, Run
 from rotemina.sim.comparison.comparison_picture import save_figure
 from rotemina.sim.comparison.table import table
-from rotemina.sim.errors import InputError
+from rotemina.sim.errors import InputError, reason_of
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import fixed
 from rotemina.sim.records.record import Record
@@ -59,7 +59,7 @@ def run(session: MotionSession, output: Path) -> int:
     except OSError as error:
         raise OffscreenError(
             message("engine", "{output}: the folder cannot be created: {strerror}").fill(
-                output=output, strerror=str(error.strerror)
+                output=output, strerror=reason_of(error)
             )
         ) from error
     with _received_signals() as signals:

@@ -16,6 +16,7 @@ from rotemina.app.records.library import Library
 from rotemina.app.settings import Settings
 from rotemina.app.shell.background import Background
 from rotemina.app.shell.language import translate
+from rotemina.sim.errors import reason_of
 from rotemina.sim.records.record import Record
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.whole_files import FileWriteError
@@ -166,7 +167,7 @@ def write_played(record: Record, path: Path) -> None:
     except OSError as error:
         raise FileWriteError(
             translate("shell", "{parent}: cannot be created: {strerror}").format(
-                parent=path.parent, strerror=error.strerror
+                parent=path.parent, strerror=reason_of(error)
             )
         ) from error
     write_record(record, path)

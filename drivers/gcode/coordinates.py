@@ -14,7 +14,7 @@ from typing import Self
 from rotemina.drivers.gcode.controller_settings import ControllerSettings
 from rotemina.drivers.reading_check import ReadingBounds
 from rotemina.sim.errors import InputError
-from rotemina.sim.messages import message
+from rotemina.sim.messages import joined, message
 from rotemina.sim.quantities import fixed
 from rotemina.sim.robot.model import Robot, StepperAxis
 
@@ -178,7 +178,7 @@ def check_agreement(robot: Robot, axes: Sequence[StageAxis], settings: Controlle
                 "engine",
                 "the controller's settings do not agree with the robot file: {differences}. Send "
                 "them to the controller, or correct the file",
-            ).fill(differences=", ".join(differences))
+            ).fill(differences=joined(differences, ", "))
         )
 
 

@@ -16,6 +16,7 @@ from rotemina.drivers.inputs.device import (
     InputSource,
 )
 from rotemina.drivers.samples import DeviceState
+from rotemina.sim.errors import reason_of
 from rotemina.sim.messages import marked, message
 
 Told = tuple[tuple[float, ...], tuple[bool, ...]]
@@ -152,7 +153,7 @@ def _latest(driver: AnalogInputs) -> Told:
     except Exception as error:  # its worker may be closing it at this very moment
         raise InputLostError(
             message("engine", "{name}: the joystick cannot be read: {error}").fill(
-                name=driver.name, error=str(error)
+                name=driver.name, error=reason_of(error)
             )
         ) from error
     if status.state is DeviceState.CLOSED:

@@ -18,6 +18,7 @@ from rotemina.drivers.inputs.device import (
     InputSource,
 )
 from rotemina.drivers.registry import make_sources
+from rotemina.sim.errors import reason_of
 from rotemina.sim.messages import marked, message
 
 _LOG = logging.getLogger(__name__)
@@ -144,7 +145,10 @@ class InputHub:
             self._note(key, f"{type(error).__name__}: {error}")
             raise DriverError(
                 message("engine", "{name} ({key}) cannot be opened: {type_name}: {error}").fill(
-                    name=identity.name, key=key, type_name=type(error).__name__, error=str(error)
+                    name=identity.name,
+                    key=key,
+                    type_name=type(error).__name__,
+                    error=reason_of(error),
                 )
             ) from error
         with self._lock:

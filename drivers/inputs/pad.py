@@ -184,7 +184,7 @@ class Pad(InputSource):
                     name=self.identity.name,
                     kind=kind,
                     wanted=repr(name),
-                    known=", ".join(names) or "none",
+                    known=", ".join(names) or marked("engine", "none"),
                 )
             )
 

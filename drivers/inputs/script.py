@@ -7,7 +7,7 @@ from math import isfinite
 from pathlib import Path
 from typing import Self
 
-from rotemina.sim.errors import InputError
+from rotemina.sim.errors import InputError, reason_of
 from rotemina.sim.input_files import read_text
 from rotemina.sim.messages import marked, message
 
@@ -98,14 +98,14 @@ class Script:
         except csv.Error as error:
             raise ScriptError(
                 message("engine", "{path}: cannot be read: {error}").fill(
-                    path=path, error=str(error)
+                    path=path, error=reason_of(error)
                 )
             ) from error
         try:
             return cls(_named(columns, _AXIS), _named(columns, _BUTTON), moments)
         except ScriptError as error:
             raise ScriptError(
-                message("engine", "{path}: {error}").fill(path=path, error=str(error))
+                message("engine", "{path}: {error}").fill(path=path, error=reason_of(error))
             ) from error
 
 

@@ -26,6 +26,7 @@ from rotemina.drivers.reading_check import ReadingBounds, ReadingCheck
 from rotemina.drivers.samples import Samples
 from rotemina.drivers.serial_port import OpenPort
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.errors import reason_of
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import rounded
 from rotemina.sim.robot.model import Robot
@@ -179,7 +180,7 @@ class Session:
             error, link.held_back = link.held_back, None
             if error is not None and not isinstance(error, OvertakenError):
                 found.append(
-                    message("engine", "a motion was not sent: {error}").fill(error=str(error))
+                    message("engine", "a motion was not sent: {error}").fill(error=reason_of(error))
                 )
         return found
 

@@ -7,6 +7,7 @@ from struct import Struct
 from typing import ClassVar, Self
 
 from rotemina.drivers.errors import ProtocolError
+from rotemina.sim.errors import reason_of
 from rotemina.sim.messages import message
 
 
@@ -42,7 +43,7 @@ class Message:
         except struct.error as error:
             raise ProtocolError(
                 message("engine", "{what}: a number does not fit: {error}").fill(
-                    what=str(self), error=str(error)
+                    what=str(self), error=reason_of(error)
                 )
             ) from error
 

@@ -2,7 +2,9 @@
 
 from typing import Self
 
+from rotemina.app.shell.engine_words import spoken
 from rotemina.plugins.identification import tr
+from rotemina.sim.messages import Message
 
 
 class FilledTemplate(str):
@@ -27,4 +29,6 @@ def localized(text: str) -> str:
             for name, value in text.values.items()
         }
         return tr(text.template).format(**filled)
+    if isinstance(text, Message):
+        return spoken(text)
     return tr(text) if text else text

@@ -11,6 +11,7 @@ from pydantic import TypeAdapter, ValidationError
 from pydantic.dataclasses import dataclass
 
 from rotemina.sim.arrays import ComplexArray, FloatArray
+from rotemina.sim.errors import reason_of
 from rotemina.sim.identification.errors import ModelFileError, SettingError
 from rotemina.sim.identification.transfer_function import TransferFunction
 from rotemina.sim.messages import message
@@ -128,7 +129,7 @@ def parse_models(text: str, source: str = "model file") -> PublishedModels:
     except tomllib.TOMLDecodeError as error:
         raise ModelFileError(
             message("engine", "{source}: not valid TOML: {error}").fill(
-                source=source, error=str(error)
+                source=source, error=reason_of(error)
             )
         ) from error
     except ValidationError as error:

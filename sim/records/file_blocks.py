@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, BinaryIO, cast
 
 import numpy as np
 
+from rotemina.sim.errors import reason_of
 from rotemina.sim.input_files import open_file
 from rotemina.sim.messages import marked, message
 from rotemina.sim.records.record import RecordError
@@ -212,7 +213,7 @@ def _read(name: str, line: int, read: Callable[[int], bytes], size: int) -> byte
                 "engine",
                 "{name}:{line}: the compressed data are damaged after this line ({error}); copy "
                 "the file again",
-            ).fill(name=name, line=line, error=str(error))
+            ).fill(name=name, line=line, error=reason_of(error))
         ) from error
     except UnicodeError as error:
         raise RecordError(
@@ -225,7 +226,7 @@ def _read(name: str, line: int, read: Callable[[int], bytes], size: int) -> byte
     except OSError as error:
         raise RecordError(
             message("engine", "{name}:{line}: reading failed after this line ({error})").fill(
-                name=name, line=line, error=str(error)
+                name=name, line=line, error=reason_of(error)
             )
         ) from error
 

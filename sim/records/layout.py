@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from rotemina.sim.messages import message
+from rotemina.sim.messages import Listed, message
 from rotemina.sim.records.fields import (
     BLANKS,
     NOT_FINITE,
@@ -263,7 +263,10 @@ def _check_unit(channel: Channel | None, unit: str, where: str) -> None:
     if quantity(unit) not in allowed:
         raise RecordError(
             message("engine", "{where}: {value} cannot be in [{unit}]; use a unit of {names}").fill(
-                where=where, value=str(channel or "t"), unit=unit, names=" or ".join(allowed)
+                where=where,
+                value=str(channel or "t"),
+                unit=unit,
+                names=Listed(allowed, one_of_them=True),
             )
         )
 

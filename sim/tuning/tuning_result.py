@@ -11,6 +11,7 @@ import tomli_w
 from pydantic import TypeAdapter, ValidationError
 from pydantic.dataclasses import dataclass
 
+from rotemina.sim.errors import reason_of
 from rotemina.sim.input_files import parse_toml, read_text
 from rotemina.sim.messages import message
 from rotemina.sim.robot.numbers import FORBID_UNKNOWN
@@ -200,7 +201,7 @@ def load_tuning(path: str | PathLike[str]) -> Tuning:
         ) from error
     except ValueError as error:  # of the gains' own checks
         raise TuningError(
-            message("engine", "{name}: {error}").fill(name=name, error=str(error))
+            message("engine", "{name}: {error}").fill(name=name, error=reason_of(error))
         ) from error
     last = len(found.points) - 1
     for key in ("recommended", "chosen"):

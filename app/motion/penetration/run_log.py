@@ -12,6 +12,7 @@ from typing import Any, Self
 
 from rotemina.app.motion.penetration.parameters import PenetrationError
 from rotemina.app.motion.penetration.thrust import ThrustMeasured
+from rotemina.sim.errors import reason_of
 from rotemina.sim.input_files import parse_json, read_bytes
 from rotemina.sim.messages import message
 from rotemina.sim.whole_files import FileWriteError
@@ -120,7 +121,9 @@ class PenetrationRun:
             return run
         except (ValueError, TypeError, KeyError) as error:
             raise PenetrationError(
-                message("engine", "not the run of a penetration: {error}").fill(error=str(error))
+                message("engine", "not the run of a penetration: {error}").fill(
+                    error=reason_of(error)
+                )
             ) from error
 
 

@@ -29,6 +29,7 @@ from rotemina.app.motion.recording.backlog import RecordedEvent
 from rotemina.app.motion.recording.errors import RecordingError
 from rotemina.app.motion.recording.recovery import UNFINISHED
 from rotemina.sim.arrays import FloatArray, IntArray
+from rotemina.sim.errors import reason_of
 from rotemina.sim.input_files import open_file
 from rotemina.sim.messages import marked, message
 from rotemina.sim.robot.file import parse_robot
@@ -122,7 +123,7 @@ class Recording:
             raise RecordingError(
                 message(
                     "engine", "{path}: not a recording of this program, or damaged ({error})"
-                ).fill(path=path, error=str(error))
+                ).fill(path=path, error=reason_of(error))
             ) from error
 
     @property

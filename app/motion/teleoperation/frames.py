@@ -14,7 +14,7 @@ from typing import Self
 
 from rotemina.app.motion.teleoperation.reference import Bounds
 from rotemina.sim.errors import InputError
-from rotemina.sim.messages import message
+from rotemina.sim.messages import AxisName, joined, message
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.trajectory.setpoint_limits import SetpointLimits
 
@@ -153,5 +153,5 @@ def check_known(axes: tuple[str, ...], joints: Values) -> None:
         raise FrameError(
             message(
                 "engine", "mode: the position of axis {names} is not known; connect and home first"
-            ).fill(names=", ".join(missing))
+            ).fill(names=joined(map(AxisName, missing), ", "))
         )

@@ -14,7 +14,7 @@ from rotemina.app.motion.teleoperation.profile import (
     ProfileError,
 )
 from rotemina.drivers.inputs.device import InputIdentity
-from rotemina.sim.messages import joined, marked, message
+from rotemina.sim.messages import Listed, joined, marked, message
 
 #: The degrees of freedom of the stick, and the robot's axes that they can move in one stage or
 #: the other: a pin along z is tilted along x by thy, along y by thx.
@@ -106,12 +106,12 @@ def missing(profile: Profile, devices: Collection[PluggedDevice]) -> str | None:
     gone = [mapping.key for mapping in profile.devices if not any(mapping is m for m in there)]
     if not gone:
         return None
-    present = ", ".join(map(str, devices)) or "nothing"
+    present = joined(map(str, devices), ", ") or marked("engine", "nothing")
     return message(
         "engine",
         "profile {name} needs {gone}, which is not connected; connected: {present}."
         " Connect it, or choose or create another profile",
-    ).fill(name=repr(profile.name), gone=" and ".join(gone), present=present)
+    ).fill(name=repr(profile.name), gone=Listed(tuple(gone)), present=present)
 
 
 def check_controls(mapping: DeviceMapping, device: PluggedDevice) -> None:

@@ -27,7 +27,7 @@ from rotemina.sim.kinematics.aiming import free_pose
 from rotemina.sim.kinematics.chain import JOINTS, NANO, TABLES, Chain
 from rotemina.sim.kinematics.forward import tip_position
 from rotemina.sim.kinematics.pivoting import recentre
-from rotemina.sim.messages import marked, message
+from rotemina.sim.messages import AxisName, joined, marked, message
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.matrices import inertia_matrices
@@ -198,6 +198,6 @@ def _known(commands: Mapping[str, float]) -> FloatArray:
             message(
                 "engine",
                 "re-centring: the position of axis {names} is not known; connect and home first",
-            ).fill(names=", ".join(missing))
+            ).fill(names=joined(map(AxisName, missing), ", "))
         )
     return np.array([commands[joint] for joint in JOINTS], dtype=np.float64)

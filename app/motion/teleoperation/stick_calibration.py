@@ -10,7 +10,7 @@ from math import isfinite
 
 from rotemina.app.motion.teleoperation.axis_calibration import AxisCalibration, CalibrationError
 from rotemina.drivers.inputs.device import InputReading
-from rotemina.sim.messages import AxisName, message
+from rotemina.sim.messages import AxisName, marked, message
 from rotemina.sim.quantities import fixed, rounded
 
 # Shares of the shorter side (of the only one, if the axis is one-sided).
@@ -77,7 +77,7 @@ class CalibrationRun:
                 raise CalibrationError(
                     message(
                         "engine", "axis {axis}: the device has no axis of that name; it has {value}"
-                    ).fill(axis=repr(axis), value=", ".join(self._axes) or "none")
+                    ).fill(axis=repr(axis), value=", ".join(self._axes) or marked("engine", "none"))
                 )
         self.phase = Phase.REST
         if last is not None:

@@ -22,7 +22,7 @@ from rotemina.app.motion.teleoperation.teleoperation_state import TeleoperationS
 from rotemina.drivers.abilities import VelocityMover
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.errors import InputError
-from rotemina.sim.messages import AxisName, marked, message
+from rotemina.sim.messages import AxisName, Listed, marked, message
 from rotemina.sim.trajectory.axis_limits import resolution_of
 
 JOYSTICK = "joystick"  # the owner of the axes that it moves
@@ -216,7 +216,7 @@ class Teleoperator:
         others = {owner for owner in state.owners.values() if owner != JOYSTICK}
         if state.activity is DeviceState.MOVING and others and not self.state.driving:
             return message("engine", "axes are moved by {owner}").fill(
-                owner=" and ".join(sorted(others))
+                owner=Listed(tuple(sorted(others)))
             )
         return None
 

@@ -12,6 +12,7 @@ from rotemina.drivers.inputs.device import (
 )
 from rotemina.drivers.inputs.hid.decoder import Decoder, Ignored
 from rotemina.drivers.inputs.hid.hidapi import Handle
+from rotemina.sim.errors import reason_of
 from rotemina.sim.messages import message
 
 _LOG = logging.getLogger(__name__)
@@ -85,5 +86,5 @@ class HidDevice(InputDevice):
                 message(
                     "engine",
                     "{name} was unplugged, or lost its power or radio link ({error})",
-                ).fill(name=self.identity.name, error=str(error))
+                ).fill(name=self.identity.name, error=reason_of(error))
             ) from error

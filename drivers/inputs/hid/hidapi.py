@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any, Protocol, cast
 
 from rotemina.drivers.errors import DriverError
 from rotemina.drivers.inputs.device import InputLostError
-from rotemina.sim.messages import marked, message
+from rotemina.sim.errors import reason_of
+from rotemina.sim.messages import SystemText, marked, message
 
 if TYPE_CHECKING:
     from rotemina.drivers.inputs.hid.descriptor import ReportDescriptor
@@ -61,7 +62,7 @@ def load_hidapi() -> Hidapi:
             "engine",
             "USB joysticks cannot be used: the library hidapi does not load ({failure}); install "
             "it with `pip install hidapi`, and libudev of the system",
-        ).fill(failure=str(failure))
+        ).fill(failure=SystemText(failure))
     ) from failure
 
 
@@ -83,7 +84,7 @@ def open_handle(library: Hidapi, path: bytes, who: str) -> Handle:
         why = _why_closed(
             who,
             path,
-            message("engine", "{error}: {said}").fill(error=str(error), said=_said(handle)),
+            message("engine", "{error}: {said}").fill(error=reason_of(error), said=_said(handle)),
         )
         handle.close()
         raise why from error
@@ -108,7 +109,7 @@ def read_descriptor(handle: Handle, who: str) -> "ReportDescriptor":
                 "engine",
                 "{who}: its report descriptor cannot be read ({error}); unplug it and plug it in "
                 "again",
-            ).fill(who=who, error=str(error))
+            ).fill(who=who, error=reason_of(error))
         ) from error
     return ReportDescriptor.parse(raw)
 
