@@ -15,6 +15,7 @@ class ResumeStep(StrEnum):
     NONE = "none"
     RESTING = "resting"
     RETURNING = "returning"
+    CHECKING = "checking"
 
 
 class Resumption:
@@ -28,7 +29,8 @@ class Resumption:
     session : MotionSession
     playback : Playback
     ask : callable
-        Makes the last request, which checks a path and may take seconds.
+        Makes the last request, which checks a path and may take seconds, then calls the second of
+        its arguments; the third if that was refused, which it tells itself.
     refused : callable
         Called with the reason why the playback was not resumed.
     """
@@ -37,7 +39,7 @@ class Resumption:
         self,
         session: MotionSession,
         playback: Playback,
-        ask: Callable[[Callable[[], object]], object],
+        ask: Callable[[Callable[[], object], Callable[[], None], Callable[[], None]], object],
         refused: Callable[[str], object],
     ) -> None:
         self._session, self._playback = session, playback
@@ -62,7 +64,7 @@ class Resumption:
 
     def step(self) -> None:
         """Do what can be done now."""
-        if self._steps is None:
+        if self._steps is None or self.waits_for is ResumeStep.CHECKING:
             return
         if self._playback.state.phase is not PlaybackPhase.PAUSED:
             self._end()  # it was ended, or played anew
@@ -74,12 +76,13 @@ class Resumption:
 
     def _advance(self, steps: Iterator[ResumeStep]) -> None:
         try:
-            self.waits_for = next(steps)
-        except StopIteration:
-            self._end()
+            step = next(steps)
         except InputError as error:
             self._end()
             self._refused(str(error))
+        else:
+            if self._steps is not None:
+                self.waits_for = step
 
     def _end(self) -> None:
         self._steps, self.waits_for = None, ResumeStep.NONE
@@ -93,4 +96,5 @@ class Resumption:
             self._playback.move_back(permit=permit)
             while not self._session.at_rest:
                 yield ResumeStep.RETURNING
-        self._ask(lambda: self._playback.resume(speed=speed, permit=permit))
+        self._ask(lambda: self._playback.resume(speed=speed, permit=permit), self._end, self._end)
+        yield ResumeStep.CHECKING

@@ -47,9 +47,7 @@ class FirstSteps(QFrame):
         self.stay = button(translate("shell", "Simulator"), self._stay)
         self.connect_ = button(translate("shell", "Connect …"), self._connect)
         self.load = button(translate("shell", "Load example"), self._load)
-        self.play = button(
-            translate("shell", "Play"), lambda: workbench.press_play(PlaybackPhase.IDLE)
-        )
+        self.play = button(translate("shell", "Play"), workbench.toggle_playback)
         self.diagnose = button(translate("shell", "Diagnose"), self._diagnose)
         self.close_ = QToolButton()
         self.close_.setText("✕")

@@ -46,6 +46,7 @@ from rotemina.app.shell.recent_files import RecentFiles
 from rotemina.app.shell.record_chooser import ask_records
 from rotemina.app.shell.reloading import Reloading, ReloadMenu
 from rotemina.app.shell.replay_bar import ReplayBar
+from rotemina.app.shell.resume_question import ResumeQuestion
 from rotemina.app.shell.status_line import StatusText
 from rotemina.app.shell.stop_controls import StopWatch
 from rotemina.app.shell.support_page import SupportPage
@@ -70,6 +71,7 @@ class MainWindow(ArrangedWindow):
         workbench.setParent(self)  # so that Qt ends it with the window, on this thread
         self.notices = NoticeBar(self)
         self.replay_bar = ReplayBar(workbench)
+        self.resume_question = ResumeQuestion(workbench)
         self.panels, found_broken = find_panels(workbench)
         broken = dict(found_broken)
         self.panels.failed = broken.__setitem__  # until there is a place to tell it
@@ -143,6 +145,7 @@ class MainWindow(ArrangedWindow):
         self.first_steps = FirstSteps(self.workbench)
         self.first_steps.asked.connect(self.bring_up)
         column.addWidget(self.replay_bar)
+        column.addWidget(self.resume_question)
         column.addWidget(self.first_steps)
         column.addWidget(self._central_panels(), 1)
         self.setCentralWidget(centre)

@@ -21,8 +21,9 @@ from rotemina.app.shell.helping_button import HelpingButton
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.machine_badge import MachineBadge
 from rotemina.app.shell.model_chip import ModelChip
-from rotemina.app.shell.phase_words import PhaseLabel, Tone, doing, driven, headword, set_tone, tone
+from rotemina.app.shell.state_words import describe_movers, sentence
 from rotemina.app.shell.stop_controls import EmergencyButton, StopButton
+from rotemina.app.shell.tones import PhaseLabel, Tone, set_tone
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import plain_tip
 from rotemina.app.widgets.labels import ElidedLabel
@@ -72,10 +73,10 @@ class StateView(QWidget):
 
     def refresh(self, state: SessionState) -> None:
         """Show a state."""
-        self.phase.setText(headword(state, self._workbench.playback.state))
-        set_tone(self.phase, tone(state))
-        self.doing.show_text(doing(state))
-        self.help.refresh(state)
+        display = self._workbench.describe(state)
+        self.phase.show_word(display.headword, display.tone)
+        self.doing.show_text(display.reason)
+        self.help.show_remedy(display.remedy)
 
 
 class OwnerChip(QLabel):
@@ -93,11 +94,11 @@ class OwnerChip(QLabel):
         """Show who drives."""
         owners = " + ".join(dict.fromkeys(map(spoken, state.owners.values())))
         if owners != self._told:
-            self._show(owners, driven(state))
+            self._show(owners, describe_movers(state))
 
     def _show(self, owners: str, axes: str) -> None:
         self._told = owners
-        self.setText(owners[:1].upper() + owners[1:] if owners else translate("shell", "Free"))
+        self.setText(sentence(owners) if owners else translate("shell", "Free"))
         set_tone(self, Tone.BUSY if owners else Tone.QUIET)
         self.setToolTip(
             plain_tip(

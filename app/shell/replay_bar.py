@@ -17,8 +17,9 @@ from rotemina.app.motion.recording.replay_pace import SPEEDS
 from rotemina.app.motion.state import SessionState
 from rotemina.app.recorded_events import timeline_events
 from rotemina.app.shell.language import translate
-from rotemina.app.shell.phase_words import PhaseLabel, Tone, set_tone
 from rotemina.app.shell.timeline import Timeline
+from rotemina.app.shell.tones import PhaseLabel, Tone, set_tone
+from rotemina.app.shell.window_state import WindowSnapshot, describe_state
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.labels import ElidedLabel
 from rotemina.drivers.samples import DeviceState
@@ -110,7 +111,10 @@ class ReplayBar(QFrame):
         paced = self._replaying.paced
         if paced is None:
             return
-        self.phase.show_state(replace(state, locked=None))  # that it is a replay is said already
+        # That it is a replay, in which nothing can be moved, is said already.
+        recorded = WindowSnapshot(self._workbench.robot, replace(state, locked=None))
+        display = describe_state(recorded)
+        self.phase.show_word(display.headword, display.tone)
         self.play.setText(
             translate("shell", "Pause") if paced.playing else translate("shell", "Play")
         )

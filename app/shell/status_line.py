@@ -1,21 +1,19 @@
-"""The status line: link, age of the data, latency of stops, owners, work in the background."""
+"""The status line: state, age of the data, latency of stops, work in the background."""
 
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
-from rotemina.app.shell.phase_words import driven, word
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.labels import ElidedLabel
 from rotemina.sim.quantities import fixed
 
 
 class StatusText(ElidedLabel):
-    """One line that says how the connection stands."""
+    """One line with the state of the machine and the figures of its connection."""
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__()
         self._busy = ""
-        self._session = workbench.session
+        self._workbench, self._session = workbench, workbench.session
         workbench.busy_changed.connect(self._set_busy)
         workbench.refreshed.connect(self._refresh)
 
@@ -23,11 +21,8 @@ class StatusText(ElidedLabel):
         self._busy = text
 
     def _refresh(self, state: SessionState) -> None:
-        parts = [f"{self._session.driver.name}: {word(state)}"]
-        if state.latched is not None:
-            parts.append(
-                translate("shell", "{latched} active").format(latched=spoken(state.latched))
-            )
+        headword = self._workbench.describe(state).headword
+        parts = [f"{self._session.driver.name}: {headword}"]
         if state.age_s is not None:
             parts.append(translate("shell", "data {age} old").format(age=age(state.age_s)))
         if state.stop_latency is not None:
@@ -40,7 +35,7 @@ class StatusText(ElidedLabel):
             parts.append(
                 translate("shell", "last stop {ms:.1f} ms").format(ms=1e3 * state.stop_latency_s)
             )
-        parts += [text for text in (driven(state), self._busy) if text]
+        parts += [self._busy] if self._busy else []
         self.show_text("   ·   ".join(parts))
 
 

@@ -9,13 +9,15 @@ from typing import TypeVar
 from PySide6.QtCore import QMetaMethod, QTimer, Signal
 
 from rotemina.app.microscope.microscope import Microscope
+from rotemina.app.microscope.status import Activity
 from rotemina.app.motion.compared_run import Run, compared, compared_again
 from rotemina.app.motion.model_in_use import ModelInUse
 from rotemina.app.motion.operation import Operation
 from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.motion.penetration.status import Phase as PenetrationPhase
-from rotemina.app.motion.playback import Playback, PlaybackPhase
+from rotemina.app.motion.playback import Playback, PlaybackPhase, PlaybackState
 from rotemina.app.motion.recording.replay import Replay
+from rotemina.app.motion.resuming import ResumeStep, Resumption
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import (
     Alarmed,
@@ -42,8 +44,10 @@ from rotemina.app.shell.progress_line import Progress
 from rotemina.app.shell.record_library import RecordLibrary
 from rotemina.app.shell.replaying import Replaying, opened, remark
 from rotemina.app.shell.requests_at_rest import AtRest, WaitingRequest
+from rotemina.app.shell.steady_meaning import SteadyMeaning
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.turns import Turns
+from rotemina.app.shell.window_state import StateDisplay, WindowSnapshot, describe_state
 from rotemina.drivers.gate import Permit
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.records.reading import read_record
@@ -100,6 +104,8 @@ class Workbench(Requests):
     diagnosis_asked() : the records that are chosen are to be diagnosed.
     speed_limit_asked(Plan, callable, WaitingRequest) : it is to be played by a call, but nothing
         limits the speed of an axis; the request waits for the answer.
+    resume_asked(bool) : axes were moved during the pause, and the operator is to choose how to go
+        on; False: there is nothing to choose any more.
     stopped() : someone asked for a stop; what waits for an answer is withdrawn.
     theme_changed(Theme)
     closing() : the window goes; what a panel has under way must end before this returns.
@@ -116,6 +122,7 @@ class Workbench(Requests):
     theme_changed = Signal(object)
     diagnosis_asked = Signal()
     speed_limit_asked = Signal(object, object, object)
+    resume_asked = Signal(bool)
     stopped = Signal()
     closing = Signal()
     _happened = Signal(object)
@@ -159,6 +166,9 @@ class Workbench(Requests):
         )
         # Before this subscribes itself: when it hears of an end, the playback knows it already.
         self.playback = Playback(session, self._exceeded.emit)
+        self.resumption = Resumption(session, self.playback, self.ask_aside, self.refused.emit)
+        #: Of what plays, pauses and resumes: what a press does now, and since when.
+        self.play_meaning = SteadyMeaning()
         self.operation = Operation(
             session, settings.folder, played_folder.parent, told=self._told.emit
         )
@@ -283,31 +293,39 @@ class Workbench(Requests):
                 ),
             )
 
-    def press_play(self, shown: PlaybackPhase) -> None:
-        """Do what a button says that plays, pauses or resumes; it was written for this phase.
-
-        The playback may have gone on since: what the button did not say is not done.
-        """
-        if self.playback.state.phase is shown:
-            self.toggle_playback()
-        else:
-            text = translate(
-                "shell",
-                "Nothing was done: the playback began, paused or ended just before the press. "
-                "Read the button, then press again.",
-            )
-            self.notify(Level.WARNING, text, about="motion.md#requests-that-wait")
+    def against_toggling(self, state: PlaybackState) -> str | None:
+        """Return why a press that plays, pauses or resumes does not count now; None: it does."""
+        if self.resumption.waits_for is not ResumeStep.NONE:
+            return translate("shell", "the playback is being resumed")
+        if state.pausing:
+            return translate("shell", "the axes are still moving")
+        if not self.play_meaning.is_settled(state.phase):
+            return translate("shell", "the button has only just changed")
+        return None
 
     def toggle_playback(self) -> None:
-        """Play, pause, or continue, whichever comes next."""
-        phase = self.playback.state.phase
-        if phase is PlaybackPhase.PLAYING:
+        """Play, pause, or continue, whichever comes next and was shown when it was asked for."""
+        state = self.playback.state
+        if (why := self.against_toggling(state)) is not None:
+            text = translate("shell", "Not done: {why}.").format(why=why)
+            self.notify(Level.INFO, text, about="motion.md#playing-by-hand")
+        elif state.phase is PlaybackPhase.PLAYING:
             self.ask(lambda: self.playback.pause(by=OPERATOR))
-        elif phase is PlaybackPhase.PAUSED:
-            permit, pace = self.session.permit(), self.pace
-            self.ask_aside(lambda: self.playback.resume(speed=pace, permit=permit))
-        else:
+        elif state.phase is PlaybackPhase.IDLE:
             self.play_limited(self.plan, self.play)
+        elif state.moved:
+            self.resume_asked.emit(True)
+        else:
+            self.resume_playback(moves_back=False)
+
+    def resume_playback(self, *, moves_back: bool) -> None:
+        """Resume when the machine rests; with ``moves_back`` after its axes have returned."""
+        self.resumption.begin(self.session.permit(), speed=self.pace, moves_back=moves_back)
+
+    def start_playback_over(self) -> None:
+        """Play what is paused again from its first row."""
+        permit, pace = self.session.permit(), self.pace
+        self.ask_aside(lambda: self.playback.start_over(speed=pace, permit=permit))
 
     def play_limited(
         self,
@@ -594,9 +612,35 @@ class Workbench(Requests):
         )
         self.long_work("last recording", progress, work, lambda _: done(), undone)
 
+    def describe(self, state: SessionState) -> StateDisplay:
+        """Return what the window says of the machine in a state."""
+        activity = self.microscope.runs.activity
+        return describe_state(
+            WindowSnapshot(
+                self.robot,
+                state,
+                self.playback.state,
+                self.resumption.waits_for,
+                self.operation.penetration.status,
+                "" if activity is Activity.NONE else activity,
+            )
+        )
+
+    def _follow_playback(self) -> None:
+        """Resume what is to be resumed, and withdraw a question that needs no answer."""
+        self.resumption.step()
+        playback = self.playback.state
+        self.play_meaning.show(playback.phase)
+        # An axis that moves now may come back, or go farther: the question waits for it.
+        if playback.phase is not PlaybackPhase.PAUSED or (
+            self.session.at_rest and not playback.moved
+        ):
+            self.resume_asked.emit(False)
+
     def _refresh(self) -> None:
         state = self.session.snapshot()
         self.turns.begin(state)
+        self._follow_playback()
         self._check_plan(state)
         self._played.look()
         self._penetrated.look()
@@ -630,6 +674,7 @@ class Workbench(Requests):
         """Take a trajectory in hand that was tried on the model."""
         if self.playback.state.phase is PlaybackPhase.PAUSED:
             self.playback.end()  # what was paused is not what is in hand
+        self.session.dismiss_stop()
         self.plan = plan
         self.plan_changed.emit(plan)
         if not plan.dry_run.allowed:

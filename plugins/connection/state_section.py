@@ -2,7 +2,7 @@
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.phase_words import PhaseLabel
+from rotemina.app.shell.tones import PhaseLabel
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button
 from rotemina.app.widgets.labels import plain_text
@@ -26,11 +26,12 @@ class StateSection(Section):
         self.confirm = button(tr("Confirm position"), workbench.confirm_position)
         self.add_row(self.emergency, self.release)
         self.add_row(self.clear, self.confirm)
-        self._session = workbench.session
+        self._workbench, self._session = workbench, workbench.session
 
     def refresh(self, state: SessionState) -> None:
         """Show a state."""
-        self.phase.show_state(state)
+        display = self._workbench.describe(state)
+        self.phase.show_word(display.headword, display.tone)
         self.device.setText(self._session.driver.name)
         locked = state.locked
         self.reason.setText(

@@ -190,7 +190,7 @@ class JobPanel(Panel):
         playback = bench.playback.state
         name = bench.plan.name if bench.plan is not None else ""
         idle = playback.phase is PlaybackPhase.IDLE
-        running = words.playback(playback, name)
+        running = words.playback(playback, name, bench.robot)
         if idle and (waits := waiting_words(bench)):
             running = running._replace(doing=waits)
         self.playback.show_running(running)

@@ -9,10 +9,11 @@ from rotemina.app.motion.penetration.status import PenetrationStatus, Phase
 from rotemina.app.motion.playback import PlaybackPhase, PlaybackState
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.phase_words import driven
+from rotemina.app.shell.state_words import describe_moved, describe_movers
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.job import tr
 from rotemina.plugins.penetration.words import headline
+from rotemina.sim.robot.model import Robot
 
 
 class Running(NamedTuple):
@@ -33,7 +34,7 @@ class Running(NamedTuple):
     share: float | None = None
 
 
-def playback(state: PlaybackState, name: str) -> Running:
+def playback(state: PlaybackState, name: str, robot: Robot) -> Running:
     """Return the state of a playback, or that ``name`` is ready to be played."""
     if not name:
         return Running(tr("No trajectory is loaded"))
@@ -41,7 +42,7 @@ def playback(state: PlaybackState, name: str) -> Running:
         return Running(name, tr("loaded"))
     row = tr("row {row} of {rows}").format(row=max(state.row, 0) + 1, rows=state.rows)
     if state.phase is PlaybackPhase.PAUSED:
-        row = tr("paused, {row}").format(row=row)
+        row = describe_moved(robot, state) or tr("paused, {row}").format(row=row)
     left_s = (state.duration_s - state.path_s) / state.speed
     left = tr("{time} left").format(time=duration_text(left_s))
     share = state.path_s / state.duration_s if state.duration_s else 0.0
@@ -67,4 +68,4 @@ def motion(state: SessionState) -> Running | None:
         return None
     if PLAYBACK in state.owners.values():
         return None
-    return Running(driven(state) or tr("The axes are moving"))
+    return Running(describe_movers(state) or tr("The axes are moving"))

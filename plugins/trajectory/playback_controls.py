@@ -5,6 +5,7 @@ from PySide6.QtWidgets import QComboBox, QDoubleSpinBox, QProgressBar, QPushButt
 from rotemina.app.motion.playback import PlaybackPhase, PlaybackState
 from rotemina.app.motion.retiming import FASTEST, SLOWEST
 from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.state_words import describe_moved
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.changing_button import ChangingButton
 from rotemina.app.widgets.controls import allow, fill, named
@@ -18,13 +19,16 @@ _FORBIDDEN = mark("the dry run found a problem")
 
 
 def against_playing(workbench: Workbench, session: SessionState) -> str | None:
-    """Return why the plan in hand cannot be played, or gone on with, now; None: it can."""
-    paused = workbench.playback.state.phase is PlaybackPhase.PAUSED
-    missing = None if paused else _missing(workbench)
+    """Return why the plan in hand cannot be played, paused or resumed now; None: it can."""
+    playback = workbench.playback.state
+    changing = workbench.against_toggling(playback)
+    if playback.phase is PlaybackPhase.PLAYING:
+        return changing
+    missing = None if playback.phase is PlaybackPhase.PAUSED else _missing(workbench)
     missing = missing or workbench.at_rest.against_another
     if missing is None and session.locked is None and session.activity is not DeviceState.IDLE:
         return tr("the axes are still moving")
-    return missing or session.locked
+    return missing or session.locked or changing
 
 
 def _missing(workbench: Workbench) -> str | None:
@@ -48,25 +52,22 @@ class PlayButton(ChangingButton):
     """Plays, pauses or resumes the trajectory in hand, as it says."""
 
     def __init__(self, workbench: Workbench) -> None:
-        super().__init__(*map(play_word, PlaybackPhase))
+        super().__init__(tr("Play"), tr("Pause"), tr("Resume"), run=workbench.toggle_playback)
         self._workbench = workbench
-        self._shown = PlaybackPhase.IDLE
         self.setProperty("primary", True)
-        self.clicked.connect(lambda _: workbench.press_play(self._shown))
 
     def refresh(self, session: SessionState) -> None:
         """Show what the next press does, or why it can do nothing now."""
-        self._shown = self._workbench.playback.state.phase
-        playing = self._shown is PlaybackPhase.PLAYING
-        self.show_meaning(play_word(self._shown), stops=playing)
+        self.show_meaning(play_word(self._workbench.playback.state))
         tip = tr("Play, pause or resume (Ctrl+P); the axes first move to the first row")
-        allow(self, None if playing else against_playing(self._workbench, session), tip)
+        allow(self, against_playing(self._workbench, session), tip)
 
 
-def play_word(phase: PlaybackPhase) -> str:
+def play_word(playback: PlaybackState) -> str:
     """Return what the one button of a playback does now."""
-    words = {PlaybackPhase.PLAYING: tr("Pause"), PlaybackPhase.PAUSED: tr("Resume")}
-    return words.get(phase, tr("Play"))
+    if playback.pausing or playback.phase is PlaybackPhase.PAUSED:
+        return tr("Resume")
+    return tr("Pause") if playback.phase is PlaybackPhase.PLAYING else tr("Play")
 
 
 class Transport(QWidget):
@@ -121,7 +122,7 @@ class Transport(QWidget):
         )
         still = tr("a trajectory is playing") if playing else missing or session.locked
         if paused and session.locked is None:
-            still = None
+            still = describe_moved(self._workbench.robot, state) or None
         tip = tr("Move to the next rows at the speed of the axes and stop there")
         allow(self.forward, still, tip)
         allow(self.back, still or (None if paused else tr("nothing is paused")), tip)
@@ -154,6 +155,9 @@ class Transport(QWidget):
             if state.row >= 0
             else tr("before its first row")
         )
+        if moved := describe_moved(self._workbench.robot, state):
+            self.progress.setFormat(moved)
+            return
         paused = tr("paused, ") if state.phase is PlaybackPhase.PAUSED else ""
         self.progress.setFormat(
             tr("{paused}{row}, {left_s:.1f} s left").format(paused=paused, row=row, left_s=left_s)

@@ -74,6 +74,8 @@ def told(*_):
 HARMLESS = {
     "profiles.abort": lambda session: session.profiles.abort(),
     "at_rest": lambda session: session.at_rest,
+    "dismiss_stop": lambda session: session.dismiss_stop(),
+    "is_untouched_since_stop": lambda session: session.is_untouched_since_stop,
     "check_play": lambda session: session.check_play(PATH),
     "tip_path": lambda session: session.tip_path(PATH),
     "bar": lambda session: session.bar("a replay"),

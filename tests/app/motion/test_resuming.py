@@ -6,6 +6,7 @@ import pytest
 from rotemina.app.motion.playback import Playback, PlaybackPhase
 from rotemina.app.motion.resuming import ResumeStep, Resumption
 from rotemina.drivers.samples import DeviceState
+from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.trajectory.checked_trajectory import check
 
@@ -19,9 +20,7 @@ class Bench:
         self.stepped, self.session = stepped, stepped.session
         self.playback = Playback(self.session)
         self.refusals = []
-        self.resumption = Resumption(
-            self.session, self.playback, lambda request: request(), self.refusals.append
-        )
+        self.resumption = Resumption(self.session, self.playback, self._ask, self.refusals.append)
         time_s = np.arange(ROWS) * 1e-3
         path = 0.02 + 4e-3 * np.sin(np.pi * time_s / 2.0) ** 4
         record = Record.from_signals(time_s, {("x", Tap.CMD): path}, {"x": "m"})
@@ -29,6 +28,15 @@ class Bench:
         while self.playback.state.row < 500:
             stepped.step(0.005)
         self.playback.pause()
+
+    def _ask(self, request, done, undone):
+        try:
+            request()
+        except InputError as error:
+            self.refusals.append(str(error))
+            undone()
+        else:
+            done()
 
     def begin(self, **options):
         self.resumption.begin(self.session.permit(), **options)

@@ -149,13 +149,6 @@ def test_play_during_a_dry_run_is_refused_and_not_played_by_the_plan_before(qtbo
     assert bench.playback.state.phase is PlaybackPhase.IDLE
 
 
-def test_a_play_button_does_what_it_says_or_nothing(qtbot, window):
-    plan(qtbot, window)
-    window.workbench.press_play(PlaybackPhase.PAUSED)  # it says "Resume", and nothing is paused
-    assert "Nothing was done" in notices(window)[0]
-    assert window.workbench.playback.state.phase is PlaybackPhase.IDLE
-
-
 def test_a_motion_waiting_for_its_dry_run_is_withdrawn_when_another_is_loaded(qtbot, window):
     bench, played = window.workbench, []
     request = WaitingRequest(bench, WITHDRAWN)
