@@ -11,7 +11,7 @@ from PySide6.QtCore import QObject, Signal
 
 from rotemina.app.shell.help_topics import explained
 from rotemina.app.shell.language import translate
-from rotemina.sim.errors import InputError
+from rotemina.sim.errors import ToldError
 
 logger = logging.getLogger(__name__)
 Answer = TypeVar("Answer")
@@ -28,7 +28,7 @@ def _outcome(work: Callable[[], object]) -> tuple[object, str]:
     """Return the answer of work, and what it failed with or nothing."""
     try:
         return work(), ""
-    except InputError as error:
+    except ToldError as error:
         return None, explained(error)
     except Exception as error:  # a fault of the program must reach the operator, not vanish
         logger.exception("work in the background failed")
@@ -68,7 +68,7 @@ class Background(QObject):
 
         That is ``done(answer)``, ``failed(message)``, or ``replaced()`` if a later request of the
         same kind has taken its place.
-        The message of an :class:`InputError` knows its page of the help.
+        The message of an error of this program knows its page of the help.
         """
         self._count += 1
         number = self._latest[kind] = self._count

@@ -1,14 +1,17 @@
 """Which page explains a message: a table by where its error, event or log record comes from."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from typing import NamedTuple
 
 from PySide6.QtCore import QObject
 
-from rotemina.app.shell.engine_words import error_text
+from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.language import error_message, spoken
+from rotemina.app.shell.notice_identity import repeat_key
 
 _LIMITS = "motion.md#limits"
 _FAULTS = "faults.md#what-a-message-means"
+Until = Callable[[SessionState], bool]
 
 #: Module, or class in it -> page. The longest name counts, and a class before those it is made of.
 PAGES = {
@@ -88,32 +91,66 @@ class Remedy(NamedTuple):
 
 
 class Explained(str):
-    """A message that knows the page which explains it, "" where none does, and a remedy if any."""
+    """A message with what its notice needs to know.
 
-    __slots__ = ("page", "remedy")
+    Attributes
+    ----------
+    page : str
+        The page that explains it, "" where none does.
+    remedy : Remedy or None
+    subject : hashable or None
+        The request that it is about: it is settled when that is done.
+    until : callable or None
+        Returns whether it is settled, by the state of the session.
+    is_refusal : bool
+        Whether nothing has happened but that a request was not taken.
+    key : hashable
+        What it has in common with its repeats.
+    """
+
+    __slots__ = ("is_refusal", "key", "page", "remedy", "subject", "until")
     page: str
     remedy: Remedy | None
+    subject: Hashable | None
+    until: Until | None
+    is_refusal: bool
+    key: Hashable
 
-    def __new__(cls, text: str, page: str, remedy: Remedy | None = None) -> "Explained":
-        """Return the text with its page and its remedy."""
-        made = super().__new__(cls, text)
-        made.page, made.remedy = page, remedy
+    def __new__(
+        cls,
+        text: str,
+        page: str = "",
+        remedy: Remedy | None = None,
+        *,
+        subject: Hashable | None = None,
+        until: Until | None = None,
+        is_refusal: bool = False,
+    ) -> "Explained":
+        """Return a message in the language of the window; one that is explained stays so."""
+        made = super().__new__(cls, spoken(text))
+        known = text if isinstance(text, Explained) else None
+        made.page = (known.page if known else "") or page
+        made.remedy = remedy or (known.remedy if known else None)
+        made.subject = subject if subject is not None or known is None else known.subject
+        made.until = until or (known.until if known else None)
+        made.is_refusal = is_refusal or (known is not None and known.is_refusal)
+        made.key = known.key if known else repeat_key(text)
         return made
 
 
-def explained(error: BaseException) -> Explained:
-    """Return what an error says, in the language of the window, with the page on such errors."""
-    return Explained(error_text(error), page_for(error))
+def explained(error: BaseException, *, refused: Hashable | None = None) -> Explained:
+    """Return what an error says, in the language of the window, with the page on such errors.
+
+    ``refused`` is the request that was not taken, if it is a refusal.
+    """
+    return Explained(
+        error_message(error), page_for(error), subject=refused, is_refusal=refused is not None
+    )
 
 
 def page_of(text: str) -> str:
     """Return the page that a message knows."""
     return text.page if isinstance(text, Explained) else ""
-
-
-def remedy_of(text: str) -> Remedy | None:
-    """Return the remedy that a message knows."""
-    return text.remedy if isinstance(text, Explained) else None
 
 
 def page_for(about: object) -> str:

@@ -38,6 +38,11 @@ class Plan:
     path: TipPath | None = None
     standing: tuple[object, ...] = ()
 
+    @property
+    def objection(self) -> str:
+        """Why it would not be played, by its limits or from where the machine stands; else ""."""
+        return self.refusal if self.dry_run.allowed else self.dry_run.objections[0]
+
     @classmethod
     def tried(cls, session: MotionSession, name: str, trajectory: Record) -> "Plan":
         """Try a trajectory on the model, and from where the machine stands; nothing moves.

@@ -8,7 +8,7 @@ from PySide6.QtCore import (
     QTimer,
     Signal,
 )
-from PySide6.QtGui import QColor, QGuiApplication, QHideEvent, QShowEvent
+from PySide6.QtGui import QColor, QGuiApplication, QHideEvent, QShowEvent, QTextOption
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QComboBox,
@@ -17,6 +17,7 @@ from PySide6.QtWidgets import (
     QHeaderView,
     QLabel,
     QLineEdit,
+    QPlainTextEdit,
     QPushButton,
     QTableView,
     QVBoxLayout,
@@ -144,7 +145,12 @@ class LogPage(QDialog):
         self.help.setAutoDefault(False)
         self.help.setAccessibleName(translate("shell", "Help on the selected message"))
         self.help.clicked.connect(lambda: self.asked.emit(self._page()))
-        self.table.selectionModel().selectionChanged.connect(lambda *_: self._allow_help())
+        self.table.selectionModel().selectionChanged.connect(lambda *_: self._show_selected())
+        self.whole = QPlainTextEdit()
+        self.whole.setReadOnly(True)
+        self.whole.setWordWrapMode(QTextOption.WrapMode.WrapAtWordBoundaryOrAnywhere)
+        self.whole.setAccessibleName(translate("shell", "All of the selected message"))
+        self.whole.hide()
         self._lay_out()
         self.level.currentIndexChanged.connect(lambda _: self._show_messages())
         self.words.textChanged.connect(lambda _: self._show_messages())
@@ -186,11 +192,20 @@ class LogPage(QDialog):
         messages = self._log.messages()
         picked = chosen(messages, self.level.currentData(), self.words.text())
         self.model.show_messages(picked)
+        self.whole.hide()
         self.count.setText(
             translate("shell", "{n} of {all} messages").format(n=len(picked), all=len(messages))
         )
         tip = translate("shell", "Copy the selected messages, or all displayed ones")
         allow(self.copy, None if picked else translate("shell", "no message is shown"), tip)
+        self._allow_help()
+
+    def _show_selected(self) -> None:
+        """Show all of the text of one message, which has but a line in the table."""
+        rows = self.table.selectionModel().selectedRows()
+        self.whole.setVisible(len(rows) == 1)
+        if len(rows) == 1:
+            self.whole.setPlainText(self.model.message(rows[0].row()).text)
         self._allow_help()
 
     def _show_lateness(self) -> None:
@@ -246,5 +261,6 @@ class LogPage(QDialog):
         top.addWidget(self.copy)
         column = QVBoxLayout(self)
         column.addLayout(top)
-        column.addWidget(self.table, 1)
+        column.addWidget(self.table, 2)
+        column.addWidget(self.whole, 1)
         column.addWidget(self.lateness)

@@ -35,7 +35,7 @@ from rotemina.app.shell.log_page import LogPage
 from rotemina.app.shell.machine_badge import Machine, window_title
 from rotemina.app.shell.message_log import MessageLog
 from rotemina.app.shell.motion_bar import MotionBar
-from rotemina.app.shell.notices import NoticeBar
+from rotemina.app.shell.notices import NoticeBoard
 from rotemina.app.shell.palette import Palette
 from rotemina.app.shell.palette_entries import Entry, PanelGuard, command_entries, panel_entries
 from rotemina.app.shell.panel_declarations import PanelKind
@@ -44,7 +44,7 @@ from rotemina.app.shell.progress_line import ProgressLine
 from rotemina.app.shell.quit_dialog import Leaving
 from rotemina.app.shell.recent_files import RecentFiles
 from rotemina.app.shell.record_chooser import ask_records
-from rotemina.app.shell.reloading import Reloading, ReloadMenu
+from rotemina.app.shell.reloading import Reloading, ReloadMenu, panel_subject
 from rotemina.app.shell.replay_bar import ReplayBar
 from rotemina.app.shell.resume_question import ResumeQuestion
 from rotemina.app.shell.status_line import StatusText
@@ -69,7 +69,7 @@ class MainWindow(ArrangedWindow):
         self.setAnimated(False)  # Qt would move every dock by an animation at each new layout
         self.workbench = workbench
         workbench.setParent(self)  # so that Qt ends it with the window, on this thread
-        self.notices = NoticeBar(self)
+        self.notices = NoticeBoard(self)
         self.replay_bar = ReplayBar(workbench)
         self.resume_question = ResumeQuestion(workbench)
         self.panels, found_broken = find_panels(workbench)
@@ -116,6 +116,8 @@ class MainWindow(ArrangedWindow):
         self.notices.asked.connect(self.help_page.open_page)
         self.notices.more_asked.connect(self.show_log)
         workbench.acted.connect(self.notices.act)
+        workbench.settled.connect(self.notices.settle)
+        workbench.refreshed.connect(self.notices.look_at)
         self.log_page.asked.connect(self.help_page.open_page)
         workbench.refreshed.connect(self._refresh)
         workbench.plan_changed.connect(
@@ -215,7 +217,7 @@ class MainWindow(ArrangedWindow):
             name=name, reason=reason
         )
         page = "plugins.md#what-a-bad-plugin-can-do"
-        message = Explained(text, page, self.reloading.remedy(name))
+        message = Explained(text, page, self.reloading.remedy(name), subject=panel_subject(name))
         self.workbench.notify(Level.ERROR, message)
 
     def _make_menus(self) -> None:
@@ -330,7 +332,12 @@ class MainWindow(ArrangedWindow):
         """Ask where to, and save the record in hand."""
         if self.workbench.record is None:
             text = translate("shell", "There is no record to save: play or open one.")
-            self.workbench.notify(Level.WARNING, text, about="comparison.md")
+            self.workbench.notify(
+                Level.WARNING,
+                text,
+                about="comparison.md",
+                until=lambda _: self.workbench.record is not None,
+            )
             return
         title, kinds = (
             translate("shell", "Save record"),

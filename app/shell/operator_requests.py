@@ -1,6 +1,6 @@
 """What an operator asks of the motion session: thin requests, whose refusals are told."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from itertools import count
 from typing import NamedTuple
 
@@ -9,8 +9,9 @@ from PySide6.QtCore import QObject, Signal
 from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.shell.background import Background
-from rotemina.app.shell.help_topics import explained
+from rotemina.app.shell.help_topics import Explained, explained
 from rotemina.app.shell.language import translate
+from rotemina.app.shell.notice_identity import request_subject
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.settings import SettingValue
 from rotemina.sim.errors import InputError
@@ -35,6 +36,8 @@ class Requests(QObject):
     refused(str) : a request that was not taken, and why.
     withdrawn(str) : a request that waited ended without effect, and why.
     acted() : a request was taken.
+    settled(hashable) : the request or work of this subject was taken or done; what was told of an
+        earlier failure is over.
     ports_offered(tuple of OfferedPort) : where virtual boards listen now.
     panel_asked(str) : the panel of that name is to be shown.
     """
@@ -42,6 +45,7 @@ class Requests(QObject):
     refused = Signal(object)
     withdrawn = Signal(str)
     acted = Signal()
+    settled = Signal(object)
     ports_offered = Signal(object)
     panel_asked = Signal(str)
 
@@ -158,23 +162,30 @@ class Requests(QObject):
         So a stop never waits for it. The request takes a permit that was drawn before this call.
         ``done`` or ``undone`` is called when it was taken, or was refused and that is told.
         """
+        subject = request_subject(request)
 
         def refused(reason: str) -> None:
-            self.refused.emit(reason)
+            is_refusal = isinstance(reason, Explained)  # else a fault of the program
+            self.refused.emit(Explained(reason, subject=subject, is_refusal=is_refusal))
             undone()
 
         def taken(_: object) -> None:
-            self.acted.emit()
+            self._take(subject)
             done()
 
         self._aside.run(f"request {next(self._asked_aside)}", request, taken, refused)
 
     def ask(self, request: Callable[[], object]) -> bool:
         """Make a request of the session; a refusal is told. Return whether it was taken."""
+        subject = request_subject(request)
         try:
             request()
         except (InputError, OSError, ValueError, RuntimeError) as error:
-            self.refused.emit(explained(error))
+            self.refused.emit(explained(error, refused=subject))
             return False
-        self.acted.emit()
+        self._take(subject)
         return True
+
+    def _take(self, subject: Hashable) -> None:
+        self.acted.emit()
+        self.settled.emit(subject)

@@ -25,6 +25,7 @@ from rotemina.app.panel import Panel
 from rotemina.app.shell.help_topics import Explained, Remedy
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.panel_declarations import PanelKind
+from rotemina.app.shell.reloading import panel_subject
 from rotemina.app.shell.workbench import Level
 
 logger = logging.getLogger(__name__)
@@ -169,14 +170,17 @@ class PanelWatch(QObject):
                 else translate("shell", "Panel {name!r} is left out after {n} faults: {error}")
             )
             told = text.format(name=name, n=self._faults[name], error=_said(error))
-            self._tell(Level.ERROR, Explained(told, _PAGE, self._remedy(name)))
+            self._tell(Level.ERROR, self._explained(told, name))
             # Not now: this may be in the middle of the panel's own event.
             QTimer.singleShot(0, self._window, lambda: self._take_out(panel, dock))
         elif self._faults[name] == 1:
             text = translate("shell", "Panel {name!r} has failed: {error}")
             told = text.format(name=name, error=_said(error))
-            self._tell(Level.WARNING, Explained(told, _PAGE, self._remedy(name)))
+            self._tell(Level.WARNING, self._explained(told, name))
         return True
+
+    def _explained(self, text: str, name: str) -> Explained:
+        return Explained(text, _PAGE, self._remedy(name), subject=panel_subject(name))
 
     def _owner(self, frame: FrameType) -> str | None:
         """Return the panel whose code a frame runs; several classes may share a module."""

@@ -1,6 +1,6 @@
 """The records of playbacks: stored as soon as a playback ends, and compared with the model."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from pathlib import Path
 from typing import Protocol, TypeVar
 
@@ -21,9 +21,20 @@ class Work(Protocol):
     """Work in the background, as :meth:`~rotemina.app.shell.workbench.Workbench.work`."""
 
     def __call__(
-        self, kind: str, doing: str, work: Callable[[], Answer], done: Callable[[Answer], None]
+        self,
+        kind: str,
+        doing: str,
+        work: Callable[[], Answer],
+        done: Callable[[Answer], None],
+        *,
+        subject: Hashable | None = None,
     ) -> None:
         """Do something and hand its answer on."""
+
+
+def keeping(record: Record) -> Hashable:
+    """Return what notices about writing a played record are known by, whichever file takes it."""
+    return "keep", id(record)
 
 
 class PlayedRecords(QObject):
@@ -108,7 +119,13 @@ class PlayedRecords(QObject):
             self._library.add(path, record, name)
 
         storing = translate("shell", "Storing {name} …").format(name=path.name)
-        self._work(f"keep {path.name}", storing, lambda: write_played(record, path), done)
+        self._work(
+            f"keep {path.name}",
+            storing,
+            lambda: write_played(record, path),
+            done,
+            subject=keeping(record),
+        )
         return path
 
     def _compare(

@@ -2,7 +2,7 @@
 
 import importlib
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Hashable, Iterator, Mapping
 from functools import partial
 from importlib.metadata import EntryPoint, entry_points
 from types import ModuleType
@@ -130,6 +130,7 @@ class Reloading(QObject):
         self.renewed.emit(name, kind)
         if self._panels.make(name) is not None:
             text = translate("shell", "Panel {name!r} is reloaded").format(name=name)
+            self._bench.settled.emit(panel_subject(name))
             self._bench.notify(Level.GOOD, text)
 
     def _central(self, name: str) -> bool:
@@ -138,7 +139,17 @@ class Reloading(QObject):
 
     def _refuse(self, name: str, reason: str) -> None:
         text = translate("shell", "Panel {name!r} is not reloaded: {reason}")
-        self._bench.notify(Level.ERROR, text.format(name=name, reason=reason), about=_PAGE)
+        self._bench.notify(
+            Level.ERROR,
+            text.format(name=name, reason=reason),
+            about=_PAGE,
+            subject=panel_subject(name),
+        )
+
+
+def panel_subject(name: str) -> Hashable:
+    """Return what notices about a panel's faults are known by, until it is reloaded."""
+    return "panel", name
 
 
 class ReloadMenu(QMenu):

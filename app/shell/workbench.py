@@ -1,7 +1,7 @@
 """What all panels share: the robot, the motion session, and the trajectory and record in hand."""
 
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from enum import StrEnum
 from pathlib import Path
 from typing import TypeVar
@@ -22,6 +22,7 @@ from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import (
     Alarmed,
     CommandRefused,
+    Connection,
     Event,
     Faulted,
     ModelChanged,
@@ -34,12 +35,12 @@ from rotemina.app.records.library import commands, read
 from rotemina.app.settings import Settings
 from rotemina.app.shell.background import Background
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.help_topics import Explained, page_for, page_of, remedy_of
+from rotemina.app.shell.help_topics import Explained, Until, page_for, page_of
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.loaded_trajectory import Plan
 from rotemina.app.shell.operator_requests import Requests
 from rotemina.app.shell.penetration_records import PenetrationRecords
-from rotemina.app.shell.played_records import PlayedRecords
+from rotemina.app.shell.played_records import PlayedRecords, keeping
 from rotemina.app.shell.progress_line import Progress
 from rotemina.app.shell.record_library import RecordLibrary
 from rotemina.app.shell.replaying import Replaying, opened, remark
@@ -50,6 +51,8 @@ from rotemina.app.shell.turns import Turns
 from rotemina.app.shell.window_state import StateDisplay, WindowSnapshot, describe_state
 from rotemina.drivers.gate import Permit
 from rotemina.drivers.samples import DeviceState
+from rotemina.sim.errors import InputError
+from rotemina.sim.messages import PlainText, joined
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record
 from rotemina.sim.records.writing import write_record
@@ -238,16 +241,37 @@ class Workbench(Requests):
         """Whether work in the background has yet to end."""
         return self._background.busy
 
-    def notify(self, level: Level, text: str, about: object = None) -> None:
+    def notify(
+        self,
+        level: Level,
+        text: str,
+        about: object = None,
+        *,
+        until: Until | None = None,
+        subject: Hashable | None = None,
+    ) -> None:
         """Tell the operator something.
 
         ``about`` is the error that is told of, or a widget of the panel that tells, or the name
         of a page: the notice has a "?" that opens the page on it. A text that knows its page, as
         those of failures in the background do, needs none.
+
+        The notice goes when its cause is gone: as soon as ``until`` is true of the session's
+        state, or when :attr:`settled` names its ``subject``, the request or work that failed.
         """
-        text = Explained(spoken(text), page_of(text) or page_for(about), remedy_of(text))
-        logger.log(logging.WARNING if level in (Level.WARNING, Level.ERROR) else logging.INFO, text)
-        self.noticed.emit(level, text)
+        told = Explained(
+            text,
+            page_for(about),
+            subject=subject,
+            until=until,
+            is_refusal=isinstance(about, InputError),
+        )
+        logger.log(logging.WARNING if level in (Level.WARNING, Level.ERROR) else logging.INFO, told)
+        self.noticed.emit(level, told)
+
+    def refuse(self, text: str, about: object = None) -> None:
+        """Tell why nothing was done, as :meth:`notify` does; it goes with the next action."""
+        self.notify(Level.ERROR, Explained(text, is_refusal=True), about=about)
 
     def set_theme(self, theme: Theme) -> None:
         """Change the colours of everything."""
@@ -283,7 +307,12 @@ class Workbench(Requests):
             request.withdraw(text.format(name=self.planning))
         elif plan is None:
             text = translate("shell", "There is no trajectory to play: load one first.")
-            self.notify(Level.WARNING, text, about="trajectory.md")
+            self.notify(
+                Level.WARNING,
+                text,
+                about="trajectory.md",
+                until=lambda _: self.plan is not None,
+            )
         elif self.ask(plan.dry_run.require):
             checked, pace, bounds = plan.dry_run.require(), self.pace, dict(self.bounds)
             self.at_rest.do(
@@ -481,7 +510,12 @@ class Workbench(Requests):
         record = self.record
         if record is None:
             text = translate("shell", "There is no record to save: play or open one first.")
-            self.notify(Level.WARNING, text, about="comparison.md")
+            self.notify(
+                Level.WARNING,
+                text,
+                about="comparison.md",
+                until=lambda _: self.record is not None,
+            )
             return
 
         self.write_file(
@@ -511,22 +545,26 @@ class Workbench(Requests):
         *,
         replaced: Callable[[], None] | None = None,
         renews: bool = False,
+        subject: Hashable | None = None,
     ) -> None:
         """Do something in the background and hand its answer on; a failure becomes a notice.
 
-        ``kind`` tells requests apart: of one kind only the latest answer counts. ``doing`` is
-        shown meanwhile; ``undone`` is called after a failure. If a later request of the same kind
-        takes its place, ``replaced`` is called; without it a notice says so, unless it only
-        ``renews`` what was worked out before, as typing does.
+        ``kind`` tells requests apart: of one kind only the latest answer counts. One of the same
+        ``subject``, which is the kind unless given, settles the notice of an earlier failure when
+        it is done. ``doing`` is shown meanwhile; ``undone`` is called after a failure. If a later
+        request of the same kind takes its place, ``replaced`` is called; without it a notice says
+        so, unless it only ``renews`` what was worked out before, as typing does.
         """
+        about = kind if subject is None else subject
 
         def finished(answer: Answer) -> None:
             self.busy_changed.emit("")
+            self.settled.emit(about)
             done(answer)
 
         def failed(message: str) -> None:
             self.busy_changed.emit("")
-            self.notify(Level.ERROR, message)
+            self.notify(Level.ERROR, message, subject=about)
             undone()
 
         def report_replaced() -> None:
@@ -583,11 +621,13 @@ class Workbench(Requests):
 
         def finished(answer: Answer) -> None:
             self._end_progress(progress)
+            self.settled.emit(kind)
             done(answer)
 
         def failed(message: str) -> None:
             self._end_progress(progress)
-            self.notify(Level.INFO if progress.cancelled else Level.ERROR, message)
+            level = Level.INFO if progress.cancelled else Level.ERROR
+            self.notify(level, message, subject=kind)
             undone()
 
         self.progress = progress
@@ -677,12 +717,23 @@ class Workbench(Requests):
         self.session.dismiss_stop()
         self.plan = plan
         self.plan_changed.emit(plan)
-        if not plan.dry_run.allowed:
-            text = f"{plan.name}: {spoken(plan.dry_run.objections[0])}"
-            self.notify(Level.WARNING, text, about="trajectory.md")
-        elif plan.refusal:
-            text = f"{plan.name}: {spoken(plan.refusal)}"
-            self.notify(Level.WARNING, text, about=page_of(plan.refusal))
+        self._tell_objection(plan)
+
+    def _tell_objection(self, plan: Plan) -> None:
+        """Tell why a plan would not be played, until another is in hand or this one would be."""
+        if not plan.objection:
+            return
+
+        def is_over(_: SessionState) -> bool:
+            now = self.plan
+            return now is None or now.trajectory is not plan.trajectory or not now.objection
+
+        self.notify(
+            Level.WARNING,
+            joined((PlainText(plan.name), plan.objection), ": "),
+            about=page_of(plan.objection) or "trajectory.md",
+            until=is_over,
+        )
 
     def _renew_plan(self, plan: Plan) -> None:
         """Take the same trajectory in hand with another dry run; what is paused stays so."""
@@ -708,10 +759,13 @@ class Workbench(Requests):
         self.take_run(run, path.absolute())
 
     def _on_event(self, event: Event) -> None:
-        if isinstance(event, Faulted | CommandRefused):
-            self.notify(Level.ERROR, event.message, about=event)
+        if isinstance(event, Faulted):
+            self.notify(Level.ERROR, event.message, about=event, until=self._fault_is_over())
+        elif isinstance(event, CommandRefused):
+            text = Explained(event.message, is_refusal=True)
+            self.notify(Level.ERROR, text, about=event, until=self._device_is_other())
         elif isinstance(event, Alarmed):
-            self.notify(Level.WARNING, event.message, about=event)
+            self.notify(Level.WARNING, event.message, about=event, until=self._device_is_other())
         elif isinstance(event, Stopped):
             logger.info("%s", event.request)
             self.stopped.emit()
@@ -719,6 +773,26 @@ class Workbench(Requests):
             self._take_played(event)
         elif isinstance(event, ModelChanged):
             self._take_model(event)
+
+    def _device_is_other(self) -> Until:
+        """Return what says whether another device than now is in use."""
+        driver = self.session.driver
+        return lambda _: self.session.driver is not driver
+
+    def _fault_is_over(self) -> Until | None:
+        """Return what says whether that is over which locks motion now; None for nothing.
+
+        A fault is over when it is cleared, a lost link when there is one again, a doubt about the
+        position when that is confirmed, and each when another device is in use.
+        """
+        state, is_other = self.session.snapshot(), self._device_is_other()
+        if state.connection is not Connection.CONNECTED:
+            return lambda now: is_other(now) or now.connection is Connection.CONNECTED
+        if state.fault is not None:
+            return lambda now: is_other(now) or now.fault is None
+        if state.doubt is not None:
+            return lambda now: is_other(now) or now.doubt is None
+        return None
 
     def _tell_excess(self, excess: str) -> None:
         self.notify(
@@ -728,11 +802,17 @@ class Workbench(Requests):
                 "Playback paused: {text}. Check the machine, then resume or end the playback.",
             ).format(text=excess),
             about="motion.md#playing-by-hand",
+            until=self._excess_is_over,
         )
+
+    def _excess_is_over(self, _: SessionState) -> bool:
+        state = self.playback.state
+        return state.phase is PlaybackPhase.IDLE or not state.excess
 
     def _note_saved(self, record: Record) -> None:
         if self.unsaved is record:
             self.unsaved = None
+        self.settled.emit(keeping(record))
 
     def _take_played(self, event: PlaybackFinished) -> None:
         """Take the record of a playback in hand, until it is compared; its plan names it."""
@@ -745,7 +825,12 @@ class Workbench(Requests):
         logger.info("model in use: %s", event.model.id)
         if event.why:
             text = translate("shell", "The nominal model is in use again: {why}.")
-            self.notify(Level.WARNING, text.format(why=spoken(event.why)), about="model.md")
+            self.notify(
+                Level.WARNING,
+                text.format(why=spoken(event.why)),
+                about="model.md",
+                until=lambda _: self.session.model is not event.model,
+            )
         self.model_changed.emit(event.model)
         plan, run = self.plan, self.run
         if plan is not None:

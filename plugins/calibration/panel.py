@@ -181,11 +181,12 @@ class CalibrationPanel(Panel):
             return
         self._run = None
         if run.record is not None:
+            self.workbench.settled.emit(self)
             self.fit_record(f"calibration of {self.procedure.chosen}", run.record)
         elif state.phase is Phase.FAILED:
             text = tr("Calibration: {message}.")
             self.workbench.notify(
-                Level.ERROR, text.format(message=spoken(state.message)), about=self
+                Level.ERROR, text.format(message=spoken(state.message)), about=self, subject=self
             )
 
     def _fit(self, records: Callable[[], list[tuple[str, Record]]]) -> None:

@@ -174,13 +174,14 @@ class CompensationPanel(Panel):
 
     def _finished(self, answer: tuple[str, Learned]) -> None:
         self.controls.tell("", None)
+        self.workbench.settled.emit(self)
         self._source, learned = answer
         self._take(learned)
 
     def _failed(self, message: str) -> None:
         self.controls.tell(tr("Failed; nothing was replaced."), None)
         text = tr("Compensation: {message}")
-        self.workbench.notify(Level.ERROR, text.format(message=message), about=self)
+        self.workbench.notify(Level.ERROR, text.format(message=message), about=self, subject=self)
 
     def _take(self, learned: Learned) -> None:
         self.learned = learned

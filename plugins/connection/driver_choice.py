@@ -39,18 +39,23 @@ class PortFinder(QObject):
     def __init__(self, workbench: Workbench, parent: QObject) -> None:
         super().__init__(parent)
         self._background = Background(self)
-        self._notify = workbench.notify
+        self._workbench = workbench
         workbench.closing.connect(self._background.wait)
 
     def look(self) -> None:
         """Look again."""
-        self._background.run("ports", serial_ports, self.found.emit, self._failed)
+        self._background.run("ports", serial_ports, self._take, self._failed)
+
+    def _take(self, ports: object) -> None:
+        self._workbench.settled.emit(self)
+        self.found.emit(ports)
 
     def _failed(self, message: str) -> None:
-        self._notify(
+        self._workbench.notify(
             Level.WARNING,
             tr("Serial ports cannot be listed: {message}").format(message=message),
             about=self,
+            subject=self,
         )
 
 

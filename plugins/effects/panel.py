@@ -141,7 +141,7 @@ class EffectsPanel(Panel):
             lambda axis: self._change(replace(self.chain.asked[self.place], from_axis=axis))
         )
         self.live.changed.connect(self._show_standing)
-        self.live.refused.connect(lambda text: self.workbench.notify(Level.ERROR, text, about=self))
+        self.live.refused.connect(lambda text: self.workbench.refuse(text, about=self))
         self.live.replaced.connect(self._adopt)
         self.follow(self._refresh)
         self.workbench.theme_changed.connect(lambda _: self._show())
@@ -193,7 +193,7 @@ class EffectsPanel(Panel):
     def _refuse(self, name: str, reason: str) -> None:
         one = self.chain.effects[self.place]
         where = f"{label(one.asked.axis)} {effect_title(one.effect)}, {spoken(name)}"
-        self.workbench.notify(Level.ERROR, f"{where}: {reason}", about=self)
+        self.workbench.refuse(f"{where}: {reason}", about=self)
 
     def _undo(self) -> None:
         self.chain, self._last = self._past.pop(), None

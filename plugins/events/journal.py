@@ -2,7 +2,7 @@
 
 import logging
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass
 from datetime import datetime
 
@@ -13,6 +13,7 @@ from rotemina.app.motion.playback import PlaybackPhase, PlaybackState
 from rotemina.app.motion.state import Connection, SessionState
 from rotemina.app.motion.stop import LOCKED
 from rotemina.app.shell.engine_words import spoken
+from rotemina.app.shell.help_topics import Explained
 from rotemina.app.shell.workbench import Level
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.events import tr
@@ -32,6 +33,8 @@ class Entry:
     time: datetime
     level: Level
     text: str
+    count: int = 1  # how often, at last then
+    key: Hashable | None = None  # what it has in common with its repeats; a move has none
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,6 +80,8 @@ class Journal:
         self.entries: deque[Entry] = deque(maxlen=MOST)
         # How many there were; another number means that there is something new.
         self.count = 0
+        # Repeats of the latest entry, which make no new one.
+        self.repeats = 0
         self._before: Moment | None = None
         self._rested: Mapping[str, float] | None = None  # commands
         self._mover = ""
@@ -87,6 +92,17 @@ class Journal:
         """Add an entry for an already logged message."""
         self.entries.append(Entry(self._clock(), level, text))
         self.count += 1
+
+    def tell_notice(self, level: Level, notice: Explained) -> None:
+        """Add what the window has told; a repeat of the latest entry is counted there."""
+        latest = self.entries[-1] if self.entries else None
+        if latest is None or latest.key != notice.key:
+            self.tell(level, notice)
+            count = 1
+        else:
+            self.repeats += 1
+            count = latest.count + 1
+        self.entries[-1] = Entry(self._clock(), level, notice, count, notice.key)
 
     def _note(self, level: Level, text: str) -> None:
         """Add an entry, and log it: so it is in recordings and the support bundle too."""

@@ -35,7 +35,7 @@ class EventsPanel(Panel):
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)
         self.journal = Journal(workbench.robot)
-        self._shown = 0
+        self._shown = self._shown_repeats = 0
         self.list = named(QListWidget(), tr("Events, newest first"))
         self.list.setWordWrap(True)
         self.list.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
@@ -47,7 +47,7 @@ class EventsPanel(Panel):
         self._lay_out()
         offer_in_palette(self.show_log, safe_while_hidden=True)
         self.follow_frames(self._look)
-        workbench.noticed.connect(self.journal.tell)
+        workbench.noticed.connect(self.journal.tell_notice)
         workbench.theme_changed.connect(self._colour)
 
     def _lay_out(self) -> None:
@@ -69,12 +69,16 @@ class EventsPanel(Panel):
                 time.monotonic(),
             )
         )
-        if self.journal.count != self._shown and self.isVisible():
+        shown = self._shown, self._shown_repeats
+        if shown != (self.journal.count, self.journal.repeats) and self.isVisible():
             self._show_new()
 
     def _show_new(self) -> None:
         new = min(self.journal.count - self._shown, len(self.journal.entries), MOST_SHOWN)
-        self._shown = self.journal.count
+        self._shown, self._shown_repeats = self.journal.count, self.journal.repeats
+        if self.list.count() and new < len(self.journal.entries):
+            self.list.takeItem(0)  # it may have been repeated
+            new += 1
         for entry in list(self.journal.entries)[len(self.journal.entries) - new :]:
             self.list.insertItem(0, self._item(entry))
         while self.list.count() > MOST_SHOWN:
@@ -82,7 +86,8 @@ class EventsPanel(Panel):
 
     def _item(self, entry: Entry) -> QListWidgetItem:
         first_line = entry.text.partition("\n")[0]
-        item = QListWidgetItem(f"{entry.time:%H:%M:%S} {_SIGNS[entry.level]} {first_line}")
+        tally = f"  × {entry.count}" if entry.count > 1 else ""
+        item = QListWidgetItem(f"{entry.time:%H:%M:%S} {_SIGNS[entry.level]} {first_line}{tally}")
         item.setData(Qt.ItemDataRole.UserRole, entry.level)
         item.setToolTip(plain_tip(f"{entry.time:%Y-%m-%d %H:%M:%S}", *entry.text.splitlines()))
         self._colour_item(item, self.workbench.theme)

@@ -163,7 +163,7 @@ class BlindPage(QDialog):
 
     def _fail(self, message: str) -> None:
         self._show_end(tr("failed"))
-        self._workbench.notify(Level.ERROR, message, about=self)
+        self._workbench.notify(Level.ERROR, message, about=self, subject=self)
 
     def _show_state(self) -> None:
         running = self.run.running
@@ -190,6 +190,7 @@ class BlindPage(QDialog):
 
     def show_result(self, result: BlindResult) -> None:
         """Show figures and confusion matrix."""
+        self._workbench.settled.emit(self)
         self._result = result
         text = tr("{done} of {count} cases scored")
         self._show_end(text.format(done=result.done, count=result.asked))

@@ -151,7 +151,10 @@ class GapPanel(Panel):
         chosen = self.records.chosen
         if not chosen:
             self.workbench.notify(
-                Level.WARNING, tr("There are no records to diagnose: choose some."), about=self
+                Level.WARNING,
+                tr("There are no records to diagnose: choose some."),
+                about=self,
+                until=lambda _: bool(self.records.chosen),
             )
             return
         names = [each.full for each in chosen]
@@ -161,7 +164,7 @@ class GapPanel(Panel):
                     remedy = message("gap", "choose its model under Model")
                     check_commands_of_model(self.robots.robot, each.record, name, remedy)
         except InputError as error:
-            self.workbench.notify(Level.ERROR, str(error), about=self)
+            self.workbench.notify(Level.ERROR, str(error), about=error)
             return
         doing = (
             tr("waiting for the stopped work to end")
@@ -181,6 +184,7 @@ class GapPanel(Panel):
 
     def take_answer(self, answer: Answer) -> None:
         """Show a diagnosis."""
+        self.workbench.settled.emit(self)
         self.answer, self._source = answer, self.robots.source
         self._candidate = candidate(answer)
         self.unseen.use_answer(answer, self._candidate)
@@ -190,7 +194,7 @@ class GapPanel(Panel):
 
     def _fail(self, message: str) -> None:
         self.doing.setText(tr("The diagnosis failed; the notice above gives the reason."))
-        self.workbench.notify(Level.ERROR, message, about=self)
+        self.workbench.notify(Level.ERROR, message, about=self, subject=self)
         self._show_state()
 
     # --- what is shown ----------------------------------------------------------------------------

@@ -8,6 +8,8 @@ from PySide6.QtCore import QObject, Signal
 from rotemina.app.microscope.microscope import Microscope
 from rotemina.app.microscope.status import MicroscopeStatus
 from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.engine_words import spoken
+from rotemina.app.shell.help_topics import Explained
 from rotemina.app.shell.pending_confirmations import Pending
 from rotemina.app.shell.workbench import Workbench
 from rotemina.drivers.gate import Permit
@@ -157,7 +159,8 @@ class PointerTools(QObject):
         """Return whether the machine may move by this picture, and say why not."""
         why = against_clicking(self._microscope.status, self._workbench.session.snapshot())
         if why is not None:
-            self._workbench.refused.emit(tr("no move: {why}").format(why=why))
+            text = tr("no move: {why}").format(why=spoken(why))
+            self._workbench.refused.emit(Explained(text, is_refusal=True))
         return why is None
 
     def _forget(self) -> None:

@@ -104,7 +104,7 @@ class PenetrationPanel(Panel):
         """Arm the parameters as they are shown, or say why not; return whether it was done."""
         self.form.take()  # a field that is still being edited counts too
         if self.form.complaint:
-            self.workbench.notify(Level.ERROR, self.form.complaint, about=self)
+            self.workbench.refuse(self.form.complaint, about=self)
             return False
         parameters = self.form.parameters
         return self.workbench.ask(lambda: self._operation.arm_penetration(parameters))
@@ -131,6 +131,7 @@ class PenetrationPanel(Panel):
                         name=path.name
                     ),
                     about=self,
+                    until=lambda _: self._penetration.status.phase not in FIXED,
                 )
                 return
             self.form.show_parameters(parameters)
@@ -144,11 +145,8 @@ class PenetrationPanel(Panel):
         """Write the parameters to a file."""
         self.form.take()
         if self.form.complaint:
-            self.workbench.notify(
-                Level.ERROR,
-                tr("Not saved: {reason}").format(reason=self.form.complaint),
-                about=self,
-            )
+            text = tr("Not saved: {reason}").format(reason=self.form.complaint)
+            self.workbench.refuse(text, about=self)
             return
         parameters = self.form.parameters
         self.workbench.write_file("save penetration", path, lambda: parameters.save(path))

@@ -111,6 +111,7 @@ class PlatePanel(Panel):
 
     def take(self, solved: Solved) -> None:
         """Show a solved plate."""
+        self.workbench.settled.emit(self)
         self.solved = solved
         self.plate_text.setText(plate_text(solved))
         triangles = solved.mesh.triangles.shape[1]
@@ -123,7 +124,7 @@ class PlatePanel(Panel):
 
     def _fail(self, message: str) -> None:
         self.doing.setText(tr("Failed."))
-        self.workbench.notify(Level.ERROR, message, about=self)
+        self.workbench.notify(Level.ERROR, message, about=self, subject=self)
         self._show_state()
 
     def _show_stage(self, name: str) -> None:

@@ -62,7 +62,10 @@ class RunBeside(QComboBox):
         """Move the other run in time to where its commands are those that are shown."""
         if self.other is None:
             self._workbench.notify(
-                Level.WARNING, tr("There is no second run to align: choose one."), about=self._panel
+                Level.WARNING,
+                tr("There is no second run to align: choose one."),
+                about=self._panel,
+                until=lambda _: self.other is not None,
             )
             return
         window = self._whole()
@@ -109,7 +112,10 @@ class RunBeside(QComboBox):
         self.other = None
         if run is None:
             self._workbench.notify(
-                Level.WARNING, tr("There is no latest run: open or play one."), about=self._panel
+                Level.WARNING,
+                tr("There is no latest run: open or play one."),
+                about=self._panel,
+                until=lambda _: self._workbench.run is not None,
             )
             self._show_choice()
             self.changed.emit()
@@ -140,6 +146,6 @@ def _ask_run(panel: Panel, use: Callable[[OtherRun], None]) -> None:
 
     def nothing_there() -> None:
         text = tr("The library has no records: play or record a motion first.")
-        bench.notify(Level.WARNING, text, about=panel)
+        bench.notify(Level.WARNING, text, about=panel, until=lambda _: bool(bench.library.entries))
 
     ask_records(panel.main_window, bench, tr("Record beside the present run"), take, nothing_there)

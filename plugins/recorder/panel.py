@@ -61,7 +61,7 @@ class RecorderPanel(Panel):
             "look",
             lambda: look(folder, own),
             self._take,
-            lambda message: self.workbench.notify(Level.ERROR, message, about=self),
+            lambda message: self.workbench.notify(Level.ERROR, message, about=self, subject=self),
         )
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 (Qt's name)
@@ -70,6 +70,7 @@ class RecorderPanel(Panel):
         self.look()
 
     def _take(self, found: tuple[Unfinished, ...]) -> None:
+        self.workbench.settled.emit(self)
         if not self._told:
             self._told = True
             self._tell(found)
@@ -85,6 +86,7 @@ class RecorderPanel(Panel):
                     names=listed(names), title=translate("panels", self.title)
                 ),
                 about=self,
+                subject="recover",  # the work that recovers them
             )
 
     def _bring_up(self) -> None:

@@ -18,7 +18,7 @@ from PySide6.QtWidgets import (
 from rotemina.app.display_units import axis_scale, label
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel, offer_in_palette
-from rotemina.app.shell.engine_words import spoken
+from rotemina.app.shell.engine_words import error_text, spoken
 from rotemina.app.shell.language import marked
 from rotemina.app.shell.loaded_trajectory import Plan
 from rotemina.app.shell.requests_at_rest import WaitingRequest
@@ -200,7 +200,7 @@ class TrajectoryPanel(Panel):
         try:
             self._part = part(whole, begin_s=begin_s, times=times)
         except InputError as error:
-            self.workbench.notify(Level.WARNING, str(error), about=self)
+            self.workbench.notify(Level.WARNING, str(error), about=error)
             self._part = whole
             self._show_part(whole)
         if self._part is not whole:
@@ -282,7 +282,8 @@ class TrajectoryPanel(Panel):
         try:
             bound = read_bound(item.text(), unit)
         except InputError as error:
-            self.workbench.notify(Level.WARNING, f"{label(name)}: {error}", about=self)
+            text = f"{label(name)}: {error_text(error)}"
+            self.workbench.notify(Level.WARNING, text, about=error)
             bound = bounds.get(name)
         if bound is None:
             bounds.pop(name, None)

@@ -10,6 +10,7 @@ from rotemina.app.motion.penetration.status import PenetrationStatus, Phase
 from rotemina.app.motion.playback import PlaybackPhase, PlaybackState
 from rotemina.app.motion.state import Connection, SessionState
 from rotemina.app.motion.stop import LOCKED, StopRequest
+from rotemina.app.shell.help_topics import Explained
 from rotemina.app.shell.workbench import Level
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.events.journal import Journal, Moment
@@ -115,3 +116,13 @@ def test_penetration_and_recording_are_told(journal):
         "Recording a.arrows ended",
         "Model in use: other",
     ]
+
+
+def test_repeats_of_a_notice_are_one_entry_and_moves_are_not(journal):
+    for target in (70, 80):
+        journal.tell_notice(Level.ERROR, Explained(f"target {target} µm is outside"))
+    assert [(one.text, one.count) for one in journal.entries] == [("target 80 µm is outside", 2)]
+    journal.tell_notice(Level.ERROR, Explained("something else"))
+    journal.tell_notice(Level.ERROR, Explained("target 90 µm is outside"))
+    assert [one.count for one in journal.entries] == [2, 1, 1]
+    assert (journal.count, journal.repeats) == (3, 1)
