@@ -136,6 +136,10 @@ class SocketChannel(ByteChannel):
         # A stop of one byte would wait here until what was sent before it is confirmed.
         opened._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
 
+    def close(self) -> None:
+        """Close the connection, also where the other end is gone."""
+        _close_connection(self._serial)
+
     def write(self, data: bytes) -> int:
         """Send what the connection takes; see :class:`ByteChannel`."""
         try:
@@ -148,6 +152,10 @@ class SocketChannel(ByteChannel):
 
 class TelnetChannel(ByteChannel):
     """A port of another computer by RFC 2217, where pyserial waits until all bytes are taken."""
+
+    def close(self) -> None:
+        """Close the connection, also where the other end is gone."""
+        _close_connection(self._serial)
 
     def encoded(self, data: bytes) -> bytes:
         """Return bytes as telnet wants them."""
@@ -183,6 +191,14 @@ class LoopChannel(ByteChannel):
         """Write what there is room for; see :class:`ByteChannel`."""
         room = int(self._serial.buffer_size - self._serial.in_waiting)
         return int(self._serial.write(data[:room])) if room else 0
+
+
+def _close_connection(opened: Any) -> None:
+    """Close a port of pyserial, which leaves its socket open if it cannot be shut down."""
+    connection = opened._socket
+    opened.close()
+    if connection is not None:
+        connection.close()
 
 
 _BY_SCHEME: dict[str, type[ByteChannel]] = {

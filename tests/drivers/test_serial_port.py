@@ -2,7 +2,9 @@
 
 import os
 import pty
+import select
 import socket
+import struct
 import threading
 import time
 import tty
@@ -448,6 +450,19 @@ def test_a_port_that_is_not_there():
         open_port("/dev/does-not-exist", 9600)
     with pytest.raises(DriverError, match="no serial port is set"):
         open_port("", 9600)
+
+
+def test_a_socket_is_closed_though_its_other_end_is_gone():
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        channel = open_channel(f"socket://127.0.0.1:{server.getsockname()[1]}", 9600)
+        accepted, _ = server.accept()
+        # With this option closing resets the connection, as a process does that is killed.
+        accepted.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+        accepted.close()
+        connection = channel._serial._socket
+        select.select([connection], [], [], 5.0)
+        channel.close()
+    assert connection.fileno() == -1
 
 
 def test_a_socket_works_with_a_warning(caplog):
