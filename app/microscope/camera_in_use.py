@@ -61,6 +61,9 @@ class CameraInUse:
         self._by_address = False
         self._looked_s: float | None = None
         self._refused = ""
+        self._seen_driver: Driver | None = None
+        # Of the simulated microscope that was closed as another machine came into use.
+        self._interrupted: CameraSettings | None = None
         self.cameras: tuple[CameraIdentity, ...] = ()
         self.problems: dict[str, str] = {}
 
@@ -135,6 +138,7 @@ class CameraInUse:
 
         def forget() -> None:
             self.close()
+            self._interrupted = None
             self._memory.keep(None)
 
         self._ask(forget)
@@ -215,6 +219,7 @@ class CameraInUse:
         by_address: bool = False,
     ) -> None:
         self.close()
+        self._interrupted = None
         self._by_address = by_address
         try:
             feed = self._feed_of(make())
@@ -227,12 +232,27 @@ class CameraInUse:
             self._listeners = {tell: feed.listen(tell) for tell in self._listeners}
 
     def _mind_the_simulated(self) -> None:
-        """Close it where another machine moves than it shows."""
-        present, driver = self.camera, self._driver()
-        shown = present is not None and present.identity.source == SIMULATED
-        if shown and driver is not None and not isinstance(driver, TruePositions):
-            self.close()
+        """Close it where another machine moves than it shows, and open it again when it can show.
+
+        What was said of the device before is gone with it.
+        """
+        feed, driver = self._feed, self._driver()
+        changed, self._seen_driver = driver is not self._seen_driver, driver
+        shown = feed is not None and feed.camera.identity.source == SIMULATED
+        if feed is not None and shown and driver is not None:
+            lost = changed and feed.view.state is FeedState.LOST
+            if lost or not isinstance(driver, TruePositions):
+                self._interrupted = feed.view.settings
+                self.close()
+        if self._interrupted is None or self._feed is not None:
+            return
+        if not isinstance(driver, TruePositions):
             self._refused = self.truth
+            return
+        found = next((one for one in self.cameras if one.source == SIMULATED), None)
+        if found is not None:
+            settings, self._interrupted = self._interrupted, None
+            self._use(lambda: self._hub.camera(found), settings)
 
     def _open_unasked(self) -> None:
         """Open, where nobody has chosen, the camera used last; or else the simulated one."""

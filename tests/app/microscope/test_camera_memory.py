@@ -26,7 +26,11 @@ class Source(CameraSource):
 
     def __init__(self, name, *addresses):
         super().__init__(clock=lambda: 0.0)
-        self.name, self.addresses = name, list(addresses)
+        self.name, self.addresses, self.trouble = name, list(addresses), None
+
+    @property
+    def problem(self):
+        return self.trouble
 
     def devices(self):
         return [CameraIdentity(f"{self.name}:{one}", f"Eye {one}", self.name)
@@ -65,8 +69,8 @@ def used(tmp_path):
             driver = Simulator(load_robot("rotemina"), clock=lambda: 0.0)
         hub = CameraHub({"fake": source, "simulated": Source("simulated", "microscope")})
         memory = CameraMemory(Settings(tmp_path / "settings.json"))
-        made = CameraInUse(hub, lambda: driver, Feed, memory)
-        made.watched, made.source = True, source
+        made = CameraInUse(hub, lambda: made.driver, Feed, memory)
+        made.watched, made.source, made.driver, made.hub = True, source, driver, hub
         made.step(0.0)
         return made
 
@@ -121,6 +125,49 @@ def test_the_simulated_one_keeps_its_settings_and_shows_no_other_machine(used):
     first.step(0.1)
     assert used().view.settings == SET
     assert used(simulator=False).camera is None
+
+
+@pytest.mark.parametrize("is_chosen", [True, False])
+def test_the_simulated_one_comes_back_with_a_simulator(used, is_chosen):
+    seen = used()
+    if is_chosen:
+        seen.open("simulated:microscope", SET)
+        seen.step(0.1)
+    simulator, settings = seen.driver, seen.view.settings
+    for at_s, name in ((10.0, "mc68hc11"), (20.0, "gcode")):
+        seen.driver = SimpleNamespace(name=name)
+        seen.hub.sources["simulated"].trouble = f"{name} shows only a simulated machine"
+        seen.step(at_s)
+        assert seen.view.state is FeedState.LOST
+        assert seen.view.reason == f"{name} shows only a simulated machine"
+    seen.driver, seen.hub.sources["simulated"].trouble = simulator, None
+    seen.step(30.0)
+    assert seen.camera.identity.key == "simulated:microscope"
+    assert (seen.view.state, seen.view.settings) == (FeedState.LIVE, settings)
+
+
+def test_a_simulated_picture_that_was_lost_meanwhile_comes_back(used):
+    seen = used()
+    seen.step(10.0)
+    seen._feed.view = FeedView(FeedState.LOST, "there is no simulated machine")
+    seen.driver = Simulator(load_robot("rotemina"), clock=lambda: 0.0)  # between two looks
+    seen.step(20.0)
+    assert seen.view.state is FeedState.LIVE
+    seen._feed.view = FeedView(FeedState.LOST, "something else")
+    seen.step(30.0)
+    assert seen.view.reason == "something else"  # no other machine: it is not tried for ever
+
+
+def test_another_camera_takes_the_place_of_the_simulated_one_for_good(used):
+    seen = used("a")
+    simulator = seen.driver
+    seen.driver = SimpleNamespace(name="mc68hc11")
+    seen.step(10.0)
+    seen.open("fake:a")
+    seen.step(20.0)
+    seen.driver = simulator
+    seen.step(30.0)
+    assert seen.camera.identity.key == "fake:a"
 
 
 def test_who_closed_it_is_asked_anew(used):
