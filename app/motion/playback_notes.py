@@ -34,6 +34,7 @@ class PlaybackNotes:
         return {
             "began": datetime.now().astimezone().isoformat(timespec="milliseconds"),
             "robot_sha256": model.machine.robot,
+            "machine_kind": driver.machine_kind,
             **({"effects": effects} if effects else {}),
             **self.labels.metadata,
         }

@@ -1,19 +1,17 @@
 """Which machine this window drives: simulated, virtual boards, or a real one."""
 
-import os
 from enum import StrEnum
 
 from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QBrush, QColor, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from rotemina.app.motion.state import Connection, SessionState
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import plain_tip
-from rotemina.drivers.driver import Driver
-from rotemina.drivers.model_abilities import EffectCarrier
+from rotemina.drivers.driver import Driver, MachineKind
 
-_TERMINAL = "/dev/pts/"  # a pseudo-terminal: no wire leads out of one
 _MARGIN = 10  # px beside the words
 
 
@@ -23,30 +21,44 @@ class Machine(StrEnum):
     SIMULATOR = "simulator"
     VIRTUAL_BOARDS = "virtual boards"
     MACHINE = "machine"
+    #: A device is being opened that has never said what it is.
+    UNIDENTIFIED = "unidentified"
 
 
+_OF_KIND = {
+    MachineKind.SIMULATED: Machine.SIMULATOR,
+    MachineKind.VIRTUAL: Machine.VIRTUAL_BOARDS,
+    MachineKind.REAL: Machine.MACHINE,
+}
+#: What may be a real machine, and looks like one.
+MAYBE_REAL = (Machine.MACHINE, Machine.UNIDENTIFIED)
 WORDS = {
     Machine.SIMULATOR: marked("shell", "SIMULATOR"),
     Machine.VIRTUAL_BOARDS: marked("shell", "VIRTUAL BOARDS"),
     Machine.MACHINE: marked("shell", "MACHINE"),
+    Machine.UNIDENTIFIED: marked("shell", "CONNECTING …"),
 }
 TIPS = {
     Machine.SIMULATOR: marked("shell", "The built-in simulator: no real machine moves."),
     Machine.VIRTUAL_BOARDS: marked(
-        "shell", "Boards that this computer emulates on its own ports: no real machine moves."
+        "shell", "Boards that say that a program emulates them: no real machine moves."
     ),
     Machine.MACHINE: marked("shell", "Commands of this window move a real machine."),
+    Machine.UNIDENTIFIED: marked(
+        "shell", "The device has not said yet what it is: treat it as a real machine."
+    ),
 }
 
 
-def machine_of(driver: Driver) -> Machine:
-    """Return what a driver drives; what cannot be told for sure is a real machine."""
-    if isinstance(driver, EffectCarrier):
-        return Machine.SIMULATOR
-    ports = ports_of(driver)
-    if ports and all(os.path.realpath(port).startswith(_TERMINAL) for port in ports):
-        return Machine.VIRTUAL_BOARDS
-    return Machine.MACHINE
+def machine_of(driver: Driver, connection: Connection) -> Machine:
+    """Return what a driver drives, or drove last; what cannot be told for sure is a real machine.
+
+    It changes at most twice when another device is connected, and not while a link is lost or the
+    same device is connected again: that is what it was until it says something else.
+    """
+    if connection is Connection.CONNECTING and not driver.is_identified:
+        return Machine.UNIDENTIFIED
+    return _OF_KIND[driver.machine_kind]
 
 
 def ports_of(driver: Driver) -> tuple[str, ...]:
@@ -64,12 +76,12 @@ class MachineBadge(QWidget):
         self.machine = Machine.SIMULATOR
         self.words = self.port = ""
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
-        self.refresh()
+        self.refresh(workbench.session.snapshot())
 
-    def refresh(self) -> bool:
+    def refresh(self, state: SessionState) -> bool:
         """Look which driver is in use; return whether it is another than before."""
         driver = self._workbench.session.driver
-        machine = machine_of(driver)
+        machine = machine_of(driver, state.connection)
         port = ", ".join(ports_of(driver)) or driver.name
         words = translate("shell", WORDS[machine])
         if (machine, port, words) == (self.machine, self.port, self.words):
@@ -98,7 +110,7 @@ class MachineBadge(QWidget):
             faint.setAlphaF(0.25)
             painter.setBrush(QBrush(faint, Qt.BrushStyle.BDiagPattern))
             ink = theme.text
-        elif self.machine is Machine.MACHINE:
+        elif self.machine in MAYBE_REAL:
             painter.setPen(QPen(QColor("#000000"), 2))
             painter.setBrush(QColor("#ffffff"))
             ink = "#000000"

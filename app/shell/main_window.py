@@ -32,7 +32,7 @@ from rotemina.app.shell.help_topics import Explained, page_at
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.language_menu import LanguageMenu, language_entries
 from rotemina.app.shell.log_page import LogPage
-from rotemina.app.shell.machine_badge import Machine, window_title
+from rotemina.app.shell.machine_badge import MAYBE_REAL, window_title
 from rotemina.app.shell.message_log import MessageLog
 from rotemina.app.shell.motion_bar import MotionBar
 from rotemina.app.shell.notices import NoticeBoard
@@ -275,7 +275,7 @@ class MainWindow(ArrangedWindow):
         """Say in the title, and by a white line across the top, which machine is driven."""
         badge = self._bar.badge
         self.setWindowTitle(window_title(badge, self.workbench.robot.name))
-        self._top_line.setVisible(badge.machine is Machine.MACHINE)
+        self._top_line.setVisible(badge.machine in MAYBE_REAL)
         self._top_line.raise_()
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)

@@ -220,7 +220,7 @@ class MotionBar(QToolBar):
         # A narrow header has no room for both; the line below the state names the owners as well.
         self.owner.setVisible(self.width() >= _LARGE_FROM or self.recording.isHidden())
         self.model.refresh(state)
-        if self.badge.refresh():
+        if self.badge.refresh(state):
             self.machine_changed.emit()
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)

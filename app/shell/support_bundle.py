@@ -16,6 +16,7 @@ from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.anonymiser import Anonymiser
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.message_log import Message
+from rotemina.drivers.driver import MachineKind
 from rotemina.sim.plugin_points import API_VERSIONS
 from rotemina.sim.records.record import Record
 from rotemina.sim.records.writing import write_record
@@ -55,6 +56,8 @@ def gather(
     anonymiser: Anonymiser,
     lateness: Mapping[str, float] = MappingProxyType({}),
     reached: Reached = lambda _: None,
+    *,
+    machine_kind: str = MachineKind.REAL,
 ) -> tuple[Item, ...]:
     """Return what a bundle holds, anonymised; a large record takes a while.
 
@@ -77,7 +80,7 @@ def gather(
         Item(
             "machine.json",
             translate("shell", "Robot, driver and state of the connection"),
-            _json(_machine(state, driver, robot)),
+            _json(_machine(state, driver, robot, machine_kind)),
         ),
         Item(
             "window.json",
@@ -145,10 +148,11 @@ def _distribution(point: metadata.EntryPoint) -> str:
     return f"{point.dist.name} {point.dist.version}" if point.dist else "of no package"
 
 
-def _machine(state: SessionState, driver: str, robot: str) -> dict[str, object]:
+def _machine(state: SessionState, driver: str, robot: str, kind: str) -> dict[str, object]:
     return {
         "robot": robot,
         "driver": driver,
+        "machine_kind": str(kind),
         "phase": str(state.phase),
         "activity": str(state.activity),
         "fault": state.fault,

@@ -103,13 +103,23 @@ class SupportPage(QDialog):
         bench = self._workbench
         preferences, state, record = bench.settings.values, bench.session.snapshot(), bench.record
         driver, robot = bench.session.driver.name, bench.robot.name
+        kind = bench.session.driver.machine_kind
         late = watch.lateness.as_json()
 
         def work(progress: Progress) -> tuple[Item, ...]:
             anonymiser = Anonymiser.of_this_user()
             told = log.messages()
             return gather(
-                told, preferences, state, driver, robot, record, anonymiser, late, progress.reached
+                told,
+                preferences,
+                state,
+                driver,
+                robot,
+                record,
+                anonymiser,
+                late,
+                progress.reached,
+                machine_kind=kind,
             )
 
         bench.long_work(

@@ -11,7 +11,7 @@ from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import Connection
 from rotemina.app.motion.ticker import Ticker
 from rotemina.app.watchdog import process
-from rotemina.drivers.model_abilities import EffectCarrier
+from rotemina.drivers.driver import MachineKind
 from rotemina.drivers.samples import DeviceState
 
 _LOG = logging.getLogger(__name__)
@@ -73,7 +73,7 @@ class Watched:
             {
                 "ages": {name: age_s for name, age_s in ages.items() if age_s is not None},
                 "moves": moves,
-                "simulated": isinstance(session.driver, EffectCarrier),
+                "simulated": session.driver.machine_kind is MachineKind.SIMULATED,
                 "ports": ports if state.activity is not DeviceState.CLOSED else [],
             }
         )

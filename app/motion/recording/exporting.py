@@ -23,7 +23,16 @@ from rotemina.sim.trajectory.dry_run import dry_run, mode_of
 # must not make every interval a different one.
 _PER_SECOND = 1e9
 #: Metadata of a recording that stand in what is exported of it as well.
-_CARRIED = ("began", "robot_sha256", "model", "effects", "run", "operator", "sample")
+_CARRIED = (
+    "began",
+    "robot_sha256",
+    "machine_kind",
+    "model",
+    "effects",
+    "run",
+    "operator",
+    "sample",
+)
 _REST_S = 0.02  # for so long an axis must stand to count as at rest
 
 

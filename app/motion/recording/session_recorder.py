@@ -173,7 +173,11 @@ class SessionRecorder:
             self.writer.connected()
         if state.connection is not was:
             driver = self._session.driver
-            about = {"driver": driver.name, "settings": dict(driver.settings)}
+            about = {
+                "driver": driver.name,
+                "machine_kind": driver.machine_kind,
+                "settings": dict(driver.settings),
+            }
             self.writer.event("connection", state.connection, about)
         playing = before is not None and before.activity is DeviceState.PLAYING
         if state.activity is DeviceState.PLAYING and not playing:
@@ -225,6 +229,7 @@ def _metadata(session: MotionSession, settings: Mapping[str, object], began: str
         "robot_file": robot_file,
         "robot_sha256": hashlib.sha256(robot_file.encode()).hexdigest(),
         "driver": driver.name,
+        "machine_kind": driver.machine_kind,
         "driver_settings": json.dumps(dict(driver.settings), default=str),
         "model": session.model.id,
         **session.labels.metadata,

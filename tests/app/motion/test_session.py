@@ -157,6 +157,7 @@ def test_a_playback_gives_its_record(stepped):
         "trajectory_digest": check(stepped.session.robot, trajectory, 1e-3).digest,
         "model": stepped.session.model.id,
         "robot_sha256": fingerprint(stepped.session.robot),
+        "machine_kind": "simulated",
         "run": "series 3",
         "operator": "A. Müller",
     }

@@ -11,6 +11,7 @@ from rotemina.app.panel import Panel
 from rotemina.app.shell.motion_bar import LARGE, SMALL
 from rotemina.app.shell.stop_controls import RELEASE_AFTER_S, EmergencyButton, StopWatch
 from rotemina.app.shell.workbench import Level
+from rotemina.drivers.driver import MachineKind
 from rotemina.drivers.mc68hc11.driver import MC68HC11
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.robot.model import AxisEffect
@@ -336,12 +337,14 @@ def test_the_header_has_the_sizes_of_both_screens(window):
 def test_what_may_be_a_real_machine_is_shown_as_one(window, monkeypatch):
     bar, session = window._bar, window.workbench.session
     assert window.windowTitle().startswith("RoTeMiNa – SIMULATOR simulator – ")
-    for port, machine in (
-        ("/dev/pts/7", "VIRTUAL BOARDS"),
-        ("/dev/ttyUSB0", "MACHINE"),
-        ("socket://h:1", "MACHINE"),
+    for port, kind, machine in (
+        ("/dev/pts/7", None, "MACHINE"),
+        ("/dev/pts/7", MachineKind.VIRTUAL, "VIRTUAL BOARDS"),
+        ("/dev/ttyUSB0", MachineKind.REAL, "MACHINE"),
+        ("socket://h:1", MachineKind.VIRTUAL, "VIRTUAL BOARDS"),
     ):
         boards = MC68HC11(window.workbench.robot, {"port": port})
+        boards._machine_kind = kind  # as it said when it was opened
         with monkeypatch.context() as other:
             other.setattr(type(session), "driver", boards)
             bar.refresh(session.snapshot())

@@ -45,6 +45,7 @@ def test_a_record_has_what_the_device_told(moved, tmp_path):
         "robot": "RoTeMiNa",
         "driver": "unruly",
         "robot_sha256": moved.metadata["robot_sha256"],
+        "machine_kind": "simulated",
         "model": moved.metadata["model"],
         "recording": "session.arrows",
         "recording_id": moved.metadata["id"],
