@@ -27,7 +27,7 @@ class _Step(NamedTuple):
 
 
 class FirstSteps(QFrame):
-    """Stay with the simulator or connect; load the example; play; diagnose.
+    """Take the simulator or connect; load the example; play; diagnose.
 
     It is hidden until :meth:`offer`.
 
@@ -148,7 +148,7 @@ class FirstSteps(QFrame):
         )
 
     def _stay(self) -> None:
-        self._chosen = True
+        self._chosen |= self._bench.use_simulator(self._bench.settings)
 
     def _connect(self) -> None:
         self._chosen = True

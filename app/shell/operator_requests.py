@@ -6,15 +6,36 @@ from typing import NamedTuple
 
 from PySide6.QtCore import QObject, Signal
 
+from rotemina.app.driver_settings import kept
 from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.motion.session import MotionSession
+from rotemina.app.motion.state import Connection, SessionState
+from rotemina.app.settings import Settings
 from rotemina.app.shell.background import Background
 from rotemina.app.shell.help_topics import Explained, explained
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.notice_identity import request_subject
-from rotemina.drivers.driver import Driver
+from rotemina.drivers.driver import Driver, MachineKind
+from rotemina.drivers.samples import DeviceState
 from rotemina.drivers.settings import SettingValue
 from rotemina.sim.errors import InputError
+
+MAX_AGE_S = 1.0  # of a report of motion: an older one says nothing of now
+_STEADY = (DeviceState.IDLE, DeviceState.FAULT, DeviceState.CLOSED)
+
+
+def is_answering(state: SessionState) -> bool:
+    """Return whether the device reports: not if it failed, is being opened, is silent or hangs."""
+    is_fresh = state.age_s is None or state.age_s <= MAX_AGE_S
+    return state.connection is Connection.CONNECTED and state.silent_s == 0.0 and is_fresh
+
+
+def is_seen_moving(state: SessionState) -> bool:
+    """Return whether the device reports motion, or has yet to do what it was asked to.
+
+    Only that keeps the operator from another device, and only until it is stopped.
+    """
+    return is_answering(state) and (state.activity not in _STEADY or state.queued > 0)
 
 
 class OfferedPort(NamedTuple):
@@ -112,6 +133,27 @@ class Requests(QObject):
             self.session.use(driver)
 
         return self.ask(use)
+
+    def use_simulator(self, preferences: Settings) -> bool:
+        """Connect to the simulator, unless one is in use; return whether it is, or will be soon.
+
+        Only motion that the present device reports is a reason to refuse, and that is told.
+        """
+        # Loaded where it is wanted: a window that drives boards does without it.
+        from rotemina.drivers.simulator.driver import Simulator
+
+        state = self.session.snapshot()
+        is_one = self.session.driver.built_in_kind is MachineKind.SIMULATED
+        if is_one and state.connection in (Connection.CONNECTED, Connection.CONNECTING):
+            return True
+        if is_seen_moving(state):
+            self.refused.emit(
+                translate(
+                    "shell", "The axes are still moving: stop them before you choose the simulator."
+                )
+            )
+            return False
+        return self.use_driver(Simulator, kept(preferences, Simulator))
 
     def offer_ports(self, ports: Iterable[tuple[str, str]]) -> None:
         """Tell where virtual boards listen now, each with what is there; nowhere ends that."""

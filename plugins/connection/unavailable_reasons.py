@@ -1,6 +1,7 @@
 """Reasons why an action is unavailable, as a clause; None if it is available."""
 
 from rotemina.app.motion.state import Connection, SessionState
+from rotemina.app.shell.operator_requests import is_answering, is_seen_moving
 from rotemina.drivers.abilities import Homer, Parameterised, VoltageOutput
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.samples import DeviceState
@@ -25,12 +26,15 @@ def in_motion(state: SessionState) -> str | None:
 
 
 def against_connecting(state: SessionState, *, same: bool) -> str | None:
-    """Why not connect; ``same`` is whether it would be the device in use, with its settings."""
-    if state.connection is Connection.CONNECTING:
+    """Why not connect; ``same`` is whether it would be the device in use, with its settings.
+
+    Only motion that the present device reports keeps anybody from another one.
+    """
+    if same and state.connection is Connection.CONNECTING:
         return tr("the connection is being opened")
-    if same and state.connection is Connection.CONNECTED:
+    if same and is_answering(state):
         return tr("already connected with these settings")
-    return in_motion(state)
+    return tr("the machine is still moving; stop it or wait") if is_seen_moving(state) else None
 
 
 def against_disconnecting(state: SessionState) -> str | None:

@@ -1,5 +1,7 @@
 """Why something cannot be done now: pure functions of the session's state."""
 
+from dataclasses import replace
+
 import pytest
 
 from rotemina.app.motion.state import Connection, SessionState
@@ -36,8 +38,15 @@ DISTRUSTED = state(locked=f"{LOST}: home, or confirm", doubt=LOST)
         (state(), True, "connected with these settings"),
         (GONE, True, None),
         (FAILED, True, None),
-        (CONNECTING, False, "is being opened"),
+        (CONNECTING, True, "is being opened"),
+        (CONNECTING, False, None),
         (MOVING, False, "still moving"),
+        (replace(MOVING, silent_s=0.2), False, None),
+        (replace(MOVING, age_s=3.0), False, None),  # the driver hangs
+        (replace(MOVING, connection=Connection.FAILED, queued=2), False, None),
+        (state(fault="hot", locked="hot"), False, None),
+        (state(latched="stop and lock", locked="latched"), False, None),
+        (state(age_s=3.0), True, None),
     ],
 )
 def test_connecting(given, same, why):
