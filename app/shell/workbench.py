@@ -192,6 +192,7 @@ class Workbench(Requests):
             lambda text: self.notify(Level.WARNING, text, about="motion.md#requests-that-wait")
         )
         self._unsubscribe = session.subscribe(self._happened.emit)
+        self._described = self._describe_now()
         #: Makes a request once the machine rests, as one whose effects were switched soon does.
         self.at_rest = AtRest(self)
         self._frames = QTimer(self, interval=FRAME_MS)
@@ -653,17 +654,23 @@ class Workbench(Requests):
         self.long_work("last recording", progress, work, lambda _: done(), undone)
 
     def describe(self, state: SessionState) -> StateDisplay:
-        """Return what the window says of the machine in a state."""
+        """Return what the window says of the machine in a state; the same all through a frame."""
+        described, display = self._described
+        return display if described is state else describe_state(self._take_snapshot(state))
+
+    def _describe_now(self) -> tuple[SessionState, StateDisplay]:
+        state = self.session.snapshot()
+        return state, describe_state(self._take_snapshot(state))
+
+    def _take_snapshot(self, state: SessionState) -> WindowSnapshot:
         activity = self.microscope.runs.activity
-        return describe_state(
-            WindowSnapshot(
-                self.robot,
-                state,
-                self.playback.state,
-                self.resumption.waits_for,
-                self.operation.penetration.status,
-                "" if activity is Activity.NONE else activity,
-            )
+        return WindowSnapshot(
+            self.robot,
+            state,
+            self.playback.state,
+            self.resumption.waits_for,
+            self.operation.penetration.status,
+            "" if activity is Activity.NONE else activity,
         )
 
     def _follow_playback(self) -> None:
@@ -681,6 +688,7 @@ class Workbench(Requests):
         state = self.session.snapshot()
         self.turns.begin(state)
         self._follow_playback()
+        self._described = state, describe_state(self._take_snapshot(state))
         self._check_plan(state)
         self._played.look()
         self._penetrated.look()

@@ -287,3 +287,98 @@ def test_who_gives_no_speed_moves_nothing(qtbot, unlimited):
     click(qtbot, panel.transport.play)
     unlimited.workbench.session.stop()
     qtbot.waitUntil(lambda: speed_question(unlimited) is None, timeout=LONG_MS)
+
+
+# --- an axis that was moved during a pause --------------------------------------------------------
+
+
+@pytest.fixture
+def moved_away(qtbot, window, panel):
+    """Pause the swing, and move another axis, as a hand on its arrows would."""
+    transport, session = panel.transport, window.workbench.session
+    click(qtbot, transport.play)
+    qtbot.waitUntil(lambda: window.workbench.playback.state.row > 200, timeout=LONG_MS)
+    click(qtbot, transport.play)
+    qtbot.waitUntil(lambda: phase(panel) is PlaybackPhase.PAUSED, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: session.at_rest, timeout=LONG_MS)
+    session.jog("y", 0.5e-3)
+    said = "Y moved 500 µm since the pause"
+    qtbot.waitUntil(lambda: transport.progress.format() == said, timeout=LONG_MS)
+    header = f"{said}; Resume asks how to go on."
+    qtbot.waitUntil(lambda: window._bar.doing.text() == header, timeout=LONG_MS)
+    assert window._bar.phase.text().startswith("Paused at row ")
+    assert window._bar.phase.property("tone") == "warning"
+    assert not transport.forward.isEnabled()
+    return session.snapshot().command["y"]
+
+
+def ask_to_resume(qtbot, window, panel):
+    """Press Resume, and return the question in which that ends."""
+    click(qtbot, panel.transport.play)
+    question = window.resume_question
+    qtbot.waitUntil(question.isVisible, timeout=LONG_MS)
+    assert question.text.text() == "Y moved 500 µm since the pause. How to go on?"
+    assert not question.isModal()
+    return question
+
+
+def test_resume_asks_and_moves_back_slowly_before_it_goes_on(qtbot, window, panel, moved_away):
+    bench, session = window.workbench, window.workbench.session
+    question, row = ask_to_resume(qtbot, window, panel), bench.playback.state.row
+    assert session.at_rest  # nothing moves until that is answered
+    with qtbot.waitSignal(bench.run_changed, timeout=LONG_MS):
+        click(qtbot, question.move_back)
+        assert question.isHidden()
+        back = f"Moving back slowly to row {row + 1}; then the playback resumes."
+        qtbot.waitUntil(lambda: window._bar.doing.text() == back, timeout=LONG_MS)
+        assert panel.transport.play.isEnabled() is False
+    assert session.snapshot().command["y"] == pytest.approx(moved_away - 0.5e-3, abs=1e-9)
+    assert bench.playback.state.row == 1500
+    assert notices(window) == []
+
+
+def test_resume_asks_and_starts_over(qtbot, window, panel, moved_away):
+    bench = window.workbench
+    question = ask_to_resume(qtbot, window, panel)
+    with qtbot.waitSignal(bench.run_changed, timeout=LONG_MS):
+        click(qtbot, question.start_over)
+    assert bench.run.record.duration_s == pytest.approx(3.0, abs=0.01)
+    assert bench.session.snapshot().command["y"] == pytest.approx(moved_away, abs=1e-9)
+
+
+def test_a_question_is_withdrawn_by_a_stop_or_when_the_axis_comes_back(
+    qtbot, window, panel, moved_away
+):
+    question = ask_to_resume(qtbot, window, panel)
+    window.workbench.stop()
+    qtbot.waitUntil(question.isHidden, timeout=LONG_MS)
+    question = ask_to_resume(qtbot, window, panel)
+    click(qtbot, question.keep)
+    assert question.isHidden()
+    question = ask_to_resume(qtbot, window, panel)
+    window.workbench.jog("y", -0.5e-3)
+    qtbot.waitUntil(question.isHidden, timeout=LONG_MS)
+    assert phase(panel) is PlaybackPhase.PAUSED
+
+
+def test_a_stop_on_the_way_back_keeps_the_pause_and_says_so(qtbot, window, panel, moved_away):
+    question = ask_to_resume(qtbot, window, panel)
+    click(qtbot, question.move_back)
+    state = window.workbench.session.snapshot
+    qtbot.waitUntil(lambda: state().activity is DeviceState.MOVING, timeout=LONG_MS)
+    click(qtbot, window.stop_button)
+    qtbot.waitUntil(lambda: bool(notices(window)), timeout=LONG_MS)
+    assert notices(window) == ["Not resumed: the machine was stopped again."]
+    assert phase(panel) is PlaybackPhase.PAUSED
+
+
+def test_the_second_press_of_a_double_click_on_pause_does_not_resume(qtbot, window, panel):
+    bench, play = window.workbench, panel.transport.play
+    click(qtbot, play)
+    qtbot.waitUntil(lambda: bench.playback.state.row > 200, timeout=LONG_MS)
+    click(qtbot, play)
+    qtbot.waitUntil(lambda: phase(panel) is PlaybackPhase.PAUSED, timeout=LONG_MS)
+    bench.toggle_playback()  # the next press, before the button has been Resume for half a second
+    assert "Not done: " in notices(window)[0]
+    assert phase(panel) is PlaybackPhase.PAUSED
+    qtbot.waitUntil(lambda: play.text() == "Resume" and play.isEnabled(), timeout=LONG_MS)

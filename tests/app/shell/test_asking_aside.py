@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from rotemina.app.motion.playback import PlaybackPhase
-from rotemina.app.motion.state import Phase
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record, Tap
@@ -63,22 +62,22 @@ def test_esc_stops_while_the_path_to_be_played_is_checked(
     assert dict(session.snapshot().command) == dict(command)
 
 
+def toggle(qtbot, bench):
+    """Play, pause or resume, as soon as that counts."""
+    qtbot.waitUntil(lambda: bench.against_toggling(bench.playback.state) is None, timeout=LONG_MS)
+    bench.toggle_playback()
+
+
 def test_a_playback_that_goes_on_is_checked_aside_too(qtbot, planned, monkeypatch):
     planned.play()
     qtbot.waitUntil(
         lambda: planned.session.snapshot().activity is DeviceState.PLAYING, timeout=LONG_MS
     )
-    planned.toggle_playback()
-    qtbot.waitUntil(
-        lambda: (
-            planned.playback.state.phase is PlaybackPhase.PAUSED
-            and planned.session.snapshot().phase is Phase.READY
-        ),
-        timeout=LONG_MS,
-    )
+    toggle(qtbot, planned)
+    qtbot.waitUntil(lambda: planned.playback.state.phase is PlaybackPhase.PAUSED, timeout=LONG_MS)
     check = Check()
     monkeypatch.setattr(planned.session.bounds._guard, "play", check)
-    planned.toggle_playback()
+    toggle(qtbot, planned)
     assert check.begun.wait(LONG_MS / 1e3)
     check.may_end.set()
     assert check.threads[0] is not threading.main_thread()

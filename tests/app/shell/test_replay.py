@@ -46,7 +46,7 @@ def test_panels_show_the_replay_and_the_tool_bar_the_machine(qtbot, window, reco
     assert bar.isVisible()
     assert bar.title.text() == "Replay, not the machine: run"
     seek(qtbot, window, 0.25)  # in mid-move
-    assert bar.phase.text() == "moving"
+    assert bar.phase.text() == "Moving"
     assert bar.time.text() == "0:00.2 / 0:01.2"
     assert window._bar.phase.text() == "Locked"  # the machine's own
     assert window._bar.doing.text().startswith("A replay of run.arrows is displayed")

@@ -47,7 +47,7 @@ def unhomed(robot):
 
 
 def test_a_homed_simulator_is_ready(qtbot, window, panel):
-    phase_is(qtbot, panel, "ready")
+    phase_is(qtbot, panel, "Ready")
     assert panel.state.phase.property("tone") == "good"
     assert panel.state.reason.text() == "Motion is possible."
     assert not panel.state.release.isEnabled()
@@ -58,7 +58,7 @@ def test_a_homed_simulator_is_ready(qtbot, window, panel):
 def test_an_unhomed_machine_is_homed_from_here(qtbot, make_robot_window, press):
     window = make_robot_window(driver=unhomed)
     panel = window.panels["connection"]
-    phase_is(qtbot, panel, "position unknown")
+    phase_is(qtbot, panel, "Locked")
     assert panel.position.text.text() == "Not homed: X, Y, Z"
     assert "home first" in panel.state.reason.text()
     assert panel.tip.figures.values["Tip height"].text() == "unknown"
@@ -66,14 +66,14 @@ def test_an_unhomed_machine_is_homed_from_here(qtbot, make_robot_window, press):
     press(panel.position.home["y"])
     qtbot.waitUntil(lambda: panel.position.text.text() == "Not homed: X, Z", timeout=LONG_MS)
     press(panel.position.home_all)
-    phase_is(qtbot, panel, "ready")
+    phase_is(qtbot, panel, "Ready")
     assert panel.position.text.text() == "All positions are known."
 
 
 def test_the_owner_is_shown_while_homing(qtbot, make_robot_window, press):
     window = make_robot_window(driver=lambda robot: Simulator(robot, {"start_homed": False}))
     panel = window.panels["connection"]
-    phase_is(qtbot, panel, "position unknown")
+    phase_is(qtbot, panel, "Locked")
     press(panel.position.home["x"])
     qtbot.waitUntil(lambda: panel.position.owners.text() == "X: homing", timeout=LONG_MS)
     assert "X: homing" in window._status.text()
@@ -82,7 +82,7 @@ def test_the_owner_is_shown_while_homing(qtbot, make_robot_window, press):
 
 
 def test_the_latch_locks_until_it_is_released_here(qtbot, window, panel, press):
-    phase_is(qtbot, panel, "ready")
+    phase_is(qtbot, panel, "Ready")
     press(panel.state.emergency)
     qtbot.waitUntil(lambda: "release it first" in panel.state.reason.text(), timeout=LONG_MS)
     assert panel.state.phase.property("tone") == "danger"
@@ -95,7 +95,7 @@ def test_the_latch_locks_until_it_is_released_here(qtbot, window, panel, press):
 
 def test_a_move_is_taken_back(qtbot, window, panel, press):
     session = window.workbench.session
-    phase_is(qtbot, panel, "ready")
+    phase_is(qtbot, panel, "Ready")
     assert "no previous position" in panel.position.back.toolTip()
     start = session.snapshot().command["zn"]
     window.workbench.jog("zn", 1e-6)
@@ -105,7 +105,7 @@ def test_a_move_is_taken_back(qtbot, window, panel, press):
 
 def test_a_floor_is_taught_after_a_question_that_names_both_heights(qtbot, window, panel, press):
     session, tip = window.workbench.session, panel.tip
-    phase_is(qtbot, panel, "ready")
+    phase_is(qtbot, panel, "Ready")
     assert tip.figures.values["Floor"].text() == "none"
     assert not tip.remove.isEnabled()
     shown = tip.figures.values["Tip height"].text()
@@ -130,7 +130,7 @@ def test_a_floor_is_taught_after_a_question_that_names_both_heights(qtbot, windo
 
 
 def test_a_question_is_withdrawn_when_the_tip_moves(qtbot, window, panel, press):
-    phase_is(qtbot, panel, "ready")
+    phase_is(qtbot, panel, "Ready")
     press(panel.tip.teach)
     window.workbench.jog("z", 1e-4)
     qtbot.waitUntil(panel.tip.question.isHidden, timeout=LONG_MS)
@@ -141,7 +141,7 @@ def test_a_voltage_is_put_out_after_a_question_that_says_where_it_leads(
     qtbot, window, panel, press
 ):
     session, voltage = window.workbench.session, panel.voltage
-    phase_is(qtbot, panel, "ready")
+    phase_is(qtbot, panel, "Ready")
     assert [voltage.axis.itemText(i) for i in range(voltage.axis.count())] == ["θx", "θy", "Z nano"]
     voltage.axis.setCurrentIndex(2)
     voltage.volts.setValue(1000.0)
@@ -173,12 +173,12 @@ def test_parameters_that_differ_are_settled(qtbot, make_robot_window, press, dif
     panel = window.panels["connection"]
     parameters, session = panel.parameters, window.workbench.session
     qtbot.waitUntil(lambda: parameters.table.rowCount() == 2, timeout=LONG_MS)
-    phase_is(qtbot, panel, "locked")
+    phase_is(qtbot, panel, "Locked")
     rows = [[parameters.table.item(row, column).text() for column in range(3)] for row in range(2)]
     assert rows == [["x pitch <b>", "0.5 mm", "0.4 mm"], ["y limit", "50 mm", "55 mm"]]
     assert not panel.tip.teach.isEnabled()
     press(getattr(parameters, way))
-    phase_is(qtbot, panel, "ready")
+    phase_is(qtbot, panel, "Ready")
     assert parameters.table.rowCount() == 0
     assert (session.driver.written, session.driver.accepted) == (way == "write", way == "accept")
     assert not parameters.write.isEnabled()
@@ -189,7 +189,7 @@ def test_a_device_that_cannot_be_opened_leaves_a_window_with_the_reason(
 ):
     window = make_robot_window(driver=absent)
     panel = window.panels["connection"]
-    phase_is(qtbot, panel, "failed")
+    phase_is(qtbot, panel, "Failed")
     assert "nothing answers on port <COM9>" in panel.state.reason.text()
     qtbot.waitUntil(lambda: "port <COM9>" in notices(window), timeout=LONG_MS)
     assert panel.state.reason.textFormat() is Qt.TextFormat.PlainText
@@ -197,27 +197,28 @@ def test_a_device_that_cannot_be_opened_leaves_a_window_with_the_reason(
     qtbot.waitUntil(window._bar.help.isVisible, timeout=LONG_MS)
     window.workbench.session.driver.plugged_in = True
     press(window._bar.help)
-    phase_is(qtbot, panel, "ready")
+    phase_is(qtbot, panel, "Ready")
     qtbot.waitUntil(lambda: not window._bar.help.isVisible(), timeout=LONG_MS)
 
 
 def test_a_lost_connection_is_distrusted_until_confirmed(qtbot, make_robot_window, press, losing):
     window = make_robot_window(driver=losing)
     panel, driver = window.panels["connection"], window.workbench.session.driver
-    phase_is(qtbot, panel, "ready")
+    phase_is(qtbot, panel, "Ready")
     driver.cut = True
-    phase_is(qtbot, panel, "failed")
+    phase_is(qtbot, panel, "Failed")
     driver.cut = False
     press(panel.device.reconnect_button)
-    phase_is(qtbot, panel, "locked")
+    phase_is(qtbot, panel, "Locked")
     assert "may be wrong" in panel.state.reason.text()
     window.docks["connection"].hide()
     qtbot.waitUntil(lambda: window._bar.help.text() == "Confirm …", timeout=LONG_MS)
+    qtbot.waitUntil(window._bar.help.isEnabled, timeout=LONG_MS)
     press(window._bar.help)  # leads to the page, and confirms nothing by itself
     assert "may be wrong" in panel.state.reason.text()
     qtbot.waitUntil(panel.state.confirm.isVisible, timeout=LONG_MS)
     press(panel.state.confirm)
-    phase_is(qtbot, panel, "ready")
+    phase_is(qtbot, panel, "Ready")
     assert not panel.state.confirm.isEnabled()
     assert not window._bar.help.isVisible()
 
@@ -225,27 +226,27 @@ def test_a_lost_connection_is_distrusted_until_confirmed(qtbot, make_robot_windo
 def test_a_fault_is_cleared_from_here(qtbot, make_robot_window, press, losing):
     window = make_robot_window(driver=losing)
     panel, driver = window.panels["connection"], window.workbench.session.driver
-    phase_is(qtbot, panel, "ready")
+    phase_is(qtbot, panel, "Ready")
     assert not panel.state.clear.isEnabled()
     driver.trouble = "too hot"
-    phase_is(qtbot, panel, "fault")
+    phase_is(qtbot, panel, "Fault")
     assert "too hot" in panel.state.reason.text()
     press(panel.state.clear)
-    phase_is(qtbot, panel, "ready")
+    phase_is(qtbot, panel, "Ready")
 
 
 def test_disconnecting_and_connecting_with_other_settings(qtbot, window, panel, press):
     device, session = panel.device, window.workbench.session
-    phase_is(qtbot, panel, "ready")
+    phase_is(qtbot, panel, "Ready")
     assert not device.connect_button.isEnabled()
     assert "connected with these settings" in device.connect_button.toolTip()
     press(device.disconnect_button)
-    phase_is(qtbot, panel, "disconnected")
+    phase_is(qtbot, panel, "Disconnected")
     field = device.form.fields["start_fraction"].widget
     field.setText("0.25")
     device.form.fields["settle_s"].widget.setText("0.02")
     press(device.connect_button)
-    phase_is(qtbot, panel, "ready")
+    phase_is(qtbot, panel, "Ready")
     assert session.driver.settings["start_fraction"] == 0.25
     assert session.snapshot().command["x"] == pytest.approx(0.055 * 0.25)
     assert window.workbench.settings.get("driver.simulator.start_fraction", 0.0) == 0.25
@@ -253,13 +254,13 @@ def test_disconnecting_and_connecting_with_other_settings(qtbot, window, panel, 
 
 
 def test_another_device_leads_back_to_no_place_of_the_first(qtbot, window, panel, press):
-    phase_is(qtbot, panel, "ready")
+    phase_is(qtbot, panel, "Ready")
     window.workbench.jog("zn", 1e-6)
     qtbot.waitUntil(lambda: panel.position.back.isEnabled(), timeout=LONG_MS)
     panel.device.form.fields["seed"].widget.setText("5")
     press(panel.device.connect_button)
     qtbot.waitUntil(lambda: window.workbench.session.driver.settings["seed"] == 5, timeout=LONG_MS)
-    phase_is(qtbot, panel, "ready")
+    phase_is(qtbot, panel, "Ready")
     qtbot.waitUntil(lambda: not panel.position.back.isEnabled(), timeout=LONG_MS)
 
 
@@ -371,7 +372,7 @@ def test_everything_that_can_be_pressed_is_reached_by_keyboard_and_named(window,
 
 
 def test_nothing_is_moved_by_a_session_that_only_shows(qtbot, window, panel):
-    phase_is(qtbot, panel, "ready")
+    phase_is(qtbot, panel, "Ready")
     state = window.workbench.session.snapshot()
     assert state.phase is Phase.READY
     assert state.activity is DeviceState.IDLE

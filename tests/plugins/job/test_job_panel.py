@@ -9,6 +9,7 @@ from rotemina.app.motion.playback import PlaybackPhase, PlaybackState
 from rotemina.app.motion.state import SessionState
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.job import words
+from rotemina.sim.robot.file import load_robot
 from rotemina.sim.trajectory.first_trajectory import example_for
 
 PANELS = ("events",)
@@ -16,19 +17,22 @@ LONG_MS = 30_000
 
 
 def test_what_runs_is_told_with_its_share_and_the_time_that_is_left():
+    robot = load_robot("rotemina")
     playing = PlaybackState(
         PlaybackPhase.PLAYING, row=1999, rows=8001, path_s=2.0, duration_s=8.0, speed=0.5
     )
-    told = words.playback(playing, "tour")
+    told = words.playback(playing, "tour", robot)
     assert told == ("tour", "row 2000 of 8001", "0:12 left", 0.25)
-    assert words.playback(PlaybackState(), "") == ("No trajectory is loaded", "", "", None)
+    moved = PlaybackState(PlaybackPhase.PAUSED, rows=8001, moved={"x": 2.7e-3})
+    assert words.playback(moved, "tour", robot).doing == "X moved 2.7 mm since the pause"
+    assert words.playback(PlaybackState(), "", robot) == ("No trajectory is loaded", "", "", None)
     assert words.penetration(PenetrationStatus()) is None
     held = words.penetration(PenetrationStatus(Phase.HELD, reason="stopped"))
     assert held[:2] == ("held", "stopped")
     lost = words.recording(Path("d/a.arrows"), 61.0, 2_000_000, "no space")
     assert lost[:3] == ("a.arrows", "not recording: no space", "1:01")
     moving = SessionState(activity=DeviceState.MOVING, owners={"x": OPERATOR})
-    assert words.motion(moving).name == "X: operator"
+    assert words.motion(moving).name == "Operator moves X"
     assert words.motion(SessionState(activity=DeviceState.PLAYING)) is None
 
 
@@ -49,6 +53,8 @@ def test_a_playback_and_a_recording_are_steered_and_told(qtbot, window):
     job.play.click()
     qtbot.waitUntil(lambda: job.playback.bar.value() > 0, timeout=LONG_MS)
     assert job.play.text() == "Pause"
+    assert not job.play.isEnabled()  # so soon, a press would have been meant for Play
+    qtbot.waitUntil(job.play.isEnabled, timeout=LONG_MS)
     job.play.click()
     qtbot.waitUntil(lambda: "paused" in job.playback.doing.text(), timeout=LONG_MS)
     assert job.recording.isVisibleTo(job)
