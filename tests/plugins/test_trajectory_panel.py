@@ -269,6 +269,7 @@ def test_a_speed_that_nothing_limits_is_asked_for_once_and_kept(qtbot, unlimited
     # It is remembered, and holds at a higher pace too.
     qtbot.waitUntil(lambda: panel.transport.play.text() == "Play", timeout=LONG_MS)
     panel.transport.speed.setValue(4.0)
+    qtbot.waitUntil(lambda: panel.transport.play.text() == "Play", timeout=LONG_MS)
     click(qtbot, panel.transport.play)
     qtbot.waitUntil(lambda: bool(notices(unlimited)), timeout=LONG_MS)
     assert speed_question(unlimited) is None

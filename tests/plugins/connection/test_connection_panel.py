@@ -75,8 +75,8 @@ def test_the_owner_is_shown_while_homing(qtbot, make_robot_window, press):
     panel = window.panels["connection"]
     phase_is(qtbot, panel, "Locked")
     press(panel.position.home["x"])
-    qtbot.waitUntil(lambda: panel.position.owners.text() == "X: homing", timeout=LONG_MS)
-    assert "X: homing" in window._status.text()
+    qtbot.waitUntil(lambda: panel.position.owners.text() == "Homing moves X", timeout=LONG_MS)
+    assert "Homing moves X" in window._status.text()
     assert not panel.position.home["y"].isEnabled()
     assert not panel.device.connect_button.isEnabled()
 
@@ -206,7 +206,7 @@ def test_a_lost_connection_is_distrusted_until_confirmed(qtbot, make_robot_windo
     panel, driver = window.panels["connection"], window.workbench.session.driver
     phase_is(qtbot, panel, "Ready")
     driver.cut = True
-    phase_is(qtbot, panel, "Failed")
+    phase_is(qtbot, panel, "Link lost")
     driver.cut = False
     press(panel.device.reconnect_button)
     phase_is(qtbot, panel, "Locked")
