@@ -144,7 +144,7 @@ def standing(view: DevicesView, state: TeleoperationState, *, stale: bool) -> tu
         return tr("blocked"), Tone.WARNING
     if any(one.waiting for one in state.coordinates):
         return tr("waiting"), Tone.WARNING
-    return tr("ready"), Tone.GOOD
+    return tr("input ready"), Tone.QUIET  # green is for a machine that is ready
 
 
 def reason_text(state: TeleoperationState, *, stale: bool) -> str:

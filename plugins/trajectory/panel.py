@@ -22,6 +22,7 @@ from rotemina.app.shell.engine_words import error_text, spoken
 from rotemina.app.shell.language import marked
 from rotemina.app.shell.loaded_trajectory import Plan
 from rotemina.app.shell.requests_at_rest import WaitingRequest
+from rotemina.app.shell.state_words import describe_moved
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import set_property
 from rotemina.app.widgets.labels import LiveLabel, heading, plain_text
@@ -296,10 +297,13 @@ class TrajectoryPanel(Panel):
     def _refresh(self, state: SessionState) -> None:
         self.transport.refresh(state)
         self.points.refresh(state)
-        gaps = self.workbench.playback.state.gaps
-        self.gaps.setVisible(bool(gaps))
-        plan = self.workbench.plan
-        if gaps and plan is not None:
+        playback, plan = self.workbench.playback.state, self.workbench.plan
+        gaps, moved = playback.gaps, describe_moved(self.workbench.robot, playback)
+        self.gaps.setVisible(bool(gaps or moved))
+        set_property(self.gaps, "bad", bool(moved))
+        if moved:
+            self.gaps.setText(tr("{moved}: Resume asks how to go on.").format(moved=moved))
+        elif gaps and plan is not None:
             parts = [
                 f"{label(name)} {gap_text(gaps[name], axis.unit)}"
                 for name, axis in plan.dry_run.axes.items()

@@ -155,9 +155,6 @@ class Transport(QWidget):
             if state.row >= 0
             else tr("before its first row")
         )
-        if moved := describe_moved(self._workbench.robot, state):
-            self.progress.setFormat(moved)
-            return
         paused = tr("paused, ") if state.phase is PlaybackPhase.PAUSED else ""
         self.progress.setFormat(
             tr("{paused}{row}, {left_s:.1f} s left").format(paused=paused, row=row, left_s=left_s)

@@ -304,7 +304,8 @@ def moved_away(qtbot, window, panel):
     qtbot.waitUntil(lambda: session.at_rest, timeout=LONG_MS)
     session.jog("y", 0.5e-3)
     said = "Y moved 500 µm since the pause"
-    qtbot.waitUntil(lambda: transport.progress.format() == said, timeout=LONG_MS)
+    line = f"{said}: Resume asks how to go on."
+    qtbot.waitUntil(lambda: panel.gaps.text() == line, timeout=LONG_MS)
     header = f"{said}; Resume asks how to go on."
     qtbot.waitUntil(lambda: window._bar.doing.text() == header, timeout=LONG_MS)
     assert window._bar.phase.text().startswith("Paused at row ")

@@ -76,7 +76,8 @@ def test_the_owner_is_shown_while_homing(qtbot, make_robot_window, press):
     phase_is(qtbot, panel, "Locked")
     press(panel.position.home["x"])
     qtbot.waitUntil(lambda: panel.position.owners.text() == "Homing moves X", timeout=LONG_MS)
-    assert "Homing moves X" in window._status.text()
+    qtbot.waitUntil(lambda: "simulator: Homing" in window._status.text(), timeout=LONG_MS)
+    assert window._bar.doing.text() == "Moving to find the limit switches of X."
     assert not panel.position.home["y"].isEnabled()
     assert not panel.device.connect_button.isEnabled()
 

@@ -65,7 +65,7 @@ def make_panel(qtbot, settings, tmp_path):
         found.resize(330, 1400)
         found.show()
         bench.start()
-        qtbot.waitUntil(lambda: found.head.word.text() == "ready", timeout=LONG_MS)
+        qtbot.waitUntil(lambda: found.head.word.text() == "input ready", timeout=LONG_MS)
         return found
 
     yield make
@@ -177,7 +177,7 @@ def test_whatever_takes_the_pad_away_ends_the_motion(qtbot, window):
     for (name, take_away), key in zip(ways.items(), cycle((RIGHT, LEFT)), strict=False):
         dock.show()
         dock.raise_()
-        qtbot.waitUntil(lambda: panel.head.word.text() == "ready", timeout=LONG_MS)
+        qtbot.waitUntil(lambda: panel.head.word.text() == "input ready", timeout=LONG_MS)
         focus(qtbot, panel)
         qtbot.waitUntil(lambda: heeded(panel), timeout=LONG_MS)
         QTest.keyPress(panel.pad.area, key)
@@ -277,7 +277,7 @@ def test_beside_a_joystick_the_pad_takes_over_when_asked(qtbot, bench, panel, st
     stick.offer()
     head = panel.head
     qtbot.waitUntil(lambda: head.device.text() == "Bench <stick>", timeout=LONG_MS)
-    qtbot.waitUntil(lambda: head.word.text() == "ready", timeout=LONG_MS)
+    qtbot.waitUntil(lambda: head.word.text() == "input ready", timeout=LONG_MS)
     qtbot.waitUntil(panel.pad.take_over.isEnabled, timeout=LONG_MS)
     QTest.keyPress(panel.pad.area, RIGHT)
     assert not panel.pad._stick.busy

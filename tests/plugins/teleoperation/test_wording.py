@@ -62,7 +62,7 @@ def test_trust_has_its_reasons_each_once_and_only_of_what_moves():
 @pytest.mark.parametrize(
     ("state", "stale", "word", "tone"),
     [
-        (STATE, False, "ready", Tone.GOOD),
+        (STATE, False, "input ready", Tone.QUIET),
         (replace(STATE, driving=True, reason="x"), False, "in control", Tone.BUSY),
         (replace(STATE, driving=True), True, "no answer", Tone.DANGER),
         (replace(STATE, reason="a fault"), False, "blocked", Tone.WARNING),
