@@ -51,6 +51,7 @@ WORDS = (
     marked("engine", "write its parameters"),
     marked("engine", "resume"),
     marked("engine", "step through"),
+    marked("engine", "start over"),
     # who drives
     marked("engine", "operator"),
     marked("engine", "playback"),
