@@ -130,7 +130,8 @@ def _is_control(widget: QWidget) -> bool:
         for kind in type(widget).__mro__
         if not kind.__module__.startswith("PySide6")
     )
-    roomy = widget.width() >= _ROOMY.width() and widget.height() >= _ROOMY.height()
+    size = QWidget.size(widget)
+    roomy = size.width() >= _ROOMY.width() and size.height() >= _ROOMY.height()
     return handles_clicks and not roomy
 
 
@@ -139,13 +140,14 @@ def _seen(window: QWidget, without: Collection[QWidget]) -> Iterator[tuple[QWidg
     waiting = [(window, window.rect(), QPoint())]
     while waiting:
         parent, seen, origin = waiting.pop()
-        for child in parent.children():
+        for child in QWidget.children(parent):
             if not isinstance(child, QWidget) or child in without:
                 continue
             if child.isWindow() or not child.isVisible():
                 continue
-            corner = origin + child.pos()
-            rect = QRect(corner, child.size()).intersected(seen)
+            # A panel may have parts named as Qt's methods are, such as "size".
+            place = QWidget.geometry(child).translated(origin)
+            rect = place.intersected(seen)
             if not rect.isEmpty():
                 yield child, rect
-                waiting.append((child, rect, corner))
+                waiting.append((child, rect, place.topLeft()))

@@ -118,7 +118,7 @@ def test_excess_pauses_and_says_so(qtbot, window, panel):
     assert window.workbench.bounds == {"zn": pytest.approx(8e-6)}
     click(qtbot, panel.transport.play)
     qtbot.waitUntil(lambda: len(notices(window)) > 0, timeout=LONG_MS)
-    assert "Playback paused: axis zn deviates" in notices(window)[0]
+    assert "Playback paused: axis Z nano deviates" in notices(window)[0]
     assert "the bound is 8 µm" in notices(window)[0]
     qtbot.waitUntil(lambda: phase(panel) is PlaybackPhase.PAUSED, timeout=LONG_MS)
 
