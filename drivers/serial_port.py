@@ -262,5 +262,5 @@ def _why(url: str, error: Exception) -> str:
             "engine",
             "{url}: there is no such port ({said}); check the name, and whether the "
             "adapter is plugged in",
-        ).fill(url=url, said=said)
-    return message("engine", "{url} cannot be opened: {said}").fill(url=url, said=said)
+        ).fill(url=url, said=reason_of(error))
+    return message("engine", "{url} cannot be opened: {said}").fill(url=url, said=reason_of(error))
