@@ -106,7 +106,7 @@ class DeviceLink:
     def replace_hung_worker(self, request: ConnectionRequest, patience_s: float) -> Worker | None:
         """Return a new worker in place of one that has not come to a request; None if it has.
 
-        What the old one was to do the new one does; what hangs is left alone, and that is told.
+        The new worker does what the old one was asked to. An event says what is left alone.
         """
         if not request.claim():
             return None

@@ -169,7 +169,7 @@ Command = (
 
 
 class ConnectionRequest:
-    """The desired connection: a ``driver``, or None to disconnect; done by whoever claims it."""
+    """The desired connection: a ``driver``, or None to disconnect. Who claims it does it."""
 
     def __init__(self, driver: Driver | None) -> None:
         self.driver = driver

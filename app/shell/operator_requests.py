@@ -137,7 +137,7 @@ class Requests(QObject):
     def use_simulator(self, preferences: Settings) -> bool:
         """Connect to the simulator, unless one is in use; return whether it is, or will be soon.
 
-        Only motion that the present device reports is a reason to refuse, and that is told.
+        Only motion that the present device reports is a reason to refuse; a notice says so.
         """
         # Loaded where it is wanted: a window that drives boards does without it.
         from rotemina.drivers.simulator.driver import Simulator

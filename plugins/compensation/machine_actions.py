@@ -59,7 +59,9 @@ class Actuation:
             return
         if learned is None or learned.axis != axis:
             text = tr("Nothing is applied: no inverse of {axis} is trained. Train one first.")
-            self._workbench.notify(Level.WARNING, text.format(axis=label(axis)))
+            self._workbench.notify(
+                Level.WARNING, text.format(axis=label(axis)), about="compensation.md"
+            )
             return
         kind = self._controls.kind.currentData()
         name = f"{NAMES[kind]}, {source}"

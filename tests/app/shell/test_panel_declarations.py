@@ -33,7 +33,7 @@ def found_again(settings):
 def test_a_second_start_loads_none_until_it_is_made(found_again, monkeypatch):
     assert all(isinstance(kind, DeclaredPanel) for kind in found_again.kinds.values())
     assert PLATE.module in found_again.modules_to_load
-    made = SimpleNamespace()
+    made = SimpleNamespace(look_now=lambda: None)
     monkeypatch.setattr(DeclaredPanel, "load", lambda _: lambda bench: made)
     assert found_again["plate"] is made
     assert PLATE.module not in found_again.modules_to_load

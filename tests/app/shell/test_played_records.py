@@ -40,7 +40,7 @@ class Bench:
     def set_gap(self, path, run):
         self.done.append("gap")
 
-    def work(self, kind, doing, work, done):
+    def work(self, kind, doing, work, done, **_):
         done(work())
 
     def end(self, record=RECORD, *, completed=True):
