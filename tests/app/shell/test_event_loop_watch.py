@@ -2,10 +2,11 @@
 
 import logging
 import threading
+import weakref
 
 import pytest
 
-from rotemina.app.shell.event_loop_watch import PERIOD_S, LoopWatch
+from rotemina.app.shell.event_loop_watch import PERIOD_S, LoopWatch, thread_calls
 from rotemina.app.shell.reaction_times import Latenesses
 
 PANELS = ()
@@ -47,16 +48,19 @@ def stand_still(watch, clock):
 
 def test_a_stall_is_logged_with_the_calls_that_the_window_was_in(qtbot, caplog):
     clock = Clock()
-    watch = LoopWatch(clock=clock)
+    worked = Clock()
+    watch = LoopWatch(clock=clock, worked=worked)
     clock.now_s += PERIOD_S
     watch.beat()
+    worked.now_s += 0.07
     watch.look()  # nothing is overdue
     with caplog.at_level(logging.WARNING):
         stand_still(watch, clock)
         watch.beat()
     (stall,) = watch.stalls
     assert stall.lasted_s == pytest.approx(0.5 - PERIOD_S)
-    assert "did not react for 0.48 s" in caplog.text
+    assert stall.worked_s == pytest.approx(0.07)
+    assert "did not react for 0.48 s, and worked 0.07 s of that" in caplog.text
     assert stall.calls[-1].startswith("  threading:")  # where this thread waited for the other
     # A stall during which nobody could look is not given the calls of the one before.
     clock.now_s += 0.5
@@ -76,6 +80,30 @@ def test_a_window_that_is_always_late_does_not_fill_the_log(qtbot, caplog):
     told = [record.getMessage() for record in caplog.records]
     assert len(told) == 2
     assert "(and 115 times since the last word, up to 0.50 s)" in told[1]
+
+
+def test_the_calls_of_a_thread_are_read_without_keeping_what_it_has():
+    class Painter:
+        pass
+
+    began, goes_on, left = threading.Event(), threading.Event(), []
+
+    def paint_something():
+        painter = Painter()
+        left.append(weakref.ref(painter))
+        began.set()
+        goes_on.wait(30.0)
+
+    thread = threading.Thread(target=paint_something)
+    thread.start()
+    assert began.wait(30.0)
+    calls = thread_calls(thread.ident)
+    assert calls[-1].startswith("  threading:")
+    assert calls[-1].endswith(" wait")
+    assert not thread_calls(0)  # no such thread
+    goes_on.set()
+    thread.join(30.0)
+    assert left[0]() is None
 
 
 def test_a_watch_beats_by_itself_until_it_is_closed(qtbot):
