@@ -4,11 +4,12 @@ from typing import Any, NamedTuple
 
 import pyqtgraph as pg
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QColor
+from PySide6.QtGui import QColor, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QWidget
 
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
+from rotemina.app.widgets.painted_in_turn import PaintedInTurn
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.decimation import envelope
 from rotemina.sim.quantities import localized
@@ -16,6 +17,7 @@ from rotemina.sim.quantities import localized
 AXIS_WIDTH = 68  # fixed, so that plots above each other line up and never shift
 RIGHT_MARGIN = 12  # px beside a plot, as fixed
 BAND = 0.15  # of the text's colour: the noise floor
+PLOTS_AHEAD = 6  # as many as one panel has at most
 _SHRINK = 0.35  # the scale is tightened when the signal fills less than this of it
 _MARGIN = 0.12
 
@@ -50,6 +52,40 @@ class _Axis(pg.AxisItem):
         return [localized(text) for text in super().tickStrings(*ticks)]
 
 
+def _new_item() -> pg.PlotItem:
+    """Return axes and grid of a plot: most of what takes long to make of it."""
+    axes = {side: _Axis(side) for side in ("left", "bottom")}
+    item = pg.PlotItem(enableMenu=False, axisItems=axes)
+    item.hideButtons()
+    item.setClipToView(False)
+    for axis in axes.values():
+        axis.enableAutoSIPrefix(False)
+        axis.setStyle(tickLength=-5, hideOverlappingLabels=True)
+        # Numbers and grid change seldom, the curves at every frame.
+        axis.setCacheMode(axis.CacheMode.DeviceCoordinateCache)
+    axes["left"].setWidth(AXIS_WIDTH)
+    item.showGrid(x=True, y=True, alpha=0.18)
+    return item
+
+
+_made_ahead: list[pg.PlotItem] = []
+
+
+def make_plot_ahead() -> bool:
+    """Make part of a plot that is needed later; return whether there are enough now.
+
+    A panel with several plots would hold the window up if it made them all at once.
+    """
+    if len(_made_ahead) < PLOTS_AHEAD:
+        _made_ahead.append(_new_item())
+    return len(_made_ahead) >= PLOTS_AHEAD
+
+
+def drop_plots_ahead() -> None:
+    """Free those that nobody needs any more."""
+    _made_ahead.clear()
+
+
 class SignalPlot(pg.PlotWidget):
     """Named curves over time, decimated to the width by lowest and highest values.
 
@@ -57,26 +93,33 @@ class SignalPlot(pg.PlotWidget):
     its numbers can be read.
     """
 
+    _turn: PaintedInTurn | None = None  # until it is made
+
     def __init__(self, theme: Theme, parent: QWidget | None = None) -> None:
-        axes = {side: _Axis(side) for side in ("left", "bottom")}
-        super().__init__(parent, enableMenu=False, axisItems=axes)
+        super().__init__(parent, plotItem=_made_ahead.pop() if _made_ahead else _new_item())
         self._curves: dict[str, pg.PlotCurveItem] = {}
         self._pens: dict[str, Line] = {}
         self._scale: tuple[float, float] | None = None
         self._stale = False
-        self.hideButtons()
         self.setAntialiasing(False)
-        item = self.getPlotItem()
-        item.setClipToView(False)
-        for side in ("left", "bottom"):
-            axis = item.getAxis(side)
-            axis.enableAutoSIPrefix(False)
-            axis.setStyle(tickLength=-5, hideOverlappingLabels=True)
-            # Numbers and grid change seldom, the curves at every frame.
-            axis.setCacheMode(axis.CacheMode.DeviceCoordinateCache)
-        item.getAxis("left").setWidth(AXIS_WIDTH)
-        item.showGrid(x=True, y=True, alpha=0.18)
+        self._turn = PaintedInTurn(self, lambda: super(SignalPlot, self).resizeEvent(None))
         self.set_theme(theme)
+
+    def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 (Qt's name)
+        """Be painted when its turn comes."""
+        super().showEvent(event)
+        self._turn.hold()
+
+    def resizeEvent(self, event: QResizeEvent | None) -> None:  # noqa: N802 (Qt's name)
+        """Fit axes and curves to the size: while it is seen, when its turn to be painted comes."""
+        if self._turn is not None and self.isVisible():
+            self._turn.hold()
+        else:
+            super().resizeEvent(event)
+
+    def settle(self) -> None:
+        """Be painted now, such as for a picture of the window."""
+        self._turn.release()
 
     def add_curve(self, name: str, line: Line) -> None:
         """Add a curve; what has its way in :data:`LINES` is drawn so."""

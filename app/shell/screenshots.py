@@ -11,6 +11,7 @@ if TYPE_CHECKING:
 
 os.environ["QT_QPA_PLATFORM"] = "offscreen"
 
+_TURNS = 20  # of the event loop, in which what waits for its turn is drawn
 SIZES = ((1280, 800), (1920, 1080))
 
 
@@ -54,7 +55,7 @@ def main(folder: Path) -> int:
                 window.arrangement.arrange(OPERATE)  # as at a first start
                 for name in ("plots", front):
                     window.bring_up(name)
-                for _ in range(5):
+                for _ in range(_TURNS):
                     QApplication.processEvents()
                 window.grab().save(str(folder / f"window-{width}x{height}-{theme}.png"))
                 count += 1
@@ -127,7 +128,7 @@ def in_german(folder: Path, kept: Path) -> int:
     for layout in BUILT_IN:
         window.arrangement.arrange(layout)
         window.resize(width, height)
-        for _ in range(5):
+        for _ in range(_TURNS):
             QApplication.processEvents()
         word = layout.word.lower().replace(" ", "-")
         name = f"window-de-{word}-{width}x{height}-dark.png"
@@ -151,7 +152,7 @@ def bring_up(window: "MainWindow", name: str) -> None:
     for tabs in window.findChildren(QTabWidget):
         if tabs.indexOf(panel) >= 0:
             tabs.setCurrentWidget(panel)
-    for _ in range(5):  # what waited until it is seen is drawn by then
+    for _ in range(_TURNS):  # what waited until it is seen is drawn by then
         QApplication.processEvents()
     while name == "microscope" and panel.view.frame is None:
         QApplication.processEvents()

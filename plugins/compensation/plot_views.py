@@ -60,7 +60,7 @@ class Curves(QWidget):
         for name, role in roles.items():
             self.plot.add_curve(name, Line(role))
         in_column(self.title, (self.plot, 1), on=self, margins=0, spacing=2)
-        self.set_theme(theme)
+        self._write()
 
     def draw(self, name: str, x: FloatArray, y: FloatArray) -> None:
         """Draw a curve (n,)."""
@@ -74,18 +74,22 @@ class Curves(QWidget):
     def set_unit(self, unit: str) -> None:
         """Name the unit, "m" or "rad", of what is drawn in millionths of it."""
         self._unit = unit
-        self.set_theme(self._theme)
+        self._write()
 
     def set_theme(self, theme: Theme) -> None:
         """Change all colours."""
         self._theme = theme
         self.plot.set_theme(theme)
+        self._write()
+
+    def _write(self) -> None:
+        """Write the names of axes and curves."""
         title, bottom = (
             tr(text).format(unit=f"µ{self._unit}") for text in (self._title, self._bottom)
         )
         self.plot.getPlotItem().setLabel("bottom", bottom)
         shown = ((tr(name), role) for name, role in self._roles.items())
-        self.title.setText(f"{escape(title)}: {legend(theme, shown)}")
+        self.title.setText(f"{escape(title)}: {legend(self._theme, shown)}")
 
 
 class CheckView(QWidget):

@@ -28,7 +28,6 @@ from rotemina.app.shell.plot import LINES
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.layouts import in_column, in_row
-from rotemina.app.widgets.painted_once import PaintedOnce
 from rotemina.drivers.clock import Clock
 from rotemina.plugins.plots import mark, tr
 from rotemina.plugins.plots.axis_plot import AxisPlot, Picture
@@ -86,7 +85,6 @@ class PlotsPanel(Panel):
         below = in_row((self._legend, 1), self.age)
         in_column(header, below, on=self._head, margins=0, spacing=3)
         in_column(self._head, (self.grid, 1), on=self, margins=0, spacing=3)
-        PaintedOnce(self)
         offer_in_palette(self.pause, self.cursors, safe_while_hidden=True)
         self._waiting: list[Sequence[AxisPlot]] = []  # to be drawn as the others are already
         self._next = QTimer(self, singleShot=True, interval=0)
@@ -153,6 +151,8 @@ class PlotsPanel(Panel):
 
     def save_picture(self, path: Path) -> None:
         """Write a picture of all plots, PNG or SVG by the name."""
+        for plot in self.plots.values():
+            plot.plot.settle()
         if self.workbench.ask(lambda: save_picture(self.grid, path)):
             self.workbench.notify(Level.GOOD, tr("Saved {path}").format(path=path))
 
