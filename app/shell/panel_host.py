@@ -43,6 +43,7 @@ class Panels(MutableMapping[str, Panel]):
         self.kinds = dict(kinds)
         self.made: dict[str, Panel] = {}
         self._under_way: set[str] = set()
+        self._unplaced: list[str] = []
         self.placed: Callable[[str, Panel], object] = lambda name, panel: None
         self.failed: Callable[[str, str], object] = lambda name, reason: None
 
@@ -50,7 +51,19 @@ class Panels(MutableMapping[str, Panel]):
         """Return a panel, made if need be; None if there is none of that name, or it fails."""
         if name in self.waiting:
             self._make(name)
+        self._place(name)
         return self.made.get(name)
+
+    def make_step(self, first: str = "") -> bool:
+        """Do one step towards making all, ``first`` before others; return whether there is more.
+
+        To make a panel and to put it into its place each take long enough for a step of their own.
+        """
+        if self._unplaced:
+            self._place(self._unplaced[0])
+        elif self.waiting:
+            self._make(first if first in self.waiting else self.waiting[0])
+        return bool(self._unplaced or self.waiting)
 
     def _make(self, name: str) -> None:
         self._under_way.add(name)
@@ -58,20 +71,30 @@ class Panels(MutableMapping[str, Panel]):
             kind = self.kinds[name]
             if isinstance(kind, DeclaredPanel):
                 kind = self.kinds[name] = kind.load()
-            panel = self.made[name] = make_panel(kind, self._workbench)
+            self.made[name] = make_panel(kind, self._workbench)
         except BaseException as error:  # whatever it raises, the window goes on
             logger.exception("panel %s cannot be made", name)
             del self.kinds[name]
             self.failed(name, f"{type(error).__name__}: {error}")
         else:
-            self.placed(name, panel)
+            self._unplaced.append(name)
         finally:
             self._under_way.discard(name)
+
+    def _place(self, name: str) -> None:
+        if name in self._unplaced:
+            self._unplaced.remove(name)
+            self.placed(name, self.made[name])
 
     def make_all(self) -> None:
         """Make those that are not made yet."""
         for name in tuple(self.kinds):
             self.make(name)
+
+    @property
+    def has_unplaced(self) -> bool:
+        """Whether one is made that is not in its place yet."""
+        return bool(self._unplaced)
 
     @property
     def waiting(self) -> tuple[str, ...]:

@@ -7,6 +7,8 @@ import threading
 from collections.abc import Iterable
 
 from rotemina.app.motion.recording.arrow_tables import prepare
+from rotemina.drivers.registry import discover_drivers
+from rotemina.sim.effects.registry import all_effects
 
 logger = logging.getLogger(__name__)
 
@@ -26,6 +28,8 @@ def preload(names: Iterable[str]) -> threading.Thread:
                 importlib.import_module(name)
             except Exception as error:  # a broken library breaks at import as it likes
                 logger.info("%s cannot be loaded before it is needed: %s", name, error)
+        discover_drivers()  # which panels offer to choose from
+        all_effects()
         prepare()  # a recording begins at once from then on
         gc.freeze()  # what was loaded stays: no look for garbage need go through it
 

@@ -14,6 +14,7 @@ from rotemina.app.settings import Settings
 from rotemina.app.shell import main_window as module
 from rotemina.app.shell import window_run
 from rotemina.app.shell.deferred_panels import LatePanels
+from rotemina.app.shell.layouts import TUNE
 from rotemina.app.shell.panel_host import GROUP
 from rotemina.drivers import registry
 from rotemina.drivers.samples import DeviceState
@@ -96,6 +97,29 @@ def test_what_comes_into_sight_is_laid_out_before_it_is_painted(make_robot_windo
         laid_out = [widget.geometry() for widget in window.findChildren(QWidget)]
         QCoreApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
         assert laid_out == [widget.geometry() for widget in window.findChildren(QWidget)]
+
+
+@pytest.mark.every_panel
+def test_what_a_layout_shows_is_made_in_small_steps_once_the_window_is_in_use(
+    make_robot_window, monkeypatch
+):
+    monkeypatch.setattr(LatePanels, "start", lambda _: None)
+    monkeypatch.setattr(LatePanels, "_before_work", lambda *_: None)
+    window = make_robot_window()
+    late, panels = window.late_panels, window.panels
+    late._since.start()
+    window.arrangement.arrange(TUNE)
+    wanted = ("connection", "identification")
+    assert not panels.made.keys() & set(wanted)
+    for _ in range(100):
+        made = len(panels.made)
+        placed = sum(dock.widget() is not None for dock in window.docks.values())
+        late.make_seen()
+        steps = len(panels.made) - made
+        steps += sum(dock.widget() is not None for dock in window.docks.values()) - placed
+        assert steps <= 1
+    for name in wanted:
+        assert window.docks[name].widget() is panels.made[name]
 
 
 @pytest.mark.every_panel
