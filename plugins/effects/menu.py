@@ -26,7 +26,11 @@ def fill(
 ) -> None:
     """Fill a menu with the effects that may sit on each axis, and name those left out."""
     for axis in robot.axes:
-        _add_axis(_submenu(menu, label(axis)), robot, axis, effects, add)
+        inner = _submenu(menu, label(axis))
+        # When it is opened: hundreds of entries take long to make, and few of them are looked at.
+        inner.aboutToShow.connect(
+            lambda inner=inner, axis=axis: _add_axis(inner, robot, axis, effects, add)
+        )
     if broken:
         menu.addSeparator()
         left_out = _submenu(menu, tr("Left out ({n})").format(n=len(broken)))
@@ -39,6 +43,7 @@ def _add_axis(
     menu: QMenu, robot: Robot, axis: str, effects: Mapping[str, Effect], add: Add
 ) -> None:
     stage = None
+    menu.clear()
     for effect_id, names in candidates(robot, axis, effects).items():
         effect = effects[effect_id]
         if effect.stage is not stage:

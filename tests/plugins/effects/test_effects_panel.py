@@ -60,6 +60,7 @@ def choose(menu, *path):
     for name in path[:-1]:
         action = next(a for a in menu.actions() if a.text().strip() == name)
         menu = action.menu()
+        menu.aboutToShow.emit()
     action = next(a for a in menu.actions() if a.text().strip() == path[-1])
     return action.menu().actions()[0] if action.menu() else action
 
@@ -125,6 +126,7 @@ def test_hysteresis_parts_the_measurement_from_the_model_line_until_all_is_off(
 def test_the_menu_is_grouped_by_stage_with_summaries_as_tooltips(panel):
     effects, _ = all_effects()
     menu = next(a for a in panel.add.menu().actions() if a.text() == "θx").menu()
+    menu.aboutToShow.emit()
     heads = [a.text() for a in menu.actions() if not a.isEnabled()]
     assert heads == [h for h in ("Electronics", "Actuator", "Mechanics", "Sensor") if h in heads]
     assert {"Actuator", "Mechanics", "Sensor"} <= set(heads)
