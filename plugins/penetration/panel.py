@@ -1,5 +1,6 @@
 """Automatic cell penetration: parameters, the run, and the log."""
 
+import logging
 from dataclasses import asdict
 from pathlib import Path
 
@@ -11,6 +12,7 @@ from rotemina.app.motion.penetration.run_log import PenetrationRun
 from rotemina.app.motion.penetration.status import PenetrationStatus
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel, offer_in_palette
+from rotemina.app.shell.background import Background
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.file_dialog import ask_file, ask_where
 from rotemina.app.shell.language import marked
@@ -31,7 +33,10 @@ from rotemina.plugins.penetration.run_bar import RunBar
 from rotemina.plugins.penetration.thrust_view import ThrustPreview
 from rotemina.plugins.penetration.words import FIXED, message
 
+logger = logging.getLogger(__name__)
+
 FILES = mark("Penetrations (*.toml);;All files (*)")
+_PLANNING = mark("the thrust is being planned")
 KEEP_MS = 500  # after the latest change the parameters are kept
 
 
@@ -53,7 +58,9 @@ class PenetrationPanel(Panel):
         self.bar = RunBar(workbench)
         self.message = named(plain_text(quiet=False, wrap=True), tr("State of the penetration"))
         self.form = ParameterForm(workbench.robot, self._operation.penetration_parameters)
-        self._plan()
+        self._planning = Background(self)
+        self._planned_for = workbench.session.driver
+        self.plan_preview = PlanPreview(self.form.parameters, None, tr(_PLANNING))
         self.readouts, self.preview = Readouts(workbench), ThrustPreview(workbench.theme)
         self.log = LogView(self._operation.penetration_log.path)
         self.cell, self.cells = CellView(workbench), CellListView(workbench)
@@ -64,6 +71,7 @@ class PenetrationPanel(Panel):
         offer_in_palette(self.bar.arm, self.cells.next)
         offer_in_palette(self.cells.export, safe_while_hidden=True)
         self._read_log()
+        self._plan_first()
 
     # --- parts ------------------------------------------------------------------------------------
 
@@ -166,6 +174,19 @@ class PenetrationPanel(Panel):
             self._plan()
             self._keep.start()
         self._refresh(self.workbench.session.snapshot())
+
+    def _plan_first(self) -> None:
+        """Plan in the background: to make the panel takes long enough."""
+        session, awaited = self.workbench.session, self.plan_preview
+
+        def take(preview: PlanPreview) -> None:
+            if self.plan_preview is awaited:  # nothing was changed meanwhile
+                self.plan_preview = preview
+                self._refresh(session.snapshot())
+
+        self._planning.run(
+            "plan", lambda: PlanPreview.of(session, awaited.parameters), take, logger.warning
+        )
 
     def _plan(self) -> None:
         session = self.workbench.session
