@@ -1,9 +1,12 @@
 """The window that shows pages of the documentation; it needs no network and runs no scripts."""
 
-from PySide6.QtCore import QByteArray, QUrl
+import logging
+
+from PySide6.QtCore import QBuffer, QByteArray, QSize, Qt, QUrl
 from PySide6.QtGui import (
     QDesktopServices,
     QImage,
+    QImageReader,
     QKeySequence,
     QPalette,
     QTextBlock,
@@ -22,9 +25,12 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.app.shell import help_pages
+from rotemina.app.shell.background import Background
 from rotemina.app.shell.help_pages import Page
 from rotemina.app.shell.language import translate
 from rotemina.app.widgets.controls import allow
+
+logger = logging.getLogger(__name__)
 
 MOST_BACK = 100  # pages that Back goes over
 _MARGIN = 14.0  # px around text
@@ -40,13 +46,19 @@ class HelpBrowser(QTextBrowser):
         self.setOpenLinks(False)  # the page decides where a link leads
         self.setAccessibleName(translate("shell", "Page of the documentation"))
         self.page = Page(help_pages.PACKAGE, help_pages.CONTENTS)
+        self._background = Background(self)
 
     def show_page(self, page: Page, text: str) -> None:
         """Show a page from its section on."""
         self.page = page
+        document = QTextDocument(self)
+        document.setUndoRedoEnabled(False)
+        document.setDefaultFont(self.font())
         features = _FEATURES.MarkdownDialectGitHub | _FEATURES.MarkdownNoHTML
-        self.document().setMarkdown(text, features)
-        self._space()
+        document.setMarkdown(text, features)
+        self._space(document)
+        # Only now: a document that is shown is laid out again after each of these steps.
+        self.setDocument(document)
         self.go_to(page.anchor)
 
     def go_to(self, anchor: str) -> None:
@@ -63,14 +75,27 @@ class HelpBrowser(QTextBrowser):
         address = QUrl(name)
         if not address.isRelative():
             return QByteArray()
-        picture = QImage()
         data = self.page.beside(address.path()).read_bytes()
-        if data is not None:
-            picture.loadFromData(data)
+        size = _size_of(data or b"")
         width = self.viewport().width() - 40
-        if picture.width() > width > 0:
-            return picture.scaledToWidth(width)
-        return picture
+        if size.width() > width > 0:
+            size.scale(width, size.height(), Qt.AspectRatioMode.KeepAspectRatio)
+        if data is None or size.isEmpty():
+            return QImage()
+        document = self.document()
+
+        def show(picture: QImage) -> None:
+            if self.document() is document:
+                document.addResource(kind, address, picture)
+                self.viewport().update()
+
+        # Its place is laid out at once; to read a large picture takes long.
+        self._background.run(
+            f"picture {address.path()}", lambda: _picture(data, size), show, logger.warning
+        )
+        place = QImage(size, QImage.Format.Format_ARGB32_Premultiplied)
+        place.fill(Qt.GlobalColor.transparent)
+        return place
 
     def _heading(self, anchor: str) -> QTextBlock:
         block = self.document().begin()
@@ -80,11 +105,11 @@ class HelpBrowser(QTextBrowser):
             block = block.next()
         return self.document().begin()
 
-    def _space(self) -> None:
+    def _space(self, document: QTextDocument) -> None:
         """Give paragraphs and code room, which Markdown leaves to the one who shows it."""
-        self.document().setDocumentMargin(_MARGIN)
+        document.setDocumentMargin(_MARGIN)
         tint = self.palette().color(QPalette.ColorRole.AlternateBase)
-        block = self.document().begin()
+        block = document.begin()
         while block.isValid():
             cursor = QTextCursor(block)
             look = block.blockFormat()
@@ -96,6 +121,21 @@ class HelpBrowser(QTextBrowser):
                 look.setBottomMargin(_MARGIN / 2)
             cursor.setBlockFormat(look)
             block = block.next()
+
+
+def _size_of(data: bytes) -> QSize:
+    """Return the size of a picture, px; nothing but its head is read."""
+    buffer = QBuffer()
+    buffer.setData(data)
+    return QImageReader(buffer).size()
+
+
+def _picture(data: bytes, size: QSize) -> QImage:
+    picture = QImage()
+    picture.loadFromData(data)
+    if picture.size() == size:
+        return picture
+    return picture.scaled(size, mode=Qt.TransformationMode.SmoothTransformation)
 
 
 class HelpPage(QDialog):
