@@ -53,7 +53,10 @@ class Run:
 
     @cached_property
     def gaps(self) -> Mapping[tuple[str, Tap], GapFigure | None]:
-        """The gap of each axis at each tap that is compared; None: nothing moved."""
+        """The gap of each axis at each tap that is compared; None: nothing moved.
+
+        A run is returned with its gaps worked out: of a long record it takes tenths of a second.
+        """
         record, response = self.record, self.comparison.response
         commands = [record.signal(axis, Tap.CMD) for axis in record.axes]
         counted = moving(record.time_s, np.column_stack(commands))
@@ -126,7 +129,8 @@ def compared(
     signals = {**response.signals, **{(axis, Tap.MEAS): one for axis, one in readings.items()}}
     answered = replace(response, signals=signals)
     comparison = compare(model.robot, record, response=answered)
-    return Run(name, comparison, completed, model.id, MappingProxyType(nominal), answers)
+    shown = MappingProxyType(nominal)
+    return _with_gaps(Run(name, comparison, completed, model.id, shown, answers))
 
 
 def compared_again(model: ModelInUse, run: Run, memory: CommandMemory) -> Run:
@@ -143,7 +147,13 @@ def compared_again(model: ModelInUse, run: Run, memory: CommandMemory) -> Run:
     if told is not None:
         told = _answers_anew(model, run.record, told, memory)
     answered = compared(model, run.name, run.record, completed=run.completed, answers=told)
-    return replace(answered, answers=run.answers)
+    return _with_gaps(replace(answered, answers=run.answers))
+
+
+def _with_gaps(run: Run) -> Run:
+    """Return a run with its gaps worked out, as this may take long and the window shows them."""
+    assert run.gaps is not None
+    return run
 
 
 def _answers_anew(
