@@ -46,9 +46,8 @@ def mesh_of(command: Command) -> Mesh:
     points, faces = _MAKERS[geometry["type"]](geometry)
     matrix = np.array(told["object"]["matrix"]).reshape(4, 4).T
     points = points @ matrix[:3, :3].T + matrix[:3, 3]
-    normals = np.array([_normal(points[face]) for face in faces])
-    middle = points.mean(axis=0)
-    outwards = np.array([points[face].mean(axis=0) for face in faces]) - middle
+    normals, middles = _planes(points, faces)
+    outwards = middles - points.mean(axis=0)
     normals[np.einsum("ij,ij->i", normals, outwards) < 0] *= -1.0
     edges, sides = _edges(faces)
     cosines = np.einsum("ij,ij->i", normals[sides[:, 0]], normals[sides[:, 1]])
@@ -56,11 +55,21 @@ def mesh_of(command: Command) -> Mesh:
     return Mesh(points, faces, normals, edges, sides, sharp)
 
 
-def _normal(corners: FloatArray) -> FloatArray:
-    """Return the unit normal of a plane polygon (n, 3), by Newell's method."""
-    relative = corners - corners[0]  # less cancellation than about a far origin
-    normal = np.cross(relative, np.roll(relative, -1, axis=0)).sum(axis=0)
-    return np.asarray(normal / np.linalg.norm(normal))
+def _planes(points: FloatArray, faces: Faces) -> tuple[FloatArray, FloatArray]:
+    """Return unit normals (f, 3) of plane polygons, by Newell's method, and their middles (f, 3).
+
+    Faces with the same number of corners are worked out together.
+    """
+    normals, middles = np.empty((len(faces), 3)), np.empty((len(faces), 3))
+    counts = np.array([len(face) for face in faces])
+    for count in np.unique(counts):
+        chosen = np.flatnonzero(counts == count)
+        corners = points[np.array([faces[at] for at in chosen])]
+        relative = corners - corners[:, :1]  # less cancellation than about a far origin
+        areas = np.cross(relative, np.roll(relative, -1, axis=1)).sum(axis=1)
+        normals[chosen] = areas / np.linalg.norm(areas, axis=1, keepdims=True)
+        middles[chosen] = corners.mean(axis=1)
+    return normals, middles
 
 
 def _edges(faces: Faces) -> tuple[IntArray, IntArray]:
