@@ -5,7 +5,7 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
 from typing import NamedTuple
 
-from PySide6.QtCore import QObject, QPointF, Signal
+from PySide6.QtCore import QObject, QPointF, QRectF, Signal
 from PySide6.QtGui import QImage, QPainter
 
 from rotemina.drivers.cameras.frame import Frame
@@ -43,9 +43,12 @@ class Picture(NamedTuple):
     image: QImage
     colours: Colours  # what the image looks at
 
-    def draw(self, painter: QPainter) -> None:
-        """Draw it where it belongs."""
+    def draw(self, painter: QPainter, place: QRectF | None = None) -> None:
+        """Draw it where it belongs, or scaled to a place of another size."""
         part = self.of.part
+        if place is not None:
+            painter.drawImage(place, self.image)
+            return
         painter.drawImage(QPointF(round(part.left), round(part.top)), self.image)
 
 

@@ -80,6 +80,7 @@ class PictureView(QWidget):
         self._held = False
         self._space = False
         self._picture: Picture | None = None
+        self._resized = False  # since the picture was worked out
         self._work = PictureWork(self, self._take)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setMouseTracking(True)
@@ -170,7 +171,7 @@ class PictureView(QWidget):
         frame = self.frame
         picture = None if frame is None else self._picture_in_sight(frame)
         if picture is not None:
-            picture.draw(painter)
+            picture.draw(painter, self._place(picture) if self._resized else None)
             painter.setRenderHint(QPainter.RenderHint.Antialiasing)
             if Layer.CROSSHAIR in self.layers:
                 painting.draw_crosshair(painter, self.viewport)
@@ -195,14 +196,29 @@ class PictureView(QWidget):
         if frame is None:
             return  # the camera was closed meanwhile
         self._picture, self.span = picture, picture.span
-        if frame is not picture.of.frame:
-            self._work.begin(self._wanted(frame))
+        wanted = self._wanted(frame)
+        fits = picture.of.looks_like(wanted)
+        self._resized = self._resized and not fits
+        if frame is not picture.of.frame or self._resized:
+            self._work.begin(wanted)
         self.update()
 
+    def _place(self, picture: Picture) -> QRectF:
+        """Return where a picture of another size of the view belongs, screen px."""
+        (left, right), (top, bottom) = picture.of.part.columns, picture.of.part.rows
+        corner = self.viewport.to_screen(left - 0.5, top - 0.5)
+        other = self.viewport.to_screen(right - 0.5, bottom - 0.5)
+        return QRectF(QPointF(*corner), QPointF(*other))
+
     def _picture_in_sight(self, frame: Frame) -> Picture:
-        """Return the newest picture; what hands change, such as the zoom, is not waited for."""
+        """Return the newest picture; what hands change, such as the zoom, is not waited for.
+
+        While the view is being resized the last one is good enough.
+        """
         wanted = self._wanted(frame)
         picture = self._picture
+        if picture is not None and self._resized:
+            return picture
         if picture is None or not picture.of.looks_like(wanted):
             picture = self._picture = wanted.worked_out()
             self.span = picture.span
@@ -300,6 +316,12 @@ class PictureView(QWidget):
         size = event.size()
         self.viewport = self.viewport.resized(size.width(), size.height())
         self.zoomed.emit()
+        frame, picture = self.frame, self._picture
+        if frame is not None and picture is not None:
+            wanted = self._wanted(frame)
+            self._resized = not picture.of.looks_like(wanted)
+            if self._resized and not self._work.busy:
+                self._work.begin(wanted)
 
     def _let_go(self) -> None:
         self._space = False
