@@ -2,13 +2,14 @@
 
 from collections.abc import Callable, Mapping
 
-from PySide6.QtCore import QEvent, QObject
+from PySide6.QtCore import QEvent, QObject, QTimer
 from PySide6.QtWidgets import QAbstractButton, QDockWidget, QTabWidget, QToolButton, QWidget
 
 from rotemina.app.shell.language import translate
 from rotemina.app.widgets.controls import plain_tip
 
 _GAP = 2  # px between the buttons of a title bar
+_MOVING = (QEvent.Type.Resize, QEvent.Type.Show, QEvent.Type.LayoutRequest)
 _OWN_BUTTONS = ("qt_dockwidget_floatbutton", "qt_dockwidget_closebutton")
 
 
@@ -37,6 +38,8 @@ class DockHelp(QObject):
     def __init__(self, dock: QDockWidget, show: Callable[[], object]) -> None:
         super().__init__(dock)
         self._dock = dock
+        self._soon = QTimer(self, singleShot=True, interval=0)
+        self._soon.timeout.connect(self.place)
         self.button = HelpButton(dock)
         self.button.tell(dock.windowTitle())
         self.button.clicked.connect(lambda _=False: show())
@@ -44,9 +47,9 @@ class DockHelp(QObject):
         dock.topLevelChanged.connect(lambda _: self.place())
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
-        """Follow the title bar."""
-        if event.type() in (QEvent.Type.Resize, QEvent.Type.Show, QEvent.Type.LayoutRequest):
-            self.place()
+        """Follow the title bar, once for all that another layout changes of it."""
+        if event.type() in _MOVING:
+            self._soon.start()
         return False
 
     def place(self) -> None:

@@ -128,7 +128,8 @@ def arrange(
 ) -> None:
     """Put docks where a layout wants them; the others are closed where their panels want to be."""
     for _, dock in docks.values():
-        dock.setFloating(False)
+        if dock.isFloating():
+            dock.setFloating(False)  # takes long, whether it floats or not
         window.removeDockWidget(dock)
     named = {name: area for name, area in layout.docks.items() if name in docks}
     rest = {name: area for name, (area, _) in docks.items() if name not in named}
