@@ -15,11 +15,13 @@ class SteadyMeaning:
     ----------
     clock : callable
         The host's time, s.
+    meaning : object
+        What it means from the beginning, when nobody can have meant anything else.
     """
 
-    def __init__(self, clock: Clock = time.monotonic) -> None:
+    def __init__(self, clock: Clock = time.monotonic, meaning: object = None) -> None:
         self._clock = clock
-        self._meaning: object = None
+        self._meaning = meaning
         self._since_s = float("-inf")
 
     def show(self, meaning: object) -> None:

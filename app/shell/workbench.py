@@ -171,7 +171,7 @@ class Workbench(Requests):
         self.playback = Playback(session, self._exceeded.emit)
         self.resumption = Resumption(session, self.playback, self.ask_aside, self.refused.emit)
         #: Of what plays, pauses and resumes: what a press does now, and since when.
-        self.play_meaning = SteadyMeaning()
+        self.play_meaning = SteadyMeaning(meaning=PlaybackPhase.IDLE)
         self.operation = Operation(
             session, settings.folder, played_folder.parent, told=self._told.emit
         )
