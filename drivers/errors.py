@@ -11,6 +11,10 @@ class ConnectionLostError(DriverError, ConnectionError):
     """The device cannot be reached, or no longer: its position is not to be trusted."""
 
 
+class DeviceResetError(ConnectionLostError):
+    """The line works, but the device has restarted: what it knew, as its position, is gone."""
+
+
 class DriverTimeoutError(DriverError, TimeoutError):
     """The device did not answer in time."""
 

@@ -52,7 +52,7 @@ from rotemina.app.motion.stop_send_latency import StopLatency
 from rotemina.drivers.abilities import Homer, Linked
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.driver import Driver, MachineKind
-from rotemina.drivers.errors import DriverError, StateError
+from rotemina.drivers.errors import DeviceResetError, DriverError, StateError
 from rotemina.drivers.gate import Gate
 from rotemina.drivers.line_quality import LinkQuality
 from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
@@ -196,8 +196,9 @@ class Worker:
         except Exception as error:  # a driver may raise anything; motion must lock and say so
             if self._next.connection is Connection.CONNECTED:
                 self._trust.doubt(LOST, self._lost_axes())
+            lost = isinstance(error, ConnectionError | TimeoutError)
             self._fail(
-                _described(error), link_lost=isinstance(error, ConnectionError | TimeoutError)
+                _described(error), link_lost=lost and not isinstance(error, DeviceResetError)
             )
         self._publish()
 

@@ -6,7 +6,7 @@ from math import inf
 
 from rotemina.drivers.abilities import VOLTAGE_SLEW
 from rotemina.drivers.clock import Clock
-from rotemina.drivers.errors import ConnectionLostError
+from rotemina.drivers.errors import ConnectionLostError, DeviceResetError
 from rotemina.drivers.gate import OvertakenError, Permit
 from rotemina.drivers.mc68hc11.axes import BoardAxis
 from rotemina.drivers.mc68hc11.board import Board
@@ -271,7 +271,7 @@ class Session:
     def _judge(self) -> None:
         for board in self.boards:
             if board.reset:
-                raise ConnectionLostError(
+                raise DeviceResetError(
                     message(
                         "engine",
                         "{where} was reset and has lost its position; reconnect and home",

@@ -21,7 +21,12 @@ from rotemina.app.motion.state import (
 )
 from rotemina.app.motion.stop import StopRequest
 from rotemina.drivers.driver import Driver
-from rotemina.drivers.errors import ConnectionLostError, DriverTimeoutError, StateError
+from rotemina.drivers.errors import (
+    ConnectionLostError,
+    DeviceResetError,
+    DriverTimeoutError,
+    StateError,
+)
 from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record, Tap
@@ -625,7 +630,11 @@ def test_a_stop_that_overtakes_a_request_stays_the_last_event(stepped):
 
 
 def test_a_lost_link_is_told_from_a_device_that_failed(make_stepped):
-    for error, lost in ((ConnectionError("unplugged"), True), (ValueError("a bug"), False)):
+    for error, lost in (
+        (ConnectionError("unplugged"), True),
+        (DeviceResetError("the board began again"), False),
+        (ValueError("a bug"), False),
+    ):
         stepped = make_stepped()
 
         def fail(error=error):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rotemina.drivers.errors import ConnectionLostError, StateError
+from rotemina.drivers.errors import ConnectionLostError, DeviceResetError, StateError
 from rotemina.drivers.mc68hc11.protocol_codes import Fault
 from rotemina.drivers.samples import DeviceState, Samples
 from rotemina.drivers.virtual_board.clock import BoardClock
@@ -102,7 +102,7 @@ def test_a_board_that_is_reset_in_mid_move_ends_the_connection(bench):
     bench.driver.move_to({"x": 0.05})
     bench.run(0.2)
     bench.boards.boards[0].reset(Fault.RESET)
-    with pytest.raises(ConnectionLostError, match="reset"):
+    with pytest.raises(DeviceResetError, match="reset"):
         bench.run(1.0)
     assert not bench.driver.status().position_known
     bench.driver.close()
