@@ -13,6 +13,7 @@ from rotemina.sim.robot.model import Robot
 from rotemina.sim.robot.writing import write_robot
 
 _LISTENING = re.compile(r"listening on (?P<port>.+): (?P<who>board .+)")
+_COMPLAINT = "rotemina: "  # begins each line of what the command refuses
 _END_MS = 1500
 # Where nothing but sockets can be waited for, a process has no commands either.
 TAKES_COMMANDS = os.name == "posix"
@@ -113,8 +114,11 @@ class BoardProcess(QObject):
     def _read_complaints(self) -> None:
         text = bytes(self._process.readAllStandardError().data()).decode("utf-8", "replace")
         for line in filter(None, map(str.strip, text.splitlines())):
-            self._complaint = line.removeprefix("rotemina: ")
-            self.complained.emit(self._complaint)
+            if line.startswith(_COMPLAINT):
+                self._complaint = line.removeprefix(_COMPLAINT)
+                self.complained.emit(self._complaint)
+            else:  # what the command tells besides, such as the robot file it uses
+                self.said.emit(line)
 
     def _fail(self, error: QProcess.ProcessError) -> None:
         if error is QProcess.ProcessError.FailedToStart:

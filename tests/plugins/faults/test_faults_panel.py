@@ -116,6 +116,7 @@ def test_a_virtual_board_serves_takes_faults_and_ends_with_the_window(qtbot, win
     assert device.choice.currentText() == "mc68hc11"
     values = device.form.values()
     assert (values["port"], values["second_port"]) == tuple(port for port, _ in board.ports)
+    assert not [row for row in rows(panel) if row[0] == "refused"]
     row = next(row for row in injection.rows if row.fault.title == "Cable")
     qtbot.waitUntil(row.button.isEnabled, timeout=LONG_MS)
     qtbot.mouseClick(row.button, Qt.MouseButton.LeftButton)
