@@ -6,6 +6,7 @@ from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QBrush, QColor, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from rotemina.app.display_units import label
 from rotemina.app.motion.state import Connection, SessionState
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
@@ -83,6 +84,8 @@ class MachineBadge(QWidget):
         driver = self._workbench.session.driver
         machine = machine_of(driver, state.connection)
         port = ", ".join(ports_of(driver)) or driver.name
+        if machine is Machine.SIMULATOR:
+            port = self._describe_wear() or port
         words = translate("shell", WORDS[machine])
         if (machine, port, words) == (self.machine, self.port, self.words):
             return False
@@ -91,6 +94,16 @@ class MachineBadge(QWidget):
         self.setToolTip(plain_tip(translate("shell", TIPS[machine]), self.port))
         self.update()
         return True
+
+    def _describe_wear(self) -> str:
+        """Return whether a worn machine is simulated, and where; "" where that is hidden."""
+        effects = self._workbench.session.service.effects
+        if effects is None:
+            return ""
+        axes = dict.fromkeys(label(effect.axis) for effect in effects if effect.enabled)
+        if not axes:
+            return translate("shell", "nominal")
+        return translate("shell", "worn: {axes}").format(axes=", ".join(axes))
 
     def sizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
         """Return the size of the large header."""

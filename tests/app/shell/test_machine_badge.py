@@ -23,6 +23,7 @@ from rotemina.drivers.gcode.driver import GcodeStage
 from rotemina.drivers.mc68hc11.driver import MC68HC11
 from rotemina.drivers.simulator.driver import Simulator
 from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot.model import AxisEffect
 
 WAIT_S = 30.0
 ROBOT = load_robot("rotemina")
@@ -141,3 +142,18 @@ def test_what_the_project_emulates_says_so_and_stays_so_when_it_is_lost(driver, 
         finally:
             session.close()
     assert (seen, lost) == (Machine.VIRTUAL_BOARDS, Machine.VIRTUAL_BOARDS)
+
+
+def test_a_worn_simulator_is_not_mistaken_for_the_nominal_one(qtbot):
+    session = MotionSession(Simulator(ROBOT))
+    badge = MachineBadge(SimpleNamespace(session=session, theme=THEMES["dark"]))
+    qtbot.addWidget(badge)
+    assert badge.port == "nominal"
+    session.driver._effects = (
+        AxisEffect(axis="x", id="backlash"),
+        AxisEffect(axis="y", id="backlash", enabled=False),
+        AxisEffect(axis="zn", id="creep"),
+    )
+    assert badge.refresh(session.snapshot())
+    assert badge.port == "worn: X, Z nano"
+    assert "worn" in badge.accessibleName()

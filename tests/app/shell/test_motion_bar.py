@@ -336,7 +336,7 @@ def test_the_header_has_the_sizes_of_both_screens(window):
 
 def test_what_may_be_a_real_machine_is_shown_as_one(window, monkeypatch):
     bar, session = window._bar, window.workbench.session
-    assert window.windowTitle().startswith("RoTeMiNa – SIMULATOR simulator – ")
+    assert window.windowTitle().startswith("RoTeMiNa – SIMULATOR nominal – ")
     for port, kind, machine in (
         ("/dev/pts/7", None, "MACHINE"),
         ("/dev/pts/7", MachineKind.VIRTUAL, "VIRTUAL BOARDS"),
