@@ -4,6 +4,10 @@
 <context>
     <name>calibration</name>
     <message>
+        <source>Not run: {why}. Press Run again.</source>
+        <translation>Nicht gestartet: {why}. Noch einmal auf Starten drücken.</translation>
+    </message>
+    <message>
         <source>Records (*.csv *.txt *.dat *.gz);;All files (*)</source>
         <translation>Aufzeichnungen (*.csv *.txt *.dat *.gz);;Alle Dateien (*)</translation>
     </message>

@@ -336,6 +336,14 @@
         <translation>die Achse bewegt sich</translation>
     </message>
     <message>
+        <source>Not played: {why}. Press the button again.</source>
+        <translation>Nicht abgespielt: {why}. Noch einmal auf die Taste drücken.</translation>
+    </message>
+    <message>
+        <source>Nothing is applied: no inverse of {axis} is trained. Train one first.</source>
+        <translation>Nichts wird angewendet: für {axis} ist keine Inverse trainiert. Erst eine trainieren.</translation>
+    </message>
+    <message>
         <source>no inverse is active: apply one first</source>
         <translation>keine Inverse ist aktiv: zuerst eine anwenden</translation>
     </message>

@@ -4,13 +4,21 @@
 <context>
     <name>engine</name>
     <message>
+        <source>another device is connected</source>
+        <extracomment>What puts readings right, before anybody sees them. The one that is open, or was open last; exchanged on this worker&apos;s thread. What the tip&apos;s bounds are judged on beside commands. Of axes that the device does not compensate by itself. Of the driver in use; what it was told may be looked at by any thread. Whether another worker has taken the place of this one, which hangs in its driver. Whether it has released its driver for good.</extracomment>
+        <translation>ein anderes Gerät ist verbunden</translation>
+    </message>
+    <message>
         <source>the machine is still moving; change the model at rest</source>
-        <extracomment>What puts readings right, before anybody sees them. The one that is open, or was open last; exchanged on this worker&apos;s thread. What the tip&apos;s bounds are judged on beside commands. Of axes that the device does not compensate by itself. Of the driver in use; what it was told may be looked at by any thread.</extracomment>
         <translation>die Maschine bewegt sich noch; das Modell in Ruhe wechseln</translation>
     </message>
     <message>
         <source>the model belongs to another machine: {why}; diagnose this one</source>
         <translation>das Modell gehört nicht zu dieser Maschine: {why}; diese hier diagnostizieren</translation>
+    </message>
+    <message>
+        <source>{stop} is still active with {name}; release it to move</source>
+        <translation>{stop} ist auch mit {name} noch aktiv; zum Bewegen freigeben</translation>
     </message>
     <message>
         <source>connecting; wait</source>
@@ -42,12 +50,20 @@
     </message>
     <message>
         <source>the session has already been started; create a new one</source>
-        <extracomment>Of the thread that shows this to an operator; once it beats, nothing moves without it. Of the worker.</extracomment>
+        <extracomment>How long a device may take to be released or to be opened when another one is wanted, s. Of the thread that shows this to an operator; once it beats, nothing moves without it. Of the worker.</extracomment>
         <translation>die Sitzung wurde schon gestartet; eine neue anlegen</translation>
+    </message>
+    <message>
+        <source>the device is being connected; wait</source>
+        <translation>das Gerät wird verbunden; bitte warten</translation>
     </message>
     <message>
         <source>the device is connected</source>
         <translation>das Gerät ist verbunden</translation>
+    </message>
+    <message>
+        <source>{name} still hangs in an earlier call; choose Connect on the panel Connection to open it anew, or another device</source>
+        <translation>{name} hängt noch in einem früheren Aufruf; im Fenster Verbindung auf Verbinden drücken, um es neu zu öffnen, oder ein anderes Gerät wählen</translation>
     </message>
     <message>
         <source>the device is being released</source>
@@ -72,6 +88,11 @@
     <message>
         <source>another device is being connected; wait</source>
         <translation>ein anderes Gerät wird verbunden; bitte warten</translation>
+    </message>
+    <message>
+        <source>{name} has not answered for {seconds} s and could not be disconnected: the program leaves it alone. If its machine moves, use its emergency stop switch; check cable and device</source>
+        <extracomment>Why no motion is accepted on any path; None while it is. Host time of the latest stop, whoever asked for it; None before the first.</extracomment>
+        <translation>{name} hat seit {seconds} s nicht geantwortet und ließ sich nicht trennen: das Programm lässt es in Ruhe. Falls sich seine Maschine bewegt, ihren Not-Halt benutzen; Kabel und Gerät prüfen</translation>
     </message>
     <message>
         <source>not connected</source>
@@ -375,6 +396,10 @@
         <translation>Profil {name}: jedes Gerät hat seat = &apos;trainee&apos;; eines muss &apos;trainer&apos; haben</translation>
     </message>
     <message>
+        <source>nothing</source>
+        <translation>nichts</translation>
+    </message>
+    <message>
         <source>an axis needs at = …</source>
         <translation>eine Achse braucht at = …</translation>
     </message>
@@ -630,6 +655,7 @@
     </message>
     <message>
         <source>the playback is paused</source>
+        <extracomment>Why the machine is stopped by a pause, and by the end of a playback.</extracomment>
         <translation>die Wiedergabe ist pausiert</translation>
     </message>
     <message>
@@ -637,8 +663,17 @@
         <translation>eine Trajektorie läuft; erst pausieren oder anhalten</translation>
     </message>
     <message>
+        <source>Not resumed: the machine was stopped again.</source>
+        <extracomment>Why a request to resume was refused where a stop came after it.</extracomment>
+        <translation>Nicht fortgesetzt: die Maschine wurde wieder angehalten.</translation>
+    </message>
+    <message>
         <source>the playback is ended</source>
         <translation>die Wiedergabe ist beendet</translation>
+    </message>
+    <message>
+        <source>axis {axis} moved {distance} since the pause; move it back first, or play the trajectory from its first row</source>
+        <translation>Achse {axis} wurde seit der Pause um {distance} bewegt; erst zurückfahren oder die Trajektorie ab der ersten Zeile abspielen</translation>
     </message>
     <message>
         <source>the camera is {state}: {reason}</source>
@@ -784,7 +819,7 @@
     </message>
     <message>
         <source>{name} is already open; close it first</source>
-        <extracomment>The version of this interface that the class was written for. How screens and records call the device. Whether the device lives on ``clock`` alone, and so can run faster than real time. How often the driver wants to be read, s; one that feeds a serial line has no other chance. By how much the time of a sample may be wrong where the device has no clock of its own, s. What every motion passes; a program that owns the driver puts its own gate here.</extracomment>
+        <extracomment>A program behaves like the device, byte for byte, at the other end of a line. The driver itself computes the machine; there is no device. The version of this interface that the class was written for. How screens and records call the device. Whether the device lives on ``clock`` alone, and so can run faster than real time. How often the driver wants to be read, s; one that feeds a serial line has no other chance. By how much the time of a sample may be wrong where the device has no clock of its own, s. What the device is before it was opened; only a driver without a device knows. What every motion passes; a program that owns the driver puts its own gate here.</extracomment>
         <translation>{name}: schon geöffnet; erst schließen</translation>
     </message>
     <message>
@@ -1745,6 +1780,10 @@
     <message>
         <source>{where} has {axes} axes, but robot {name} has {count} there ({names}); choose the robot file of this machine</source>
         <translation>{where} hat {axes} Achsen, Roboter {name} dort aber {count} ({names}); die Roboterdatei dieser Maschine wählen</translation>
+    </message>
+    <message>
+        <source>to say what it is</source>
+        <translation>um zu melden, was es ist</translation>
     </message>
     <message>
         <source>to describe its axes</source>
@@ -5461,7 +5500,6 @@
     </message>
     <message>
         <source>{stop} is active; release it first</source>
-        <extracomment>Why no motion is accepted on any path; None while it is. Host time of the latest stop, whoever asked for it; None before the first.</extracomment>
         <translation>{stop} ist aktiv; erst freigeben</translation>
     </message>
     <message>
@@ -5479,6 +5517,7 @@
     </message>
     <message>
         <source>nothing is playing</source>
+        <extracomment>Axes move back to where a playback was paused at this share of their greatest speed.</extracomment>
         <translation>es läuft nichts, was sich anhalten ließe</translation>
     </message>
     <message>

@@ -306,8 +306,11 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
         <translation>Vergleich mit dem Zwilling …</translation>
     </message>
     <message>
+        <source>Not played: {why}. Ask for the motion again.</source>
+        <translation>Nicht abgespielt: {why}. Die Bewegung noch einmal anfordern.</translation>
+    </message>
+    <message>
         <source>Play this motion on the machine now?</source>
-        <extracomment>Name of the motion whose dry run is waited for; who stops meanwhile wants it no more.</extracomment>
         <translation>Diese Bewegung jetzt auf der Maschine abspielen?</translation>
     </message>
     <message>
@@ -1953,6 +1956,10 @@ Starten drücken; Kennwerte und Verwechslungsmatrix erscheinen, wenn alle Fälle
     <message>
         <source>Predictions only: commands to the machine do not change, and no bound widens.</source>
         <translation>Nur Vorhersagen: Sollwerte an die Maschine ändern sich nicht, und keine Grenze wird weiter.</translation>
+    </message>
+    <message>
+        <source>The model stays: {why}. Press Use corrected model again.</source>
+        <translation>Das Modell bleibt: {why}. Noch einmal auf Korrigiertes Modell verwenden drücken.</translation>
     </message>
     <message>
         <source>validation data</source>

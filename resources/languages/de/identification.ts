@@ -113,7 +113,7 @@
     </message>
     <message>
         <source>Amplitude of the excitation</source>
-        <extracomment>To be played as soon as it is in hand.</extracomment>
+        <extracomment>Waits until the dry run of the motion has ended.</extracomment>
         <translation>Amplitude der Anregung</translation>
     </message>
     <message>
@@ -535,6 +535,10 @@
     <message>
         <source>{axis}: controlled by {driver}</source>
         <translation>{axis}: gesteuert von {driver}</translation>
+    </message>
+    <message>
+        <source>it waits until the dry run has ended</source>
+        <translation>es wartet auf das Ende des Probelaufs</translation>
     </message>
     <message>
         <source>the axes are still moving</source>

@@ -96,10 +96,6 @@
         <translation>Die Aufnahme in einer Datei speichern; die Bewegung läuft weiter</translation>
     </message>
     <message>
-        <source>Play, pause or resume (Ctrl+P); the axes first move to the first row</source>
-        <translation>Abspielen, anhalten oder fortsetzen (Strg+P); die Achsen fahren zuerst zur ersten Zeile</translation>
-    </message>
-    <message>
         <source>Saved the recording {path}</source>
         <translation>Aufnahme gespeichert: {path}</translation>
     </message>

@@ -151,6 +151,10 @@
         <translation>Penetrationen (*.toml);;Alle Dateien (*)</translation>
     </message>
     <message>
+        <source>the thrust is being planned</source>
+        <translation>der Stoß wird geplant</translation>
+    </message>
+    <message>
         <source>Thrust</source>
         <translation>Einstich</translation>
     </message>

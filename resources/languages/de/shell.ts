@@ -144,6 +144,10 @@
         <translation>schrittweise abspielen</translation>
     </message>
     <message>
+        <source>start over</source>
+        <translation>von vorn beginnen</translation>
+    </message>
+    <message>
         <source>operator</source>
         <translation>Bediener</translation>
     </message>
@@ -464,12 +468,21 @@
         <translation>Vorbereiten</translation>
     </message>
     <message>
+        <source>the system reports: “{text}”</source>
+        <extracomment>Each language by what it calls itself.</extracomment>
+        <translation>das System meldet: „{text}“</translation>
+    </message>
+    <message>
         <source>or</source>
         <translation>oder</translation>
     </message>
     <message>
         <source>and</source>
         <translation>und</translation>
+    </message>
+    <message>
+        <source>{file}: {reason}</source>
+        <translation>{file}: {reason}</translation>
     </message>
     <message>
         <source>{output}: the folder cannot be created: {strerror}</source>
@@ -875,6 +888,10 @@
         <translation>Kopieren</translation>
     </message>
     <message>
+        <source>All of the selected message</source>
+        <translation>Die ganze ausgewählte Meldung</translation>
+    </message>
+    <message>
         <source>{n} of {all} messages</source>
         <translation>{n} von {all} Meldungen</translation>
     </message>
@@ -983,6 +1000,14 @@
         <translation>Bewegung</translation>
     </message>
     <message>
+        <source>Connect</source>
+        <translation>Verbinden</translation>
+    </message>
+    <message>
+        <source>Connect to the device that was used last</source>
+        <translation>Mit dem zuletzt benutzten Gerät verbinden</translation>
+    </message>
+    <message>
         <source>Reconnect</source>
         <translation>Wieder verbinden</translation>
     </message>
@@ -1003,12 +1028,24 @@
         <translation>Den Fehler quittieren; von selbst bewegt sich nichts</translation>
     </message>
     <message>
+        <source>Compare …</source>
+        <translation>Vergleichen …</translation>
+    </message>
+    <message>
+        <source>Open the page on which parameters are written or accepted</source>
+        <translation>Die Seite öffnen, auf der Parameter geschrieben oder angenommen werden</translation>
+    </message>
+    <message>
         <source>Confirm …</source>
         <translation>Bestätigen …</translation>
     </message>
     <message>
         <source>Open the page on which the position is confirmed</source>
         <translation>Die Seite öffnen, auf der die Position bestätigt wird</translation>
+    </message>
+    <message>
+        <source>the button has only just changed</source>
+        <translation>die Taste hat sich gerade erst geändert</translation>
     </message>
     <message>
         <source>Home</source>
@@ -1027,8 +1064,16 @@
         <translation>Hilfe zu dieser Meldung</translation>
     </message>
     <message>
+        <source>Text of the notice</source>
+        <translation>Text der Meldung</translation>
+    </message>
+    <message>
         <source>+{n} more</source>
         <translation>+{n} weitere</translation>
+    </message>
+    <message>
+        <source>Show</source>
+        <translation>Anzeigen</translation>
     </message>
     <message>
         <source>Find a command</source>
@@ -1067,46 +1112,6 @@
         <translation>   – nicht jetzt: {why_not}</translation>
     </message>
     <message>
-        <source>disconnected</source>
-        <translation>getrennt</translation>
-    </message>
-    <message>
-        <source>connecting</source>
-        <translation>verbindet</translation>
-    </message>
-    <message>
-        <source>ready</source>
-        <translation>bereit</translation>
-    </message>
-    <message>
-        <source>moving</source>
-        <translation>in Bewegung</translation>
-    </message>
-    <message>
-        <source>stopping</source>
-        <translation>hält an</translation>
-    </message>
-    <message>
-        <source>short loss</source>
-        <translation>kurzer Ausfall</translation>
-    </message>
-    <message>
-        <source>fault</source>
-        <translation>Fehler</translation>
-    </message>
-    <message>
-        <source>position unknown</source>
-        <translation>Position unbekannt</translation>
-    </message>
-    <message>
-        <source>failed</source>
-        <translation>ausgefallen</translation>
-    </message>
-    <message>
-        <source>locked</source>
-        <translation>gesperrt</translation>
-    </message>
-    <message>
         <source>Playing {share:.0f} %</source>
         <translation>Spielt ab, {share:.0f} %</translation>
     </message>
@@ -1119,12 +1124,196 @@
         <translation>Verbindung verloren</translation>
     </message>
     <message>
+        <source>The device failed; reconnect it.</source>
+        <translation>Das Gerät ist ausgefallen; wieder verbinden.</translation>
+    </message>
+    <message>
+        <source>Failed</source>
+        <translation>Ausgefallen</translation>
+    </message>
+    <message>
+        <source>The last answer came {time} ago; the machine may have moved</source>
+        <translation>Letzte Antwort vor {time}; die Maschine kann sich bewegt haben</translation>
+    </message>
+    <message>
+        <source>Disconnected</source>
+        <translation>Getrennt</translation>
+    </message>
+    <message>
+        <source>No machine is connected; nothing can be moved from here.</source>
+        <translation>Keine Maschine ist verbunden; von hier lässt sich nichts bewegen.</translation>
+    </message>
+    <message>
+        <source>Connecting</source>
+        <translation>Verbindet</translation>
+    </message>
+    <message>
+        <source>Waiting for the first answer of the device.</source>
+        <translation>Wartet auf die erste Antwort des Geräts.</translation>
+    </message>
+    <message>
+        <source>No answer for {time}; commands are refused until it answers.</source>
+        <translation>Keine Antwort seit {time}; Befehle werden abgelehnt, bis das Gerät antwortet.</translation>
+    </message>
+    <message>
+        <source>The device reports a fault</source>
+        <translation>Das Gerät meldet einen Fehler</translation>
+    </message>
+    <message>
+        <source>{fault}. The machine is locked as well: release it first.</source>
+        <translation>{fault}. Die Maschine ist auch gesperrt: erst freigeben.</translation>
+    </message>
+    <message>
+        <source>{fault}. Check the machine, then clear the fault.</source>
+        <translation>{fault}. Die Maschine prüfen, dann den Fehler quittieren.</translation>
+    </message>
+    <message>
+        <source>Fault</source>
+        <translation>Fehler</translation>
+    </message>
+    <message>
+        <source>The axes are still coming to rest.</source>
+        <translation>Die Achsen kommen noch zur Ruhe.</translation>
+    </message>
+    <message>
+        <source>Locked by the operator at {time}; Release lets it move again.</source>
+        <translation>Vom Bediener um {time} gesperrt; nach Freigeben lässt sie sich wieder bewegen.</translation>
+    </message>
+    <message>
+        <source>Locked by the program at {time}; Release lets it move again.</source>
+        <translation>Vom Programm um {time} gesperrt; nach Freigeben lässt sie sich wieder bewegen.</translation>
+    </message>
+    <message>
+        <source>{reason} is active; Release lets it move again.</source>
+        <translation>{reason} ist aktiv; nach Freigeben lässt sie sich wieder bewegen.</translation>
+    </message>
+    <message>
+        <source>Locked</source>
+        <translation>Gesperrt</translation>
+    </message>
+    <message>
+        <source>The playback is being paused; the axes are coming to rest.</source>
+        <translation>Die Wiedergabe wird angehalten; die Achsen kommen zur Ruhe.</translation>
+    </message>
+    <message>
+        <source>The axes are coming to rest.</source>
+        <translation>Die Achsen kommen zur Ruhe.</translation>
+    </message>
+    <message>
+        <source>Stopping</source>
+        <translation>Hält an</translation>
+    </message>
+    <message>
+        <source>Moving to find the limit switches of {axes}.</source>
+        <translation>Fährt und sucht die Endschalter von {axes}.</translation>
+    </message>
+    <message>
+        <source>Moving to find the limit switches.</source>
+        <translation>Fährt und sucht die Endschalter.</translation>
+    </message>
+    <message>
+        <source>Homing</source>
+        <translation>Referenzfahrt</translation>
+    </message>
+    <message>
+        <source>The path is being checked; then the axes move.</source>
+        <translation>Die Bahn wird geprüft; dann fahren die Achsen.</translation>
+    </message>
+    <message>
+        <source>The axes move to where the trajectory begins.</source>
+        <translation>Die Achsen fahren zum Anfang der Trajektorie.</translation>
+    </message>
+    <message>
+        <source>{movers}; {time} left</source>
+        <translation>{movers}; noch {time}</translation>
+    </message>
+    <message>
+        <source>A trajectory moves the axes</source>
+        <translation>Eine Trajektorie bewegt die Achsen</translation>
+    </message>
+    <message>
+        <source>Moving back slowly to row {row}; then the playback resumes.</source>
+        <translation>Fährt langsam zu Zeile {row} zurück; dann geht die Wiedergabe weiter.</translation>
+    </message>
+    <message>
+        <source>The machine moves without a command from this window; STOP halts it.</source>
+        <translation>Die Maschine bewegt sich ohne Befehl aus diesem Fenster; HALT hält sie an.</translation>
+    </message>
+    <message>
+        <source>Moving</source>
+        <translation>Bewegt sich</translation>
+    </message>
+    <message>
+        <source>the position is not known yet</source>
+        <translation>die Position ist noch nicht bekannt</translation>
+    </message>
+    <message>
+        <source>it moves on by itself</source>
+        <translation>sie bewegt sich von selbst weiter</translation>
+    </message>
+    <message>
+        <source>its button starts the run</source>
+        <translation>ihre Taste startet den Lauf</translation>
+    </message>
+    <message>
+        <source>it stays here until its axes are freed</source>
+        <translation>sie bleibt hier, bis ihre Achsen frei sind</translation>
+    </message>
+    <message>
+        <source>Penetration</source>
+        <translation>Penetration</translation>
+    </message>
+    <message>
+        <source>{procedure} is under way and moves axes by itself.</source>
+        <translation>{procedure} läuft und bewegt Achsen von selbst.</translation>
+    </message>
+    <message>
+        <source>A command is about to begin.</source>
+        <translation>Ein Befehl beginnt gleich.</translation>
+    </message>
+    <message>
+        <source>It resumes as soon as the axes rest and the path is checked.</source>
+        <translation>Es geht weiter, sobald die Achsen ruhen und die Bahn geprüft ist.</translation>
+    </message>
+    <message>
+        <source>{moved}; Resume asks how to go on.</source>
+        <translation>{moved}; Weiter fragt, wie es weitergeht.</translation>
+    </message>
+    <message>
+        <source>{excess}. Check the machine, then resume or end.</source>
+        <translation>{excess}. Die Maschine prüfen, dann Weiter oder Ende.</translation>
+    </message>
+    <message>
+        <source>{stopped}. Resume goes on from here.</source>
+        <translation>{stopped}. Weiter fährt von hier fort.</translation>
+    </message>
+    <message>
+        <source>At rest; Resume goes on from here, End gives it up.</source>
+        <translation>In Ruhe; Weiter fährt von hier fort, Ende bricht ab.</translation>
+    </message>
+    <message>
+        <source>{stopped}. The next command moves it again.</source>
+        <translation>{stopped}. Der nächste Befehl bewegt sie wieder.</translation>
+    </message>
+    <message>
         <source>Stopped</source>
         <translation>Angehalten</translation>
     </message>
     <message>
-        <source>searching for its limit switches</source>
-        <translation>sucht ihre Endschalter</translation>
+        <source>Ready</source>
+        <translation>Bereit</translation>
+    </message>
+    <message>
+        <source>At rest; every axis can be moved.</source>
+        <translation>In Ruhe; jede Achse lässt sich bewegen.</translation>
+    </message>
+    <message>
+        <source>{moving}. No new command is accepted: {reason}</source>
+        <translation>{moving}. Kein neuer Befehl wird angenommen: {reason}</translation>
+    </message>
+    <message>
+        <source>{owner} moves {axes}</source>
+        <translation>{owner} bewegt {axes}</translation>
     </message>
     <message>
         <source>Stopped by the operator at {time}</source>
@@ -1133,6 +1322,18 @@
     <message>
         <source>Stopped by the program at {time}</source>
         <translation>Vom Programm um {time} angehalten</translation>
+    </message>
+    <message>
+        <source>{axis} moved {distance}</source>
+        <translation>{axis} um {distance} bewegt</translation>
+    </message>
+    <message>
+        <source>{parts} since the pause</source>
+        <translation>Seit der Pause {parts}</translation>
+    </message>
+    <message>
+        <source>all axes</source>
+        <translation>alle Achsen</translation>
     </message>
     <message>
         <source>Phase of the session</source>
@@ -1230,6 +1431,10 @@
     <message>
         <source>Close this card permanently</source>
         <translation>Diese Karte dauerhaft schließen</translation>
+    </message>
+    <message>
+        <source>a trajectory is paused; resume or end it</source>
+        <translation>eine Trajektorie ist angehalten; erst Weiter oder Ende</translation>
     </message>
     <message>
         <source>Find out why model and machine differ</source>
@@ -1341,7 +1546,7 @@
     </message>
     <message>
         <source>Switching the model …</source>
-        <extracomment>Makes a request once the machine rests, as one whose effects were switched soon does.</extracomment>
+        <extracomment>Of what plays, pauses and resumes: what a press does now, and since when. Makes a request once the machine rests, as one whose effects were switched soon does.</extracomment>
         <translation>Modell wird gewechselt …</translation>
     </message>
     <message>
@@ -1367,6 +1572,35 @@
     <message>
         <source>Opening {name} …</source>
         <translation>{name} wird geöffnet …</translation>
+    </message>
+    <message>
+        <source>Not played: {why}. Press Play again.</source>
+        <extracomment>Said where a request to play is withdrawn before it has had an effect.</extracomment>
+        <translation>Nicht abgespielt: {why}. Noch einmal auf Abspielen drücken.</translation>
+    </message>
+    <message>
+        <source>the dry run of {name} has not ended yet</source>
+        <translation>der Probelauf von {name} ist noch nicht zu Ende</translation>
+    </message>
+    <message>
+        <source>the playback is being resumed</source>
+        <translation>die Wiedergabe wird gerade fortgesetzt</translation>
+    </message>
+    <message>
+        <source>Not done: {why}.</source>
+        <translation>Nicht ausgeführt: {why}.</translation>
+    </message>
+    <message>
+        <source>Not played: nothing limits the speed of an axis, and the panel Trajectory, which asks for a limit, is missing. State a limit in the robot file.</source>
+        <translation>Nicht abgespielt: nichts begrenzt die Geschwindigkeit einer Achse, und das Fenster Trajektorie, das nach einer Grenze fragt, fehlt. Die Grenze in der Roboterdatei angeben.</translation>
+    </message>
+    <message>
+        <source>another trajectory was loaded meanwhile</source>
+        <translation>inzwischen wurde eine andere Trajektorie geladen</translation>
+    </message>
+    <message>
+        <source>Replaced by a newer request: {doing}</source>
+        <translation>Durch eine neuere Anforderung ersetzt: {doing}</translation>
     </message>
     <message>
         <source>The recording is being merged into one file.</source>
@@ -1450,6 +1684,7 @@
     </message>
     <message>
         <source>SIMULATOR</source>
+        <extracomment>A device is being opened that has never said what it is. What may be a real machine, and looks like one.</extracomment>
         <translation>SIMULATOR</translation>
     </message>
     <message>
@@ -1459,6 +1694,26 @@
     <message>
         <source>MACHINE</source>
         <translation>MASCHINE</translation>
+    </message>
+    <message>
+        <source>CONNECTING …</source>
+        <translation>VERBINDET …</translation>
+    </message>
+    <message>
+        <source>Boards that say that a program emulates them: no real machine moves.</source>
+        <translation>Karten, die melden, dass ein Programm sie nachbildet: keine echte Maschine bewegt sich.</translation>
+    </message>
+    <message>
+        <source>The device has not said yet what it is: treat it as a real machine.</source>
+        <translation>Das Gerät hat noch nicht gemeldet, was es ist: wie eine echte Maschine behandeln.</translation>
+    </message>
+    <message>
+        <source>nominal</source>
+        <translation>nominal</translation>
+    </message>
+    <message>
+        <source>worn: {axes}</source>
+        <translation>verschlissen: {axes}</translation>
     </message>
     <message>
         <source>About RoTeMiNa</source>
@@ -1679,6 +1934,10 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Treiber {name!r} lässt sich nicht anlegen: {kind}: {error}</translation>
     </message>
     <message>
+        <source>The axes are still moving: stop them before you choose the simulator.</source>
+        <translation>Die Achsen bewegen sich noch: erst anhalten, dann den Simulator wählen.</translation>
+    </message>
+    <message>
         <source>select a record in the table</source>
         <translation>eine Aufzeichnung in der Tabelle wählen</translation>
     </message>
@@ -1701,10 +1960,6 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
     <message>
         <source>The built-in simulator: no real machine moves.</source>
         <translation>Der eingebaute Simulator: keine echte Maschine bewegt sich.</translation>
-    </message>
-    <message>
-        <source>Boards that this computer emulates on its own ports: no real machine moves.</source>
-        <translation>Karten, die dieser Rechner an eigenen Anschlüssen nachbildet: keine echte Maschine bewegt sich.</translation>
     </message>
     <message>
         <source>Commands of this window move a real machine.</source>
@@ -1948,10 +2203,6 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Programmfehler: {name}: {error}</translation>
     </message>
     <message>
-        <source>{latched} active</source>
-        <translation>{latched} aktiv</translation>
-    </message>
-    <message>
         <source>{name}: recorded with another robot file; ranges and scales on the screen are those of this window</source>
         <translation>{name}: mit einer anderen Roboterdatei aufgenommen; Bereiche und Skalen sind die dieses Fensters</translation>
     </message>
@@ -2020,6 +2271,58 @@ Bedienfenster eines hybriden Roboters zur Zellmanipulation, mit Diagnose der Abw
     <message>
         <source>Reload &amp;plugin</source>
         <translation>&amp;Plugin neu laden</translation>
+    </message>
+    <message>
+        <source>the connection has changed meanwhile</source>
+        <translation>die Verbindung hat sich inzwischen geändert</translation>
+    </message>
+    <message>
+        <source>a stop came meanwhile</source>
+        <translation>inzwischen kam ein Halt</translation>
+    </message>
+    <message>
+        <source>the lock was released meanwhile</source>
+        <translation>die Sperre wurde inzwischen freigegeben</translation>
+    </message>
+    <message>
+        <source>a request waits until the machine is at rest</source>
+        <translation>eine Anforderung wartet, bis die Maschine ruht</translation>
+    </message>
+    <message>
+        <source>Waits until the machine is at rest …</source>
+        <translation>Wartet, bis die Maschine ruht …</translation>
+    </message>
+    <message>
+        <source>another request took its place</source>
+        <translation>eine andere Anforderung hat sie ersetzt</translation>
+    </message>
+    <message>
+        <source>Move back slowly and resume</source>
+        <translation>Langsam zurückfahren und weiter</translation>
+    </message>
+    <message>
+        <source>Move to the row at which it goes on at a tenth of the axes&apos; greatest speed, then resume</source>
+        <translation>Mit einem Zehntel der größten Geschwindigkeit zu der Zeile fahren, bei der es weitergeht, dann fortsetzen</translation>
+    </message>
+    <message>
+        <source>Start over</source>
+        <translation>Von vorn beginnen</translation>
+    </message>
+    <message>
+        <source>Play from the first row; the axes first move there</source>
+        <translation>Ab der ersten Zeile abspielen; die Achsen fahren zuerst dorthin</translation>
+    </message>
+    <message>
+        <source>Keep paused</source>
+        <translation>Angehalten lassen</translation>
+    </message>
+    <message>
+        <source>Move nothing; Resume asks again</source>
+        <translation>Nichts bewegen; Weiter fragt noch einmal</translation>
+    </message>
+    <message>
+        <source>{moved}. How to go on?</source>
+        <translation>{moved}. Wie soll es weitergehen?</translation>
     </message>
 </context>
 </TS>

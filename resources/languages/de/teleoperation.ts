@@ -311,10 +311,6 @@ Leer  Kupplung</translation>
         <translation>wartet</translation>
     </message>
     <message>
-        <source>ready</source>
-        <translation>bereit</translation>
-    </message>
-    <message>
         <source>input devices are being set up</source>
         <translation>Eingabegeräte werden eingerichtet</translation>
     </message>
@@ -461,6 +457,10 @@ Leer  Kupplung</translation>
     <message>
         <source>No device in control</source>
         <translation>Kein Gerät steuert</translation>
+    </message>
+    <message>
+        <source>input ready</source>
+        <translation>Eingabe bereit</translation>
     </message>
     <message>
         <source>The input devices do not respond: stop the machine and restart the program.</source>

@@ -63,6 +63,10 @@
         <translation>{name}, neu abgetastet</translation>
     </message>
     <message>
+        <source>{moved}: Resume asks how to go on.</source>
+        <translation>{moved}: Weiter fragt, wie es weitergeht.</translation>
+    </message>
+    <message>
         <source>Distance between model and machine: {parts}</source>
         <translation>Abstand zwischen Modell und Maschine: {parts}</translation>
     </message>
@@ -181,6 +185,14 @@
     <message>
         <source>Pause</source>
         <translation>Pause</translation>
+    </message>
+    <message>
+        <source>the dry run of {name} is under way</source>
+        <translation>der Probelauf von {name} läuft</translation>
+    </message>
+    <message>
+        <source>Dry run of {name} …</source>
+        <translation>Probelauf von {name} …</translation>
     </message>
     <message>
         <source>Resume</source>
@@ -425,6 +437,10 @@
     <message>
         <source>In {unit}, above 0</source>
         <translation>In {unit}, größer als 0</translation>
+    </message>
+    <message>
+        <source>another trajectory was loaded meanwhile</source>
+        <translation>inzwischen wurde eine andere Trajektorie geladen</translation>
     </message>
 </context>
 </TS>
