@@ -85,12 +85,20 @@ class Background(QObject):
         return bool(self._requests)
 
     def wait(self, timeout_s: float = 10.0) -> bool:
-        """Wait until nothing runs any more, for closing the window; say whether that came."""
+        """Wait until nothing runs any more; say whether that came."""
         with self._guard:
             thread = self._thread
         if thread is not None:
             thread.join(timeout_s)
         return thread is None or not thread.is_alive()
+
+    def end(self, timeout_s: float = 10.0) -> bool:
+        """Wait as :meth:`wait` does, and let no answer arrive afterwards.
+
+        This is for closing the window: what an answer would be shown on is about to be deleted.
+        """
+        self._requests.clear()
+        return self.wait(timeout_s)
 
     def _work_off(self) -> None:
         while True:
@@ -105,7 +113,9 @@ class Background(QObject):
             del work, answer  # which are not kept while nobody asks for anything
 
     def _deliver(self, number: int, answer: object, failure: str) -> None:
-        request = self._requests.pop(number)
+        request = self._requests.pop(number, None)
+        if request is None:
+            return
         if self._latest.get(request.kind) != number:
             request.replaced()
             return

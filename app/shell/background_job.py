@@ -71,7 +71,7 @@ class Job(QObject):
     def close(self) -> None:
         """Stop, and wait until the thread is free."""
         self.stop()
-        self._background.wait(60.0)
+        self._background.end(60.0)
 
     def _hear(self, stopped: Event, what: str, share: float, news: object) -> None:
         if not stopped.is_set():

@@ -71,7 +71,7 @@ class PenetrationRecords(QObject):
 
     def close(self) -> None:
         """Wait for what is being written."""
-        self._background.wait(_CLOSING_S)
+        self._background.end(_CLOSING_S)
 
     def _begin(self) -> SessionRecorder | None:
         self._operation.start_recording(name=_NAME)

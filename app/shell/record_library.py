@@ -79,7 +79,7 @@ class RecordLibrary(QObject):
     def close(self) -> None:
         """Begin nothing more, and wait for what is being written."""
         self.library.close()
-        self._background.wait(_CLOSING_S)
+        self._background.end(_CLOSING_S)
 
     # --- requests ---------------------------------------------------------------------------------
 

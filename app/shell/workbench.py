@@ -217,8 +217,8 @@ class Workbench(Requests):
         self.operation.close()
         self.playback.close()
         self.session.close()
-        self._background.wait()
-        self._aside.wait()
+        self._background.end()
+        self._aside.end()
         self.library.close()
 
     @property

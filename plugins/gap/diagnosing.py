@@ -114,7 +114,7 @@ class Diagnosing(QObject):
     def close(self) -> None:
         """Stop, and wait until thread and process have ended."""
         self.stop()
-        self._background.wait()
+        self._background.end()
         self._process.close()
 
     def _is_wanted(self, number: int) -> bool:

@@ -262,7 +262,7 @@ class Records(QObject):
     def _close(self) -> None:
         """Compare no further record, and wait for the one that is being compared."""
         self._ended = True
-        self._background.wait()
+        self._background.end()
 
     # --- reading ----------------------------------------------------------------------------------
 

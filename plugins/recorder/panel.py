@@ -48,7 +48,7 @@ class RecorderPanel(Panel):
         self.recordings.looked_for.connect(self.look)
         workbench.replaying.changed.connect(self._bring_up)
         self.follow(lambda _: self.recording.refresh())
-        workbench.closing.connect(lambda: self._background.wait(_CLOSING_S))
+        workbench.closing.connect(lambda: self._background.end(_CLOSING_S))
         self.look()
 
     def look(self) -> None:

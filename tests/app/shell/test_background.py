@@ -5,7 +5,7 @@ import threading
 import weakref
 
 import pytest
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QCoreApplication, QObject
 
 from rotemina.app.shell.background import Background
 from rotemina.sim.errors import InputError
@@ -70,3 +70,14 @@ def test_nothing_of_what_was_done_stays(qtbot, background):
     assert background.wait()
     gc.collect()
     assert [one for one in alive if one() is not None] == []
+
+
+def test_no_answer_arrives_after_the_end(qtbot, background):
+    answers, go = [], threading.Event()
+    background.run("slow", lambda: go.wait(20.0), answers.append, answers.append)
+    go.set()
+    assert background.end()
+    QCoreApplication.processEvents()
+    assert answers == []
+    background.run("next", lambda: "answer", answers.append, answers.append)
+    qtbot.waitUntil(lambda: answers == ["answer"], timeout=LONG_MS)

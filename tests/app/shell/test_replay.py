@@ -52,7 +52,7 @@ def test_panels_show_the_replay_and_the_tool_bar_the_machine(qtbot, window, reco
     assert window._bar.doing.text().startswith("A replay of run.arrows is displayed")
     seek(qtbot, window, 1.1)
     row = window.panels["control"].rows["x"]
-    assert row._readout.text().startswith("28.000")
+    qtbot.waitUntil(lambda: row._readout.text().startswith("28.000"), timeout=LONG_MS)
     assert not row.plus.isEnabled()
     curve = window.panels["plots"].plots["x"].plot._curves["command"]  # plots are drawn in turn
     qtbot.waitUntil(lambda: curve.getData()[1].max() == pytest.approx(28.0), timeout=LONG_MS)
