@@ -155,6 +155,7 @@ class FirstSteps(QFrame):
         self.asked.emit("connection")
 
     def _load(self) -> None:
+        self.asked.emit("trajectory")
         robot = self._bench.robot
         self._bench.plan_trajectory(translate("shell", "example"), example_for(robot))
 

@@ -40,6 +40,7 @@ from rotemina.app.shell.palette import Palette
 from rotemina.app.shell.palette_entries import Entry, PanelGuard, command_entries, panel_entries
 from rotemina.app.shell.panel_declarations import PanelKind
 from rotemina.app.shell.panel_host import find_panels
+from rotemina.app.shell.panel_news import PanelNews
 from rotemina.app.shell.progress_line import ProgressLine
 from rotemina.app.shell.quit_dialog import Leaving
 from rotemina.app.shell.recent_files import RecentFiles
@@ -52,9 +53,9 @@ from rotemina.app.shell.stop_controls import StopWatch
 from rotemina.app.shell.support_page import SupportPage
 from rotemina.app.shell.window_layout import ArrangedWindow, Arrangement
 from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.sim.records.record import Record
 
 TOP_LINE = 4  # px: white where a real machine is driven
+PLUGIN_FAULTS = "plugins.md#what-a-bad-plugin-can-do"
 LEAST_HEIGHT = 120  # px of the central panels: a strip of plots
 FILES = marked("shell", "Records and trajectories (*.csv *.txt *.dat *.gz);;All files (*)")
 # Wide tables and long forms: one behind the other, not side by side or one below the other.
@@ -78,7 +79,6 @@ class MainWindow(ArrangedWindow):
         self.docks: dict[str, QDockWidget] = {}
         self._menus: dict[str, QMenu] = {}
         self._leaving = Leaving(self, workbench)
-        self._seen: dict[str, Record] = {}  # what panels were brought up for
         self._support: SupportPage | None = None
         self.help_page = HelpPage(self)
         workbench.theme_changed.connect(lambda _: self.help_page.restyle())
@@ -88,6 +88,7 @@ class MainWindow(ArrangedWindow):
         workbench.noticed.connect(self.log.notice)
         self._make_header()
         self._make_docks()
+        self.news = PanelNews(self, self.docks)
         self.panels.placed = self._place
         self.reloading = Reloading(workbench, self.panels, self.docks, self._add_dock)
         self.late_panels = LatePanels(self.panels, self.docks, workbench)
@@ -120,11 +121,12 @@ class MainWindow(ArrangedWindow):
         workbench.refreshed.connect(self.notices.look_at)
         self.log_page.asked.connect(self.help_page.open_page)
         workbench.refreshed.connect(self._refresh)
-        workbench.plan_changed.connect(
-            lambda plan: self._bring_up_new("trajectory", plan.trajectory)
-        )
-        workbench.run_changed.connect(lambda run: self._bring_up_new("comparison", run.record))
-        workbench.ports_offered.connect(lambda ports: ports and self.bring_up("connection"))
+        # What arrives by itself raises no panel: that would change the tabs under the mouse.
+        news = self.news
+        workbench.plan_changed.connect(lambda plan: news.arrived("trajectory", plan.trajectory))
+        workbench.run_changed.connect(lambda run: news.arrived("comparison", run.record))
+        workbench.ports_offered.connect(lambda ports: ports and news.arrived("connection", ports))
+        workbench.arrived.connect(news.arrived)
         workbench.panel_asked.connect(self.bring_up)
 
     # --- parts ------------------------------------------------------------------------------------
@@ -198,6 +200,7 @@ class MainWindow(ArrangedWindow):
         if kind.area in TABBED and beside is not None:
             self.tabifyDockWidget(beside, dock)
         self.docks[name] = dock
+        self.news.watch(name, dock)
         self._menu(translate("shell", "&View")).addAction(dock.toggleViewAction())
         dock.raise_()
 
@@ -216,8 +219,8 @@ class MainWindow(ArrangedWindow):
         text = translate("shell", "Panel {name!r} is left out: {reason}").format(
             name=name, reason=reason
         )
-        page = "plugins.md#what-a-bad-plugin-can-do"
-        message = Explained(text, page, self.reloading.remedy(name), subject=panel_subject(name))
+        subject = panel_subject(name)
+        message = Explained(text, PLUGIN_FAULTS, self.reloading.remedy(name), subject=subject)
         self.workbench.notify(Level.ERROR, message)
 
     def _make_menus(self) -> None:
@@ -227,6 +230,7 @@ class MainWindow(ArrangedWindow):
             action.setShortcut(QKeySequence(command.shortcut))
             # Of the whole program: a floating dock is a window of its own.
             action.setShortcutContext(Qt.ShortcutContext.ApplicationShortcut)
+            action.setAutoRepeat(False)  # a key that is held must not play, pause and resume
             action.setStatusTip(command.tip)
             action.triggered.connect(lambda _=False, run=command.run: run())
             menu.addAction(action)
@@ -286,9 +290,13 @@ class MainWindow(ArrangedWindow):
 
     # --- files ------------------------------------------------------------------------------------
 
-    def ask_trajectory(self) -> None:
-        """Ask for a trajectory file and load it."""
-        self._ask_and(translate("shell", "Load trajectory"), self.load_trajectory)
+    def ask_trajectory(self, *, show: bool = True) -> None:
+        """Ask for a trajectory file and load it; ``show`` brings up the panel that plays it."""
+
+        def load(path: Path) -> None:
+            self.load_trajectory(path, show=show)
+
+        self._ask_and(translate("shell", "Load trajectory"), load)
 
     def ask_record(self) -> None:
         """Ask for a record of the library, or a file, and compare it with the model."""
@@ -297,7 +305,7 @@ class MainWindow(ArrangedWindow):
             self,
             self.workbench,
             title,
-            lambda chosen: self.workbench.open_entry(chosen[0]),
+            lambda chosen: self._show_and("comparison", self.workbench.open_entry, chosen[0]),
             lambda: self._ask_and(title, self.open_record),
         )
 
@@ -307,17 +315,25 @@ class MainWindow(ArrangedWindow):
             self,
             self.workbench,
             translate("shell", "Trajectory from record"),
-            lambda chosen: self.workbench.load_entry(chosen[0]),
+            lambda chosen: self._show_and("trajectory", self.workbench.load_entry, chosen[0]),
             self.ask_trajectory,
         )
 
-    def load_trajectory(self, path: Path) -> None:
+    def _show_and(self, name: str, use: Callable[[Entry], None], entry: Entry) -> None:
+        """Bring up a panel, and hand an entry of the library on whose answer it will show."""
+        self.bring_up(name)
+        use(entry)
+
+    def load_trajectory(self, path: Path, *, show: bool = True) -> None:
         """Load a trajectory file, and keep it among the recent ones."""
+        if show:  # now, not when it is read: the operator may press something else by then
+            self.bring_up("trajectory")
         self.recent_files.add("trajectory", path)
         self.use_file(path, self.workbench.load_trajectory)
 
     def open_record(self, path: Path) -> None:
         """Open a record file, and keep it among the recent ones."""
+        self.bring_up("comparison")
         self.recent_files.add("record", path)
         self.use_file(path, self.workbench.open_record)
 
@@ -363,18 +379,14 @@ class MainWindow(ArrangedWindow):
         """Show a panel, in front of those beside it, whether its dock was closed or not."""
         panel = self.panels.make(name)
         if panel is None:
+            text = translate("shell", "Panel {name!r} is missing: it was left out, see the log.")
+            self.workbench.notify(Level.WARNING, text.format(name=name), about=PLUGIN_FAULTS)
             return
         if name in self.docks:
             self.docks[name].show()
             self.docks[name].raise_()
         elif self.central_tabs is not None:
             self.central_tabs.setCurrentWidget(panel)
-
-    def _bring_up_new(self, name: str, what: Record) -> None:
-        """Show a panel that has got something; not where only the model beside it has changed."""
-        if self._seen.get(name) is not what:
-            self._seen[name] = what
-            self.bring_up(name)
 
     # --- help -------------------------------------------------------------------------------------
 

@@ -60,7 +60,9 @@ class Requests(QObject):
     settled(hashable) : the request or work of this subject was taken or done; what was told of an
         earlier failure is over.
     ports_offered(tuple of OfferedPort) : where virtual boards listen now.
-    panel_asked(str) : the panel of that name is to be shown.
+    panel_asked(str) : the operator asked for the panel of that name.
+    arrived(str, object) : the panel of that name has received something; its tab is marked, until
+        it is looked at.
     """
 
     refused = Signal(object)
@@ -69,6 +71,7 @@ class Requests(QObject):
     settled = Signal(object)
     ports_offered = Signal(object)
     panel_asked = Signal(str)
+    arrived = Signal(str, object)
 
     def __init__(self, session: MotionSession) -> None:
         super().__init__()

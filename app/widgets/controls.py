@@ -4,7 +4,7 @@ from collections.abc import Callable
 from html import escape
 from typing import TypeVar
 
-from PySide6.QtGui import QKeySequence
+from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QProgressBar, QPushButton, QWidget
 
 from rotemina.app.shell.engine_words import spoken
@@ -17,7 +17,8 @@ _TOLD = "_told_why_not"
 
 def plain_tip(*lines: str) -> str:
     """Return a tooltip whose lines are no markup, whatever they hold."""
-    return f"<qt>{'<br>'.join(escape(line) for line in lines if line)}</qt>"
+    text = "<br>".join(escape(line) for line in lines if line)
+    return f"<qt>{text}</qt>" if text else ""
 
 
 def show_tip(widget: QWidget, *lines: str) -> None:
@@ -32,7 +33,7 @@ def native_keys(shortcut: str) -> str:
     return QKeySequence(shortcut).toString(QKeySequence.SequenceFormat.NativeText)
 
 
-def allow(widget: QWidget, why_not: str | None, tip: str) -> None:
+def allow(widget: QWidget | QAction, why_not: str | None, tip: str) -> None:
     """Enable a control, or disable it with a tooltip that says why it cannot act."""
     widget.setEnabled(why_not is None)
     told = why_not, tip
@@ -49,7 +50,7 @@ def allow(widget: QWidget, why_not: str | None, tip: str) -> None:
     widget.setProperty(_WHY_NOT, why_not or "")
 
 
-def why_not(widget: QWidget) -> str | None:
+def why_not(widget: QWidget | QAction) -> str | None:
     """Return why a control is disabled, as last set by :func:`allow`."""
     return widget.property(_WHY_NOT) or None
 

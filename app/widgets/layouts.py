@@ -9,6 +9,14 @@ Margins = tuple[int, int, int, int] | int
 _Box = TypeVar("_Box", bound=QBoxLayout)
 
 
+def keep_room(*widgets: QWidget) -> None:
+    """Leave the room of widgets empty while they are hidden, so that nothing else moves."""
+    for widget in widgets:
+        policy = widget.sizePolicy()
+        policy.setRetainSizeWhenHidden(True)
+        widget.setSizePolicy(policy)
+
+
 def in_row(
     *parts: Part,
     on: QWidget | None = None,

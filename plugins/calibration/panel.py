@@ -17,6 +17,7 @@ from rotemina.app.shell.requests_at_rest import WaitingRequest
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.scroll_areas import lay_beside, tabbed
+from rotemina.app.widgets.tab_dots import TabNews
 from rotemina.plugins.calibration import mark, tr
 from rotemina.plugins.calibration.procedure_controls import Procedure
 from rotemina.plugins.calibration.result_view import ResultView
@@ -32,7 +33,7 @@ from rotemina.sim.trajectory.dry_run import dry_run
 
 NOT_RUN = mark("Not run: {why}. Press Run again.")
 RECORDS = mark("Records (*.csv *.txt *.dat *.gz);;All files (*)")
-_ISO, _STORED = 1, 2  # tabs
+_RESULT, _ISO, _STORED = range(3)  # tabs
 _WIDTH = 276  # of the procedure at least, px
 
 
@@ -58,6 +59,7 @@ class CalibrationPanel(Panel):
             tr("View"),
             {tr("Result"): self.result, "ISO 230-2": self.result.iso, tr("Stored"): self.stored},
         )
+        self.news = TabNews(self.tabs)
         self.tabs.setTabEnabled(_ISO, False)
         lay_beside(self, self.procedure, _WIDTH, self.tabs, self.views)
         self._connect()
@@ -165,7 +167,8 @@ class CalibrationPanel(Panel):
         self.result.show_result(None)
         self.tabs.setTabEnabled(_ISO, False)
         self.result.show_drawing(motion_drawing(motion.commands, axis))
-        self.tabs.setCurrentIndex(0)
+        self.news.mark(_RESULT)
+        self.look_now()
 
     def _refresh(self, session: SessionState) -> None:
         run = self._run
@@ -208,7 +211,7 @@ class CalibrationPanel(Panel):
         self.calibration, self._sources = answer
         self.result.show_result(self.calibration)
         self.tabs.setTabEnabled(_ISO, self.result.iso.rowCount() > 0)
-        self.tabs.setCurrentIndex(0)
+        self.news.mark(_RESULT)
 
     def _look(self) -> None:
         """Read what is stored, let the session use what is on, and show both."""

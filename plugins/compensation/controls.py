@@ -1,8 +1,5 @@
 """The panel's controls for training, applying and tuning."""
 
-from collections.abc import Sequence
-
-from PySide6.QtCore import QSize
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
@@ -14,6 +11,7 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.app.display_units import label
+from rotemina.app.widgets.changing_button import ChangingButton
 from rotemina.app.widgets.controls import named
 from rotemina.app.widgets.labels import heading, plain_text
 from rotemina.app.widgets.layouts import in_column, in_grid
@@ -112,20 +110,8 @@ def _told() -> QLabel:
     return plain_text(quiet=False, wrap=True)
 
 
-def _switch(texts: tuple[str, str], *, primary: bool = False) -> QPushButton:
+def _switch(texts: tuple[str, str], *, primary: bool = False) -> ChangingButton:
     """Return a button with room for both of its texts, which shows the first."""
-    button = _Switch([tr(text) for text in texts])
+    button = ChangingButton(*(tr(text) for text in texts))
     button.setProperty("primary", primary)  # its bold text takes more room
     return button
-
-
-class _Switch(QPushButton):
-    def __init__(self, texts: Sequence[str]) -> None:
-        super().__init__(texts[0])
-        self._texts = texts
-
-    def minimumSizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
-        """Leave room for any of the texts."""
-        size, width = super().minimumSizeHint(), self.fontMetrics().horizontalAdvance
-        size.setWidth(size.width() + max(map(width, self._texts)) - width(self.text()))
-        return size

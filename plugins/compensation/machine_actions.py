@@ -113,13 +113,10 @@ class Actuation:
         start = session.snapshot().command[axis]
         self._play(lambda: conditioning(self._workbench.robot, inverse.model, start))
 
-    def try_it(self, begun: Callable[[], None]) -> None:
-        """Play decaying swings, and show the error beside those of other states.
-
-        ``begun`` is called if they are played.
-        """
+    def try_it(self) -> None:
+        """Play decaying swings, and show the error beside those of other states."""
         axis = self._controls.chosen
-        self._play(lambda: trial_motion(self._workbench.robot, axis), begun)
+        self._play(lambda: trial_motion(self._workbench.robot, axis))
 
     def forget(self) -> None:
         """Forget all trials."""
@@ -142,8 +139,8 @@ class Actuation:
         for one, told in controls.residuals.items():
             told.setText(residual_text(self.trials.get(one), self._unit))
         inverse_on, loop_on = axis in session.inverses.applied, axis in session.loops.applied
-        controls.switch.setText(tr(SWITCH[inverse_on]))
-        controls.apply.setText(tr(APPLY[loop_on]))
+        controls.switch.show_meaning(tr(SWITCH[inverse_on]))
+        controls.apply.show_meaning(tr(APPLY[loop_on]))
         said = exceedance_text(session.inverses.exceedance(axis))
         at_limit = tr(AT_A_LIMIT) if axis in session.loops.limited else ""
         waits = self._workbench.at_rest.words
@@ -173,9 +170,9 @@ class Actuation:
             "the axis stays in place"
         )
 
-    def _play(self, motion: Callable[[], Record], begun: Callable[[], None] = lambda: None) -> None:
+    def _play(self, motion: Callable[[], Record]) -> None:
         session = self._workbench.session
-        request = WaitingRequest(self._workbench, tr(NOT_PLAYED), done=begun)
+        request = WaitingRequest(self._workbench, tr(NOT_PLAYED))
         self._workbench.at_rest.do(request, lambda: session.play(motion(), permit=request.permit))
 
     @property

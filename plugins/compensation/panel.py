@@ -4,8 +4,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
-from PySide6.QtCore import QTimer, Signal
-from PySide6.QtWidgets import QDockWidget
+from PySide6.QtCore import Signal
 
 from rotemina.app.motion.compensation import NamedInverse, check_belongs
 from rotemina.app.motion.state import SessionState
@@ -15,9 +14,10 @@ from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.file_dialog import ask_file, ask_files, ask_where
 from rotemina.app.shell.language import marked
 from rotemina.app.shell.theme import Theme
-from rotemina.app.shell.workbench import Level, Run, Workbench
+from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow
 from rotemina.app.widgets.scroll_areas import lay_beside, tabbed
+from rotemina.app.widgets.tab_dots import TabNews
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.compensation import mark, tr
 from rotemina.plugins.compensation.controls import Controls
@@ -30,7 +30,6 @@ from rotemina.plugins.compensation.inverse_training import (
 )
 from rotemina.plugins.compensation.machine_actions import Actuation
 from rotemina.plugins.compensation.plot_views import CheckView, FrontView, LiveView
-from rotemina.plugins.compensation.trial_motion import NAME
 from rotemina.plugins.compensation.words import NO_FRONT, NOTHING, kind_name
 from rotemina.sim.compensate.file import read_trained, write_trained
 from rotemina.sim.records.reading import read_record
@@ -66,6 +65,7 @@ class CompensationPanel(Panel):
         self.tabs, self.views = tabbed(
             tr("View"), {tr("Check"): self.check, tr("Live"): self.live, tr("Tuning"): self.front}
         )
+        self.news = TabNews(self.tabs)
         lay_beside(self, self.controls, _WIDTH, self.tabs, self.views)
         self._connect()
         offer_in_palette(self.controls.switch, self.controls.apply, self.controls.trial)
@@ -136,7 +136,8 @@ class CompensationPanel(Panel):
 
     def try_it(self) -> None:
         """Play decaying swings, and show the error beside those of other states."""
-        self.actuation.try_it(lambda: self.tabs.setCurrentIndex(LIVE))
+        self.tabs.setCurrentIndex(LIVE)
+        self.actuation.try_it()
 
     def tune(self) -> None:
         """Search gains; the front is drawn as it evolves."""
@@ -195,19 +196,7 @@ class CompensationPanel(Panel):
         kinds.setCurrentIndex(kinds.findData(learned.trained.chosen))
         self.controls.axis.setCurrentIndex(self.controls.axis.findData(learned.axis))
         self.check.show_learned(learned)
-        self.tabs.setCurrentIndex(CHECK)
-
-    def _come_forward(self, run: Run) -> None:
-        """Come to the front again after a trial: the comparison of it has come there."""
-        if run.record.metadata.get("trajectory") == NAME:
-            QTimer.singleShot(0, self, self._raise)
-
-    def _raise(self) -> None:
-        dock = self.parentWidget()
-        while dock is not None and not isinstance(dock, QDockWidget):
-            dock = dock.parentWidget()
-        if dock is not None:
-            dock.raise_()
+        self.news.mark(CHECK)
 
     def _refresh(self, state: SessionState) -> None:
         controls, axis = self.controls, self.controls.chosen
@@ -269,7 +258,6 @@ class CompensationPanel(Panel):
         self._unsubscribe = self.workbench.session.subscribe(self._happened.emit)
         self.follow(self._refresh)
         self.workbench.theme_changed.connect(self._use_theme)
-        self.workbench.run_changed.connect(self._come_forward)
         self.workbench.closing.connect(self._close)
 
     def _ask_records(self) -> None:

@@ -115,6 +115,7 @@ class GapPanel(Panel):
         self.diagnosing.finished.connect(self.take_answer)
         self.diagnosing.failed.connect(self._fail)
         self.unseen.experiment_played.connect(self._use_played)
+        self.unseen.check_begun.connect(self.result.turn_to_proof)
         self.unseen.proved.connect(self._take_proof)
         self.workbench.run_changed.connect(self.unseen.prove)
         self.follow_frames(self._follow_motion)
@@ -260,24 +261,21 @@ class GapPanel(Panel):
         self.records.join(self._known.names, self._known.records, run)
         self.diagnose()
 
-    def show_proof(self) -> None:
-        """Show what a new motion says."""
-        self.result.bring_up_proof()
-        self._show_state()
-
     def _take_proof(self, proof: Proof, asked: bool) -> None:
         self.result.show_proof(self._known, proof)
         self._show_state()
+        self.result.mark_proof()
         if asked:  # this is what is awaited
-            self.show_proof()
-            self.main_window.bring_up("gap")
+            self.workbench.arrived.emit("gap", proof)
 
     def _offer_hidden(self) -> None:
         """Offer a hidden machine in the simulator's place, or to reveal the one that is there."""
         simulated = self.workbench.session.service.effects is not None
         secret = self.hidden_trial.secret
-        self.result.hide_machine.setEnabled(simulated and secret is None)
-        self.result.reveal.setEnabled(secret is not None)
+        why = None if simulated else tr("only the simulator can hide a machine")
+        hidden = None if secret is None else tr("a machine is hidden already; reveal it first")
+        allow(self.result.hide_machine, why or hidden, "")
+        allow(self.result.reveal, None if secret is not None else tr("no machine is hidden"), "")
 
     # --- the test of the diagnosis itself ---------------------------------------------------------
 

@@ -19,9 +19,11 @@ class Playing(QObject):
 
     Signals
     -------
+    begun(str) : the operator wants the motion of that name played.
     played(Run) : the motion has ended and its record is compared.
     """
 
+    begun = Signal(str)
     played = Signal(object)
 
     def __init__(self, workbench: Workbench, parent: QObject) -> None:
@@ -47,6 +49,7 @@ class Playing(QObject):
 
         def answered(answer: int) -> None:
             if request.waits and answer == yes:  # no stop has withdrawn it, and reported that
+                self.begun.emit(name)
                 self.play(name, trajectory)
             request.give_up()
 

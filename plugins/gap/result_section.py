@@ -1,12 +1,12 @@
 """The result of a diagnosis: its sentence and axes, the views, and what can be done about it."""
 
-from PySide6.QtCore import QSignalBlocker
 from PySide6.QtWidgets import QMenu, QPushButton, QStackedWidget, QTabBar, QToolButton, QWidget
 
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import allow, named, plain_tip, set_property
 from rotemina.app.widgets.labels import hint
 from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.app.widgets.tab_dots import TabNews
 from rotemina.plugins.gap import mark, tr
 from rotemina.plugins.gap.axis_cards import AxisCells
 from rotemina.plugins.gap.causes_view import CausesView
@@ -54,6 +54,7 @@ class ResultSection(QWidget):
         )
         self.more.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self.menu = menu = QMenu(self)
+        menu.setToolTipsVisible(True)  # which say why an entry cannot be chosen
         self.save = menu.addAction(tr("Save JSON …"))
         self.test = menu.addAction(tr("Blind test …"))
         menu.addSeparator()
@@ -85,6 +86,7 @@ class ResultSection(QWidget):
         for number, name in enumerate(VIEWS):
             self.tabs.addTab(tr(name))
             self.tabs.setTabToolTip(number, tr(TIPS[number]))
+        self.news = TabNews(self.tabs)
         self.headline = Headline([self.use], [self.twin, self.report, self.more])
         self.plan = QPushButton(tr("Play next experiment …"))
         self.plan.setToolTip(
@@ -117,10 +119,13 @@ class ResultSection(QWidget):
         self.proof.show_proof(proof)
         self.headline.show_answer(answer, proof)
 
-    def bring_up_proof(self) -> None:
-        """Turn to what a new motion says."""
-        with QSignalBlocker(self.tabs):
-            self.tabs.setCurrentIndex(PROOF)
+    def turn_to_proof(self) -> None:
+        """Turn to what a new motion will say, which the operator has just asked for."""
+        self.tabs.setCurrentIndex(PROOF)
+
+    def mark_proof(self) -> None:
+        """Mark the tab of what a new motion says, until it is looked at."""
+        self.news.mark(PROOF)
 
     def show_state(self, answer: Answer | None, chosen: int, *, running: bool) -> None:
         """Offer what can be done with an answer, while a diagnosis of ``chosen`` records runs."""
@@ -129,7 +134,7 @@ class ResultSection(QWidget):
         allow(self.twin, found, tr("Write a robot file of the model with the causes found"))
         allow(self.motion, found, tr("Play a motion that no record contains, and measure its gap"))
         allow(self.report, why, tr("Write the report with all figures, and open it"))
-        self.save.setEnabled(why is None)
+        allow(self.save, why, "")
         done = answer is not None and not running
         self.plan.setVisible(done and bool(answer and answer.diagnosis.experiments))
         self.tabs.setVisible(done)

@@ -18,10 +18,12 @@ class UnseenMotion(QObject):
 
     Signals
     -------
+    check_begun() : the operator wants a motion played that no record holds.
     experiment_played(Run) : of the answer; its record is to be diagnosed with the others.
     proved(Proof, bool) : what a new motion says of the answer, and whether it was requested here.
     """
 
+    check_begun = Signal()
     experiment_played = Signal(object)
     proved = Signal(object, bool)
 
@@ -34,6 +36,7 @@ class UnseenMotion(QObject):
         self._check: str | None = None
         self._playing = Playing(workbench, self)
         self._playing.played.connect(self._use_played)
+        self._playing.begun.connect(lambda name: name == self._check and self.check_begun.emit())
 
     def use_answer(self, answer: Answer, model: ModelInUse | None) -> None:
         """Speak of another answer, and of the model that it leads to."""

@@ -61,10 +61,7 @@ class Controls(QWidget):
         )
         self.poles.setCurrentIndex(POLES.index(2))
         self.copy, self.save = QPushButton(tr("Copy")), QPushButton(tr("Save …"))
-        self.copy.setToolTip(tr("Copy the figures as text"))
-        self.save.setToolTip(tr("Write the figures into a file"))
         self.keep = QPushButton(tr("Store card"))
-        self.keep.setToolTip(tr("Store this health card with the earlier ones of the axis"))
         self._lay_out()
         self.axis.activated.connect(self._change_axis)
         for choice in (self.drive, self.answer, self.averages, self.method, self.poles):

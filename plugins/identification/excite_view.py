@@ -1,6 +1,5 @@
 """The section that excites an axis: choose a motion, see its demands, play, stop."""
 
-from PySide6.QtCore import Signal
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import (
     QCheckBox,
@@ -39,13 +38,7 @@ class ExciteView(QWidget):
     """Choices, a preview of the motion, and its playback through the window's own.
 
     ``motion`` is what would be played, None until it is made and tried.
-
-    Signals
-    -------
-    begun() : the motion was in hand and is asked to be played.
     """
-
-    begun = Signal()
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__()
@@ -192,7 +185,6 @@ class ExciteView(QWidget):
             lambda: request.make(lambda: playback.play(checked, permit=request.permit)),
             request,
         )
-        self.begun.emit()
 
     def _why_not(self, session: SessionState, state: PlaybackState) -> str | None:
         motion = self.motion

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from PySide6.QtCore import Qt, QTimer
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication, QResizeEvent
 from PySide6.QtWidgets import QPlainTextEdit, QScrollArea, QSplitter, QWidget
 
@@ -14,7 +14,7 @@ from rotemina.app.shell.file_dialog import ask_file, ask_where
 from rotemina.app.shell.language import marked
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Run, Workbench
-from rotemina.app.widgets.controls import named
+from rotemina.app.widgets.controls import allow, named
 from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import scrolled
@@ -99,7 +99,6 @@ class IdentificationPanel(Panel):
 
     def _connect(self) -> None:
         self.controls.excite.toggled.connect(self._show_exciting)
-        self.excite.begun.connect(self._come_forward)
         self.controls.open.clicked.connect(self._ask_record)
         self.controls.copy.clicked.connect(self._copy)
         self.controls.save.clicked.connect(self._ask_save)
@@ -144,12 +143,6 @@ class IdentificationPanel(Panel):
         self.controls.offer(record)
         self.controls.look_at(motion.request.axis, VIEWS[motion.request.wave])
         self.take_record(run.name, record)
-        # After the window, which brings the comparison up: here the answer is on this page.
-        QTimer.singleShot(0, self, self._come_forward)
-
-    def _come_forward(self) -> None:
-        """Show this page in front of those that the window brings up on a plan or a run."""
-        self.main_window.bring_up("identification")
 
     def _ask_record(self) -> None:
         title = tr("Open record")
@@ -245,10 +238,12 @@ class IdentificationPanel(Panel):
 
     def _allow(self) -> None:
         """Allow what needs findings."""
-        for button in (self.controls.copy, self.controls.save):
-            button.setEnabled(self.findings is not None)
-        keeps = self.findings is not None and bool(self.findings.columns)
-        self.controls.keep.setEnabled(keeps)
+        none = None if self.findings is not None else tr("there are no figures yet")
+        card = None if self.findings is None or self.findings.columns else tr("it is no card")
+        allow(self.controls.copy, none, tr("Copy the figures as text"))
+        allow(self.controls.save, none, tr("Write the figures into a file"))
+        tip = tr("Store this health card with the earlier ones of the axis")
+        allow(self.controls.keep, none or card, tip)
 
     def _show_exciting(self, shown: bool) -> None:
         self._exciting.setVisible(shown)

@@ -8,6 +8,7 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import scrolled, tabbed
+from rotemina.app.widgets.tab_dots import TabNews
 from rotemina.plugins.recorder import tr
 from rotemina.plugins.recorder.interrupted_files import Unfinished, look
 from rotemina.plugins.recorder.interrupted_view import UnfinishedBox
@@ -16,6 +17,7 @@ from rotemina.plugins.recorder.recording_events import EventsView
 from rotemina.plugins.recorder.records_view import RecordsView
 from rotemina.plugins.recorder.words import listed
 
+_EVENTS = 1  # a tab
 _WIDTH = 240  # of the recording's own part, px
 _CLOSING_S = 2.0  # that closing waits for a look into a folder that hangs
 
@@ -40,13 +42,14 @@ class RecorderPanel(Panel):
         self.tabs, self.views = tabbed(
             tr("View"), {tr("Records"): self.recordings, tr("Events"): self.events}
         )
+        self.news = TabNews(self.tabs)
         self._lay_out()
         offer_in_palette(self.recording.record)
         offer_in_palette(self.recording.keep, safe_while_hidden=True)
         self.recording.changed.connect(self.look)
         self.unfinished.recovered.connect(self.look)
         self.recordings.looked_for.connect(self.look)
-        workbench.replaying.changed.connect(self._bring_up)
+        workbench.replaying.changed.connect(self._mark_events)
         self.follow(lambda _: self.recording.refresh())
         workbench.closing.connect(lambda: self._background.end(_CLOSING_S))
         self.look()
@@ -89,9 +92,9 @@ class RecorderPanel(Panel):
                 subject="recover",  # the work that recovers them
             )
 
-    def _bring_up(self) -> None:
-        shown = self.workbench.replaying.paced is not None
-        self.tabs.setCurrentIndex(1 if shown else 0)
+    def _mark_events(self) -> None:
+        if self.workbench.replaying.paced is not None:
+            self.news.mark(_EVENTS)
 
     def _lay_out(self) -> None:
         scroll = scrolled(self.recording)

@@ -24,9 +24,9 @@ from rotemina.app.shell.loaded_trajectory import Plan
 from rotemina.app.shell.requests_at_rest import WaitingRequest
 from rotemina.app.shell.state_words import describe_moved
 from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.app.widgets.controls import set_property
+from rotemina.app.widgets.controls import allow, set_property
 from rotemina.app.widgets.labels import LiveLabel, heading, plain_text
-from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.app.widgets.layouts import in_column, in_row, keep_room
 from rotemina.app.widgets.when_dressed import WhenDressed
 from rotemina.plugins.trajectory import mark, tr
 from rotemina.plugins.trajectory.dry_run_table import (
@@ -68,10 +68,9 @@ class TrajectoryPanel(Panel):
         self.load.setToolTip(
             tr("Load a trajectory from a text file and check it on the model (Ctrl+T)")
         )
-        self.load.clicked.connect(lambda: self.main_window.ask_trajectory())
+        self.load.clicked.connect(lambda: self.main_window.ask_trajectory(show=False))
         self.resample = QPushButton(tr("Resample …"))
-        self.resample.setToolTip(tr("Resample the loaded trajectory to another rate, in Hz"))
-        self.resample.setEnabled(False)
+        self._allow_resampling(tr("no trajectory is loaded"))
         self.resample.clicked.connect(self._resample)
         self.teach = QPushButton(tr("Teach"))
         self.teach.setToolTip(tr("Make a trajectory from taught points"))
@@ -79,6 +78,7 @@ class TrajectoryPanel(Panel):
         self.teach.toggled.connect(self._show_points)
         self.points = TeachView(workbench)
         self.points.hide()
+        self.points.used.connect(lambda: self.teach.setChecked(False))
         self.transport = Transport(workbench)
         self.name = heading("")
         self.verdict = plain_text(tr(EMPTY), quiet=False, wrap=True)
@@ -103,11 +103,14 @@ class TrajectoryPanel(Panel):
 
     def _lay_out(self) -> None:
         buttons = in_row(self.load, self.resample, self.teach, (self.transport, 1))
-        heading = in_row(self.name, (self.verdict, 1), self.begin, self.times, spacing=12)
+        heading = in_row(self.name, (self.verdict, 1), spacing=12)
+        for field in (self.begin, self.times):  # where they stay, however long the verdict is
+            heading.addWidget(field, 0, Qt.AlignmentFlag.AlignTop)
         self.tried = QWidget()
         in_row((self.table, 1), self.path, on=self.tried, margins=0)
-        parts = buttons, heading, self.gaps, (self.tried, 1), (self.points, 1)
+        parts = buttons, heading, (self.tried, 1), (self.points, 1), self.gaps
         in_column(*parts, on=self, margins=(10, 8, 10, 8))
+        keep_room(self.begin, self.times)
         self.name.hide()
         self.gaps.hide()
 
@@ -117,7 +120,6 @@ class TrajectoryPanel(Panel):
         self.tried.setVisible(not shown)
 
     def _show_plan(self, plan: Plan) -> None:
-        self.teach.setChecked(False)
         run = plan.dry_run
         self.name.setText(
             tr("{name} – {seconds:.3f} s, {rows} rows").format(
@@ -125,7 +127,7 @@ class TrajectoryPanel(Panel):
             )
         )
         self.name.show()
-        self.resample.setEnabled(True)
+        self._allow_resampling(None)
         self._show_verdict(plan)
         if plan.trajectory is not self._part and plan.trajectory is not self._shown:
             self._whole = plan.name, plan.trajectory
@@ -219,10 +221,13 @@ class TrajectoryPanel(Panel):
         for field in (self.begin, self.times):
             field.show()
 
+    def _allow_resampling(self, why_not: str | None) -> None:
+        tip = tr("Resample the loaded trajectory to another rate, in Hz")
+        allow(self.resample, why_not, tip)
+
     def _resample(self) -> None:
         plan = self.workbench.plan
-        if plan is None:
-            return
+        assert plan is not None, "it is allowed with a plan only, and a plan stays"
         dialog = ResamplingDialog(plan.trajectory, self)
 
         def use() -> None:
@@ -320,6 +325,7 @@ def _table() -> QTableWidget:
     triggers = QAbstractItemView.EditTrigger
     table.setEditTriggers(triggers.DoubleClicked | triggers.EditKeyPressed)
     table.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
+    table.setCornerButtonEnabled(False)  # it would select all
     table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
     table.horizontalHeader().setStretchLastSection(True)
     table.horizontalHeader().setFixedHeight(23)

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from PySide6.QtCore import QSignalBlocker
+from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QHeaderView,
@@ -26,7 +26,13 @@ class TeachView(QWidget):
     """The points in a table: a place of each axis, the speed of the way there, a pause.
 
     Nothing here moves the machine: the trajectory is planned as one of a file is.
+
+    Signals
+    -------
+    used() : a trajectory of the points is being planned.
     """
+
+    used = Signal()
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__()
@@ -99,6 +105,7 @@ class TeachView(QWidget):
         points, robot = tuple(self.points), self._workbench.robot
         if self._workbench.ask(lambda: found.append(taught(robot, points, name))):
             self._workbench.plan_trajectory(name, found[0])
+            self.used.emit()
 
     def _typed(self, item: QTableWidgetItem) -> None:
         """Take what was typed, or put back what was there and say what may stand there."""

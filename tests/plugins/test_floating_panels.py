@@ -15,7 +15,7 @@ PANELS = ("comparison",)
 )
 def test_buttons_of_a_floating_panel_reach_the_window(window, monkeypatch, panel, button, asks):
     asked = []
-    monkeypatch.setattr(window, asks, lambda *_: asked.append(asks))
+    monkeypatch.setattr(window, asks, lambda *_, **__: asked.append(asks))
     window.docks[panel].setFloating(True)
     pressed = getattr(window.panels[panel], button)
     pressed.setEnabled(True)

@@ -370,7 +370,7 @@ def test_an_axis_is_excited_and_looked_at_beside_its_model(qtbot, exciting, answ
     assert figure(exciting, "gain, lowest line") == pytest.approx(1.1, rel=1e-3)
     assert figure(exciting, "median coherence") > 0.99
     assert [each.name for each in found.pictures[0].curves][2:] == ["model", "measured"]
-    assert exciting.isVisible()  # in front, though the window brings up the comparison
+    assert exciting.isVisible()  # the comparison does not raise itself
 
     set_up(qtbot, excite, Wave.TRIANGLE, amplitude="5um", time="2 s")
     qtbot.waitUntil(excite.play.isEnabled, timeout=LONG_MS)

@@ -120,6 +120,8 @@ def test_the_gap_is_the_same_string_in_all_four_places(qtbot, window, bench, pan
     assert plots.plots["zn"].figures.text().endswith(told)
     assert plots.plots["zn"].figures.text().startswith("Gap, last 10 s ")
     comparison = window.panels["comparison"].table
+    window.bring_up("comparison")
+    qtbot.waitUntil(lambda: comparison.rowCount() > 0)
     heads = [comparison.horizontalHeaderItem(n).text() for n in range(comparison.columnCount())]
     row = next(n for n in range(comparison.rowCount()) if "meas" in comparison.item(n, 0).text())
     assert comparison.item(row, heads.index("Gap, this run")).text() == size

@@ -6,7 +6,8 @@ from importlib.metadata import EntryPoint
 import numpy as np
 import pytest
 from PySide6.QtCore import QCoreApplication, QEvent, Qt
-from PySide6.QtWidgets import QFileDialog, QMessageBox, QTextEdit, QWidget
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import QFileDialog, QLabel, QMessageBox, QTextEdit, QWidget
 
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import PlaybackFinished
@@ -388,6 +389,13 @@ def test_the_stop_button_works_under_an_open_menu(qtbot, window, open_menu, pres
     qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.IDLE, timeout=LONG_MS)
     assert session.snapshot().command["x"] < 0.049
     menu.close()
+
+
+def test_a_key_that_is_held_runs_its_command_once(window):
+    shortcuts = [one for one in window.findChildren(QAction) if not one.shortcut().isEmpty()]
+    repeated = [one.text() for one in shortcuts if one.autoRepeat()]
+    assert "&Play or pause" in [one.text() for one in shortcuts]
+    assert repeated == []  # play, pause and resume, as long as it is held
 
 
 def test_theme_and_layout_survive_a_restart(qtbot, make_robot_window, settings):

@@ -154,7 +154,7 @@ class Operator:
         """Let the gap page play a motion that is new to it."""
         if not self.see("place(panels['gap'].result.motion)"):
             self.focus("RoTeMiNa")
-            self.press("ctrl+3")  # a comparison has come up before it
+            self.press("ctrl+3")
         self.click("panels['gap'].result.motion.isEnabled() and place(panels['gap'].result.motion)")
         self.click("button('New motion', 'Play')")
 
@@ -357,6 +357,8 @@ def test_the_loop_closes_on_a_machine_that_moved_before(on_the_simulator, tmp_pa
         f"{figures}.endswith('Gap, this run {size}')",
         shown=f"({figures}, {plots}.isVisible(), {plots}.pause.isChecked(), bench.run.name)",
     )
+    hand.wait("bool(window.bring_up('comparison') or True)")
+    hand.wait("panels['comparison'].table.rowCount() > 1")
     cells = "[panels['comparison'].table.item(r, 1).text() for r in range(2)]"
     assert size in hand.see(cells)
     report = tmp_path / "page.html"
@@ -390,8 +392,9 @@ def test_from_the_start_to_a_twin_that_is_right(operator, tmp_path):
     hand.press("Return")
     hand.wait("bench.plan is not None and bench.plan.dry_run.allowed")
     hand.wait(f"{PLAY}.isEnabled() and place({PLAY})")
-    hand.until_done(hand.play, "place(panels['comparison'].table)")
-    assert hand.see("panels['comparison'].table.rowCount()") > 0
+    hand.until_done(hand.play, "'comparison' in window.news.new")
+    hand.wait("bool(window.bring_up('comparison') or True)")
+    hand.wait("panels['comparison'].table.rowCount() > 0")
 
     hand.focus("RoTeMiNa")
     hand.press("ctrl+3")

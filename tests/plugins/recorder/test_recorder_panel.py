@@ -78,7 +78,9 @@ def replay_to_the_note(qtbot, window, reached):
     with qtbot.waitSignal(replaying.changed, timeout=LONG_MS):
         click(qtbot, panel.recordings.open)
     replaying.paced.pause()
-    assert panel.tabs.currentIndex() == 1
+    assert panel.tabs.currentIndex() == 0  # the tab under the mouse stays
+    assert panel.news.is_new(1)
+    panel.tabs.setCurrentIndex(1)
     row = [one.text for one in panel.events.model.events].index("moved by hand")
     panel.events.jump(row)
     there = pytest.approx(reached)
