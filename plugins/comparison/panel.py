@@ -14,6 +14,7 @@ from rotemina.app.shell.plot import LINES, SignalPlot
 from rotemina.app.shell.report_files import RUN_REPORT, RUN_REPORT_TIP, ask_run_report
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Run, Workbench
+from rotemina.app.widgets.controls import allow
 from rotemina.app.widgets.labels import legend, plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.table import Table
@@ -51,13 +52,10 @@ class ComparisonPanel(Panel):
         self.open.setToolTip(tr("Compare a record of the real machine with the model (Ctrl+O)"))
         self.open.clicked.connect(lambda: self.main_window.ask_record())
         self.save = QPushButton(tr("Save record …"))
-        self.save.setToolTip(tr("Save the current record to a file (Ctrl+S)"))
         self.save.clicked.connect(lambda: self.main_window.ask_save())
         self.report = QPushButton(translate("shell", RUN_REPORT))
-        self.report.setToolTip(translate("shell", RUN_REPORT_TIP))
         self.report.clicked.connect(lambda: ask_run_report(self, workbench))
-        for one in (self.save, self.report):
-            one.setEnabled(False)
+        self._allow(tr("no record is open; play a trajectory or open one"))
         self.summary = plain_text(tr(EMPTY), quiet=False, wrap=True)
         self.table = Table(
             tr("Signals and their gaps"),
@@ -97,9 +95,13 @@ class ComparisonPanel(Panel):
             )
             + (f"  ·  {run.model_id}" if run.model_id else "")
         )
-        self.save.setEnabled(True)
-        self.report.setEnabled(True)
+        self._allow(None)
         self._show_gaps()
+
+    def _allow(self, why_not: str | None) -> None:
+        """Allow what needs a record."""
+        allow(self.save, why_not, tr("Save the current record to a file (Ctrl+S)"))
+        allow(self.report, why_not, translate("shell", RUN_REPORT_TIP))
 
     def _fill(self) -> None:
         run = self.workbench.run

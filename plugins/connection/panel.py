@@ -18,7 +18,7 @@ from rotemina.plugins.connection.tip_floor import TipSection
 
 
 class ConnectionPanel(Panel):
-    """State, device, position, parameters, tip, voltage, line and stop latency, in one column."""
+    """State, device, position, tip, voltage, line, stop latency and parameters, in one column."""
 
     title = marked("panels", "Connection")
     area = Area.RIGHT
@@ -39,11 +39,11 @@ class ConnectionPanel(Panel):
             self.state,
             self.device,
             self.position,
-            self.parameters,
             self.tip,
             self.voltage,
             self.line,
             self.stop,
+            self.parameters,  # last: no button moves when a table of differences appears
         )
         content = QWidget()
         in_column(*self._sections, 1, on=content, margins=(10, 4, 10, 8), spacing=4)

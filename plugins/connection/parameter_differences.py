@@ -5,6 +5,7 @@ from PySide6.QtWidgets import QHeaderView
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button
+from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.section import Section
 from rotemina.app.widgets.table import Table
 from rotemina.drivers.abilities import Parameterised
@@ -23,16 +24,17 @@ class ParameterSection(Section):
         super().__init__(tr("Parameters"))
         self._session = workbench.session
         self._shown: tuple[str, ...] = ()
-        self.text = self.add_text()
+        self.text = plain_text(lines=3)
+        self.column.addWidget(self.text)
         self.table = Table(
             tr("Parameters that differ"), [tr(name) for name in COLUMNS], row_height=24
         )
         self.table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
         self.table.setVisible(False)
-        self.column.addWidget(self.table)
         self.write = button(tr("Write to device"), workbench.write_parameters)
         self.accept = button(tr("Accept"), workbench.accept_parameters)
         self.add_row(self.write, self.accept)
+        self.column.addWidget(self.table)  # last: no button moves when it appears
 
     def refresh(self, state: SessionState) -> None:
         """Show a state."""

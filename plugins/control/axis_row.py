@@ -247,7 +247,9 @@ class AxisRow(QFrame):
             self._workbench.notify(Level.WARNING, no_position(axis, text, self._scale), about=self)
             return
         if self._command is None:
-            return  # it is being locked, for the reason in the tooltip
+            text = tr("{label} does not move: its position is unknown.").format(label=label(axis))
+            self._workbench.notify(Level.WARNING, text, about=self)
+            return
         if not self._workbench.ask(lambda: check_target(self._workbench.robot, axis, target)):
             return  # nobody is asked about a move that cannot be made
         permit = self.confirmation.take(target, self._command, self._clock())

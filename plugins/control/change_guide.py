@@ -10,6 +10,7 @@ from rotemina.app.motion.saved_positions import LOAD, WORK
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.pending_confirmations import Pending
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.changing_button import ChangingButton
 from rotemina.app.widgets.controls import allow, button
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.plugins.connection.unavailable_reasons import against_teaching, in_motion
@@ -58,7 +59,8 @@ class ChangeGuide(QDialog):
         self._top = self._session.robot.axes[LIFT].range[1]
         self.steps = self._listed()
         self.lines = [QLabel() for _ in self.steps]
-        self.do = button("", self._do)
+        words = [*(step.word for step in self.steps), tr("Teach here?")]
+        self.do = ChangingButton(*words, run=self._do)  # a double click on Release must not move
         self.skip = button(tr("Skip"), self._next, tr("Skip this step"))
         in_column(*self.lines, on=self).addLayout(in_row((self.do, 1), self.skip))
         workbench.refreshed.connect(self.refresh)
@@ -88,7 +90,7 @@ class ChangeGuide(QDialog):
         if self._at < len(self.steps):
             step = self.steps[self._at]
             asked = self._teaching.what is not None
-            self.do.setText(tr("Teach here?") if asked else step.word)
+            self.do.show_meaning(tr("Teach here?") if asked else step.word)
             allow(self.do, step.against(state), step.text)
 
     def _do(self) -> None:

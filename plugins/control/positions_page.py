@@ -10,6 +10,7 @@ from rotemina.app.motion.saved_positions import HOME, LOAD, LONGEST_NAME, WORK, 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.pending_confirmations import Pending
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.changing_button import ChangingButton
 from rotemina.app.widgets.controls import allow, button, plain_tip
 from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
@@ -50,12 +51,12 @@ class PositionsPage(QWidget):
         )
         self.name.textEdited.connect(lambda _: self._forget())
         self.go = button(tr("Go there"), self._go)
-        self.delete = button(tr("Delete"), self._delete)
-        self.keep = button(tr("Save"), self._keep)
+        self.delete = ChangingButton(tr("Delete"), tr("Delete?"), run=self._delete)
+        self.keep = ChangingButton(tr("Save"), tr("Replace?"), run=self._keep)
         self.place = plain_text(lines=3)
         self._words = {HOME: tr("Home"), LOAD: tr("Load"), WORK: tr("Work")}
         self.places = {
-            name: button(word, lambda name=name: self._go_or_set(name))
+            name: ChangingButton(word, tr("Set here?"), run=lambda name=name: self._go_or_set(name))
             for name, word in self._words.items()
         }
         self.change = button(tr("Change …"), self._change)

@@ -13,7 +13,7 @@ from rotemina.app.shell.engine_words import error_text
 from rotemina.app.shell.file_dialog import ask_file, ask_where
 from rotemina.app.shell.language import marked
 from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.app.widgets.controls import named, plain_tip, set_property
+from rotemina.app.widgets.controls import allow, named, plain_tip, set_property
 from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.plugins.effects import mark, tr
@@ -119,7 +119,9 @@ class EffectsPanel(Panel):
         worn = menu.addAction(
             tr("Worn, for demonstration"), lambda: self.use_effects(worn_effects(robot))
         )
-        worn.setEnabled(bool(worn_effects(robot)))
+        menu.setToolTipsVisible(True)
+        none = None if worn_effects(robot) else tr("there are no such effects for this robot")
+        allow(worn, none, tr("Effects as of a machine after years of use"))
         self.machine.setMenu(menu)
 
     def _connect(self) -> None:
@@ -268,7 +270,7 @@ class EffectsPanel(Panel):
         """Show effects that came from elsewhere, or that a real machine has its own."""
         self._real = effects is None
         if self._real:  # at once, and not with the next refreshed state
-            self._body.setEnabled(False)
+            allow(self._body, tr(REAL_MACHINE), "")
         if len(self.chain):
             self._remember()
         self.chain, self._last = Chain.of(self.workbench.robot, effects or ()), None
@@ -279,7 +281,10 @@ class EffectsPanel(Panel):
         self._show()
 
     def _refresh(self, state: SessionState) -> None:
-        self._body.setEnabled(state.connection is Connection.CONNECTED and not self._real)
+        why_not = tr(REAL_MACHINE) if self._real else None
+        if state.connection is not Connection.CONNECTED:
+            why_not = tr("no device is connected")
+        allow(self._body, why_not, "")
         self.live.refresh(state)
 
     def _show(self) -> None:
@@ -291,10 +296,16 @@ class EffectsPanel(Panel):
     def _show_chosen(self) -> None:
         chosen = 0 <= self.place < len(self.chain)
         self.editor.show_effect(self.chain.effects[self.place] if chosen else None, self.place)
-        self.remove.setEnabled(chosen)
-        self.undo.setEnabled(bool(self._past))
-        for button, step in ((self.up, -1), (self.down, +1)):
-            button.setEnabled(chosen and self.chain.neighbour(self.place, step) is not None)
+        none = None if chosen else tr("no effect is chosen")
+        allow(self.remove, none, tr("Remove this effect"))
+        unchanged = None if self._past else tr("nothing was changed")
+        allow(self.undo, unchanged, tr("Undo the last change of this list"))
+        for button, step, tip in (
+            (self.up, -1, tr("Apply this effect earlier within its stage")),
+            (self.down, +1, tr("Apply this effect later within its stage")),
+        ):
+            last = chosen and self.chain.neighbour(self.place, step) is None
+            allow(button, none or (tr("its stage ends there") if last else None), tip)
 
     def _show_standing(self) -> None:
         self._mark_fields()

@@ -15,7 +15,7 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Run, Workbench
 from rotemina.app.widgets.controls import allow, fill, named, plain_tip
 from rotemina.app.widgets.labels import ElidedLabel, plain_text
-from rotemina.app.widgets.layouts import in_column, in_grid, in_row
+from rotemina.app.widgets.layouts import in_column, in_grid, in_row, keep_room
 from rotemina.app.widgets.scroll_areas import scrolled
 from rotemina.plugins.job import tr, words
 from rotemina.plugins.job.words import Running
@@ -41,6 +41,7 @@ class Card(QFrame):
         self.bar = named(QProgressBar(), kind)
         self.bar.setRange(0, _STEPS)
         self.bar.setTextVisible(False)
+        keep_room(self, self.doing, self.bar)  # no button moves when another job begins
         self._buttons = in_row(1, spacing=6)
         grid = in_grid(on=self, margins=(2, 4, 2, 6), spacing=(-1, 3), stretched=0)
         grid.addWidget(self.kind, 0, 0)
@@ -62,7 +63,7 @@ class Card(QFrame):
         return button
 
     def show_running(self, running: Running | None) -> None:
-        """Show the state; None hides the card."""
+        """Show the state; None hides the card, whose room stays empty."""
         self.setVisible(running is not None)
         if running is None:
             return
@@ -80,16 +81,19 @@ _COLUMNS = 2
 
 
 class ResultView(QFrame):
-    """The gaps of a run in two columns; unseen before the first."""
+    """The gaps of a run in two columns, with room for those of all axes from the beginning."""
 
-    def __init__(self, bring_up: Callable[[str], object]) -> None:
+    def __init__(self, axes: int, bring_up: Callable[[str], object]) -> None:
         super().__init__()
         self.setObjectName("section")
         heading = plain_text(translate("shell", RUN))
         self.name = ElidedLabel()
         self.name.setProperty("heading", True)
         self.gaps = in_grid(spacing=(12, -1))
+        for number in range(axes):
+            self.gaps.addWidget(QLabel(" "), *divmod(number, _COLUMNS))
         buttons = in_row(1)
+        self._buttons: list[tuple[QPushButton, str]] = []
         for text, tip, panel in (
             (
                 tr("Compare"),
@@ -99,11 +103,12 @@ class ResultView(QFrame):
             (tr("Diagnose"), tr("Find the effects that explain the gap"), "gap"),
         ):
             button = QPushButton(text)
-            button.setToolTip(plain_tip(tip))
+            allow(button, tr("nothing has been played or opened yet"), tip)
             button.clicked.connect(lambda _=False, panel=panel: bring_up(panel))
             buttons.addWidget(button)
+            self._buttons.append((button, tip))
         in_column(heading, self.name, self.gaps, buttons, on=self, margins=(2, 4, 2, 6), spacing=3)
-        self.hide()
+        self.name.show_text(tr("No run yet"))
 
     def show_run(self, run: Run) -> None:
         """Show the gaps of a run."""
@@ -117,7 +122,8 @@ class ResultView(QFrame):
             text = QLabel(f"{label(axis)}  {size(figure, unit)}")
             text.setToolTip(plain_tip(small_print(figure, unit)))
             self.gaps.addWidget(text, *divmod(number, _COLUMNS))
-        self.show()
+        for button, tip in self._buttons:
+            allow(button, None, tip)
 
 
 class JobPanel(Panel):
@@ -132,9 +138,9 @@ class JobPanel(Panel):
         super().__init__(workbench)
         self._make_playback()
         self._make_others()
-        self.result = ResultView(self._bring_up)
+        self.result = ResultView(len(workbench.robot.axes), self._bring_up)
         cards = QWidget()
-        parts = self.playback, self.penetration, self.motion, self.recording, self.result, 1
+        parts = self.playback, self.result, self.recording, self.penetration, self.motion, 1
         in_column(*parts, on=cards, margins=(8, 4, 8, 4), spacing=4)
         in_column(scrolled(cards), on=self, margins=0)
         self.follow(self.refresh)
@@ -146,7 +152,7 @@ class JobPanel(Panel):
         self.load = self.playback.add_button(
             tr("Load …"),
             tr("Choose a trajectory file; a dry run checks it first"),
-            lambda: self.main_window.ask_trajectory(),
+            lambda: self.main_window.ask_trajectory(show=False),
         )
         self.end = self.playback.add_button(
             tr("End"), tr("Stop; the next playback starts from the beginning"), bench.end_playback
@@ -194,23 +200,25 @@ class JobPanel(Panel):
         if idle and (waits := waiting_words(bench)):
             running = running._replace(doing=waits)
         self.playback.show_running(running)
-        self.load.setVisible(idle)
-        self.end.setVisible(not idle)
+        tip = tr("Stop; the next playback starts from the beginning")
+        allow(self.end, tr("nothing is playing") if idle else None, tip)
         self.play.refresh(state)
 
     def _end_recording(self) -> None:
         recorder = self.workbench.operation.recording
         if recorder is None:
+            self.workbench.notify(Level.INFO, tr("The recording has ended already."), about=self)
             return
         path = recorder.writer.path
-        self.end_recording.setEnabled(False)
+        tip = tr("Save the recording in one file; motion continues")
+        allow(self.end_recording, tr("the recording is being saved"), tip)
 
         def done() -> None:
-            self.end_recording.setEnabled(True)
+            allow(self.end_recording, None, tip)
             text = tr("Saved the recording {path}").format(path=path)
             self.workbench.notify(Level.GOOD, text)
 
-        self.workbench.finish_recording(done, lambda: self.end_recording.setEnabled(True))
+        self.workbench.finish_recording(done, lambda: allow(self.end_recording, None, tip))
 
     def _bring_up(self, name: str) -> None:
         self.main_window.bring_up(name)

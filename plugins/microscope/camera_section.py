@@ -160,8 +160,8 @@ class SettingsSection(Section):
         """Show what is in force, unless someone is typing."""
         feed = status.feed
         can = feed.description
-        self.form.setEnabled(can is not None)
         why = tr("no camera is open") if can is None else None
+        allow(self.form, why, "")
         allow(self.apply, why, tr("Apply these settings; refusals appear below"))
         no_frame = why or (tr("there is no picture") if feed.frame is None else None)
         allow(

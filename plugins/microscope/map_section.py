@@ -12,7 +12,8 @@ from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.pending_confirmations import Pending
 from rotemina.app.shell.theme import Theme
-from rotemina.app.shell.workbench import Workbench
+from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.changing_button import ChangingButton
 from rotemina.app.widgets.controls import allow, button
 from rotemina.app.widgets.labels import show_text
 from rotemina.app.widgets.section import Section
@@ -52,7 +53,7 @@ class MapSection(Section):
         self._fitted = False
         self.view = MapView(workbench.theme)
         self.said = self.add_text()
-        self.go = button(tr("Go there"), self._go)
+        self.go = ChangingButton(tr("Go there"), tr("Far away: go there?"), run=self._go)
         self.go.setProperty("primary", True)
         self.near = button(
             tr("Fit"), lambda: self.view.fit(whole=False), tr("Show the trail and all places")
@@ -127,7 +128,9 @@ class MapSection(Section):
 
     def _go(self) -> None:
         session, goal = self._bench.session, self.goal
-        if goal is None or self._map is None:
+        if goal is None or self._map is None:  # the place was deleted just before the press
+            text = tr("No move: no place is chosen. Choose one in the map.")
+            self._bench.notify(Level.WARNING, text, about=self)
             return
         for axis, at in goal.targets.items():
             if not self._bench.ask(partial(check_target, self._bench.robot, axis, at)):

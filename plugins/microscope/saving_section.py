@@ -11,6 +11,7 @@ from rotemina.app.microscope.status import MicroscopeStatus
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import error_text
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.changing_button import ChangingButton
 from rotemina.app.widgets.controls import allow, button, plain_tip
 from rotemina.app.widgets.labels import show_text
 from rotemina.app.widgets.section import Section
@@ -42,7 +43,7 @@ class SavingSection(Section):
         self._told.connect(lambda text: workbench.notify(Level.WARNING, text, about=self))
         self.filming = VideoCapture(microscope, data / "videos", self._told.emit)
         self.snapshot = button(tr("Snapshot"), self._snap)
-        self.record = button(tr("● Video"), self._toggle)
+        self.record = ChangingButton(tr("● Video"), tr("■ End video"), run=self._toggle)
         self.add_row(self.snapshot, self.record)
         self.said = self.add_text()
         self.follows = QCheckBox(tr("video with each recording"))
@@ -83,14 +84,16 @@ class SavingSection(Section):
         none = tr("there is no picture") if status.feed.frame is None else None
         allow(self.snapshot, none, tr("Save this picture: raw values as TIFF, the view as PNG"))
         on = video is not None
-        self.record.setText(tr("■ End video") if on else tr("● Video"))
+        self.record.show_meaning(tr("■ End video") if on else tr("● Video"))
         tip = tr("End the video") if on else tr("Record every picture, with its time, as a BigTIFF")
         allow(self.record, None if on else none, tip)
         show_text(self.said, progress(video) if video is not None else "")
 
     def _snap(self) -> None:
         frame = self._view.frame
-        if frame is None:
+        if frame is None:  # the camera was closed just before the press
+            text = tr("No snapshot: there is no picture. Open a camera first.")
+            self._workbench.notify(Level.WARNING, text, about=self)
             return
         now = datetime.now().astimezone()
         recorder = self._workbench.operation.recording

@@ -10,7 +10,8 @@ from rotemina.app.motion.penetration.status import UNDER_WAY, PenetrationStatus,
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.tones import Tone, set_tone
-from rotemina.app.shell.workbench import Workbench
+from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.changing_button import ChangingButton
 from rotemina.app.widgets.controls import allow, named
 from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_row
@@ -58,8 +59,8 @@ class RunButtons(QWidget):
         self._workbench, self._operation = workbench, workbench.operation
         self._clock, self._pressed_s = clock, float("-inf")
         self._shown = Phase.DISARMED
-        self.arm = QPushButton(tr(arm_word(self._shown)))
-        self.arm.clicked.connect(lambda _: self._arm())
+        words = dict.fromkeys(map(arm_word, (self._shown, *Phase)))
+        self.arm = ChangingButton(*map(tr, words), run=self._arm)
         self.button = QPushButton(tr(button_word(self._shown)))
         self.button.setProperty("primary", True)
         # By Tab alone: no space bar that follows a click may start or end anything.
@@ -80,7 +81,7 @@ class RunButtons(QWidget):
             against = running.format(phase=spoken(phase))
         elif arm_word(phase) == "Arm":
             against = why_not()
-        self.arm.setText(tr(arm_word(phase)))
+        self.arm.show_meaning(tr(arm_word(phase)))
         allow(self.arm, against, tr(arm_tip(phase)))
         self.button.setText(tr(button_word(phase)))
         allow(self.button, against_button(status, state), tr(button_tip(phase)))
@@ -94,8 +95,8 @@ class RunButtons(QWidget):
     def _arm(self) -> None:
         penetration, word = self._operation.penetration, arm_word(self._shown)
         if word != arm_word(penetration.status.phase):
-            return  # it acts as it was labelled, or not at all
-        if word == "Arm":
+            self._report_change()  # it acts as it was labelled, or not at all
+        elif word == "Arm":
             self._ask_to_arm()
         else:
             self._workbench.ask(penetration.disarm)
@@ -104,8 +105,17 @@ class RunButtons(QWidget):
         now_s = self._clock()
         phase, since_s = self._operation.penetration.status.phase, now_s - self._pressed_s
         self._pressed_s = now_s
-        if counts(self._shown, phase, since_s):
+        if button_word(self._shown) != button_word(phase):
+            self._report_change()
+        elif counts(self._shown, phase, since_s):
             self._workbench.ask(self._operation.press_penetration)
+
+    def _report_change(self) -> None:
+        text = tr(
+            "Nothing was done: the penetration went on just before the press. Read the button, "
+            "then press again."
+        )
+        self._workbench.notify(Level.WARNING, text, about=self)
 
 
 class RunBar(RunButtons):

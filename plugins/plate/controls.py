@@ -135,5 +135,6 @@ class Controls(QWidget):
             value.setText(f"{fixed(per_si * text, 1)} {unit}")
         static = self.mode is None
         for widget in (*self.sliders, self.colour):
+            # A slider's tooltip is its range: only whether it can be moved changes here.
             widget.setEnabled(static)
         self.changed.emit()

@@ -58,14 +58,11 @@ class PlatePanel(Panel):
     def _make_parts(self) -> None:
         self.mesh = QComboBox()
         self.mesh.setAccessibleName(tr("Mesh"))
-        self.mesh.setToolTip(tr("A finer mesh is more accurate and takes longer"))
         for title, divisions in MESHES:
             self.mesh.addItem(tr(title), divisions)
         self.mesh.setCurrentIndex(1)
         self.start, self.stop = QPushButton(tr("Solve")), QPushButton(tr("Stop"))
         self.start.setProperty("primary", True)
-        self.start.setToolTip(tr("Compute the plate of the robot file; motion continues"))
-        self.stop.setToolTip(tr("Cancel the computation; motion continues"))
         self.vtu, self.png = QPushButton(tr("Save VTU …")), QPushButton(tr("Save PNG …"))
         self.doing = plain_text(wrap=True)
         self.pose_text, self.plate_text = (plain_text(quiet=False, wrap=True) for _ in range(2))
@@ -134,9 +131,11 @@ class PlatePanel(Panel):
 
     def _show_state(self) -> None:
         running = self.solving.running
-        self.start.setEnabled(not running)
-        self.mesh.setEnabled(not running)
-        self.stop.setEnabled(running)
+        busy = tr("the plate is being computed; stop that first") if running else None
+        allow(self.start, busy, tr("Compute the plate of the robot file; motion continues"))
+        allow(self.mesh, busy, tr("A finer mesh is more accurate and takes longer"))
+        idle = None if running else tr("nothing is being computed")
+        allow(self.stop, idle, tr("Cancel the computation; motion continues"))
         why_not = None if self.solved is not None else tr(_UNSOLVED)
         allow(
             self.vtu,
@@ -144,7 +143,7 @@ class PlatePanel(Panel):
             tr("Mesh, displacement, stress and modes for ParaView and similar programs"),
         )
         allow(self.png, why_not, tr("The displayed picture"))
-        self.controls.setEnabled(self.solved is not None)
+        allow(self.controls, why_not, "")
         if self.solved is None:
             self.canvas.show_picture(None, tr(EMPTY))
 

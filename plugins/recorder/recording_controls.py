@@ -12,6 +12,7 @@ from rotemina.app.motion.run_labels import MOST_LETTERS, RunLabels
 from rotemina.app.shell.background import Background
 from rotemina.app.shell.record_library import free_bytes
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.changing_button import ChangingButton
 from rotemina.app.widgets.controls import allow, named
 from rotemina.app.widgets.labels import ElidedLabel, plain_text
 from rotemina.app.widgets.layouts import in_column, in_grid, in_row
@@ -110,9 +111,10 @@ class RecordingSection(QWidget):
         self._lay_out()
 
     def _make_widgets(self) -> None:
-        self.record = QPushButton(tr("● Record"))
+        self.record = ChangingButton(
+            tr("● Record"), tr("■ End recording"), tr("Starting …"), run=self.toggle
+        )
         self.record.setMinimumHeight(32)
-        self.record.clicked.connect(self.toggle)
         self.elapsed = named(QLabel("–"), tr("Time since the recording began"))
         self.elapsed.setProperty("readout", True)
         self.file, self.size, self.room = ElidedLabel(), ElidedLabel(), ElidedLabel()
@@ -126,6 +128,7 @@ class RecordingSection(QWidget):
         self.note.setToolTip(tr("Enter writes the remark into the recording with the present time"))
         self.note.setEnabled(False)  # until something is recorded
         self.note.returnPressed.connect(self.remark)
+        self.note.textEdited.connect(lambda _: self.refresh())
         self.keep = QPushButton(tr("Note"))
         self.keep.setToolTip(tr("Write the remark into the recording"))
         self.keep.clicked.connect(self.remark)
@@ -169,8 +172,9 @@ class RecordingSection(QWidget):
     def toggle(self) -> None:
         """Begin a recording, or end the one that runs."""
         if self._doing:
-            return
-        if self._operation.recording is None:
+            text = tr("The recording is just being started or ended; wait, then press again.")
+            self._workbench.notify(Level.INFO, text, about=self)
+        elif self._operation.recording is None:
             self._begin()
         else:
             self._end()
@@ -178,9 +182,13 @@ class RecordingSection(QWidget):
     def remark(self) -> None:
         """Put what was typed into the recording."""
         recorder, text = self._operation.recording, self.note.text().strip()
-        if recorder is not None and text:
-            recorder.note(text)
-            self.note.clear()
+        if recorder is None or not text:
+            why = tr("type a remark first") if recorder else tr("nothing is being recorded")
+            told = tr("Nothing was noted: {why}.").format(why=why)
+            self._workbench.notify(Level.INFO, told, about=self)
+            return
+        recorder.note(text)
+        self.note.clear()
 
     def refresh(self) -> None:
         """Show how the recording stands; begin it where that is wanted of every start."""
@@ -191,7 +199,8 @@ class RecordingSection(QWidget):
         self._look()
         recorder = self._operation.recording
         running = recorder is not None and not self._doing
-        self.record.setText(self._doing or (tr("■ End recording") if running else tr("● Record")))
+        words = tr("■ End recording") if running else tr("● Record")
+        self.record.show_meaning(self._doing or words)
         tip = (
             tr("End the recording and save it in one file")
             if running
@@ -204,7 +213,9 @@ class RecordingSection(QWidget):
             why_not,
             tr("Enter writes the remark into the recording with the present time"),
         )
-        allow(self.keep, why_not, tr("Write the remark into the recording with the present time"))
+        empty = None if self.note.text().strip() else tr("type a remark first")
+        tip = tr("Write the remark into the recording with the present time")
+        allow(self.keep, why_not or empty, tip)
         if recorder is None:
             self._show("–", "–", "–", room_text(self._free, 0, 0.0), None)
             return
@@ -241,6 +252,8 @@ class RecordingSection(QWidget):
     def _end(self) -> None:
         recorder = self._operation.recording
         if recorder is None:
+            text = tr("The recording has ended already.")
+            self._workbench.notify(Level.INFO, text, about=self)
             return
         self._doing = tr("Ending …")
         size = size_text(recorder.writer.bytes_written)

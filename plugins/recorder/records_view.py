@@ -19,6 +19,7 @@ from rotemina.app.shell.record_table import RecordTable
 from rotemina.app.shell.record_words import NAME, NOTE, state_text
 from rotemina.app.shell.report_files import RUN_REPORT, ask_run_report
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.changing_button import ChangingButton
 from rotemina.app.widgets.controls import allow, button
 from rotemina.app.widgets.inline_question import Question
 from rotemina.app.widgets.layouts import in_column, in_row
@@ -116,7 +117,9 @@ class RecordsView(QWidget):
     # --- parts ------------------------------------------------------------------------------------
 
     def _make_buttons(self) -> None:
-        self.open = button(tr("Replay"), lambda: self._with_chosen(self._open))
+        self.open = ChangingButton(
+            tr("Replay"), tr("Compare"), run=lambda: self._with_chosen(self._open)
+        )
         self.to_record = button(tr("Export …"), self._ask_export)
         self.to_trajectory = button(
             tr("To trajectory"), lambda: self._with_chosen(self.take_in_hand)
@@ -129,6 +132,7 @@ class RecordsView(QWidget):
         self.more.setToolTip(tr("Run report, change name or note, find or open a file, delete"))
         self.more.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         menu = QMenu(self)
+        menu.setToolTipsVisible(True)  # which say why an entry cannot be chosen
         self.report = menu.addAction(translate("shell", RUN_REPORT))
         menu.addSeparator()
         self.rename = menu.addAction(tr("Change name"))
@@ -179,7 +183,7 @@ class RecordsView(QWidget):
             why_not = state_text(chosen)
         replayed = chosen is None or chosen.path.suffix == SUFFIX
         self.stretch.setVisible(replayed)  # a playback is taken as a whole
-        self.open.setText(tr("Replay") if replayed else tr("Compare"))
+        self.open.show_meaning(tr("Replay") if replayed else tr("Compare"))
         tip = (
             tr("Display the recording instead of the machine")
             if replayed
@@ -194,14 +198,16 @@ class RecordsView(QWidget):
             "rest at both ends"
         )
         allow(self.to_trajectory, why_not, tip)
-        self.report.setEnabled(why_not is None)
+        allow(self.report, why_not, "")
         here = None if self._shown_s() is not None else tr("this recording is not displayed")
         allow(self.begin_here, here, tr("Start the section at the present time of the replay"))
         allow(self.end_here, here, tr("End the section at the present time of the replay"))
-        self.rename.setEnabled(chosen is not None)
-        self.annotate.setEnabled(chosen is not None)
-        self.find.setEnabled(chosen is not None and chosen.missing)
-        self.delete.setEnabled(bool(several))
+        none = None if chosen is not None else tr(_NONE)
+        allow(self.rename, none, "")
+        allow(self.annotate, none, "")
+        there = None if chosen is None or chosen.missing else tr("its file is where it was")
+        allow(self.find, none or there, "")
+        allow(self.delete, None if several else tr(_NONE), "")
 
     def _shown_s(self) -> float | None:
         """Return where the replay of the chosen recording is."""

@@ -111,6 +111,9 @@ class View3dPanel(Panel):
     def open_in_browser(self) -> None:
         """Show the view in the browser of the desktop; several may look at once."""
         if self.serving is None or self.busy:
+            text = tr("The view is not opened: {why}.")
+            why = tr("it is being opened already") if self.busy else tr("there is no drawing")
+            self.workbench.notify(Level.INFO, text.format(why=why), about=self)
             return
         if self.serving.server is not None:
             self._browse()

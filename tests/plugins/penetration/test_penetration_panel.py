@@ -292,3 +292,12 @@ def test_cells_are_gone_to_one_after_the_other_and_a_run_is_noted_with_the_armed
     qtbot.waitUntil((tmp_path / "cells.csv").exists, timeout=LONG_MS)
     assert ",failed,,now,too soft" in (tmp_path / "cells.csv").read_text()
     panel.workbench.operation.penetration.disarm()
+
+
+def test_a_press_on_a_button_that_the_penetration_has_overtaken_is_reported(window, panel):
+    panel.bar._shown = Phase.ARMED  # as it was labelled in the frame before
+    panel.bar._press()
+    panel.bar._arm()
+    assert phase(panel) is Phase.DISARMED
+    told = "Nothing was done: the penetration went on just before the press."
+    assert notices(window)[0].startswith(told)

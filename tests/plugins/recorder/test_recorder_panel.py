@@ -162,3 +162,15 @@ def test_a_start_after_a_crash_and_a_recording_that_ends_with_the_window(
     window.workbench.close()
     assert Recording.open(writer.path).count > 0
     assert list(folder.glob("*.part")) == [busy]
+
+
+def test_an_empty_remark_is_asked_for(qtbot, window):
+    section = shown(window).recording
+    click(qtbot, section.record)
+    qtbot.waitUntil(section.note.isEnabled, timeout=LONG_MS)
+    assert not section.keep.isEnabled()
+    assert "type a remark first" in section.keep.toolTip()
+    qtbot.keyClick(section.note, Qt.Key.Key_Return)
+    assert notices(window)[0] == "Nothing was noted: type a remark first."
+    qtbot.keyClicks(section.note, "seen")
+    assert section.keep.isEnabled()  # at once
