@@ -6,6 +6,7 @@ is convex, and an open tube is the side of a convex one.
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -49,7 +50,7 @@ def mesh_of(command: Command) -> Mesh:
     normals, middles = _planes(points, faces)
     outwards = middles - points.mean(axis=0)
     normals[np.einsum("ij,ij->i", normals, outwards) < 0] *= -1.0
-    edges, sides = _edges(faces)
+    edges, sides = _edges(tuple(map(tuple, faces)))
     cosines = np.einsum("ij,ij->i", normals[sides[:, 0]], normals[sides[:, 1]])
     sharp = (cosines < _SHARP) | (sides[:, 0] == sides[:, 1])
     return Mesh(points, faces, normals, edges, sides, sharp)
@@ -72,7 +73,9 @@ def _planes(points: FloatArray, faces: Faces) -> tuple[FloatArray, FloatArray]:
     return normals, middles
 
 
-def _edges(faces: Faces) -> tuple[IntArray, IntArray]:
+@lru_cache(maxsize=8)
+def _edges(faces: tuple[tuple[int, ...], ...]) -> tuple[IntArray, IntArray]:
+    """Return edges and sides of faces; of one kind of solid they are always the same."""
     met: dict[tuple[int, int], list[int]] = {}
     for index, face in enumerate(faces):
         for one, other in zip(face, face[1:] + face[:1], strict=True):

@@ -154,12 +154,11 @@ class RunBar(RunButtons):
     def offer_preparing(self, lacks: bool, state: SessionState) -> None:
         """Offer to move the nano stage back where the way ``lacks`` room."""
         self.prepare.setVisible(lacks)
-        if lacks:
-            allow(
-                self.prepare,
-                state.locked or in_motion(state),
-                tr("Move Z nano back as far as needed; Z compensates, so the tip stays in place"),
-            )
+        allow(
+            self.prepare,
+            state.locked or in_motion(state),
+            tr("Move Z nano back as far as needed; Z compensates, so the tip stays in place"),
+        )
 
     def _ask_to_arm(self) -> None:
         self.arm_asked.emit()

@@ -42,7 +42,8 @@ from rotemina.sim.quantities import rounded
 from rotemina.sim.records.writing import write_record
 
 SPANS_S = (2, 5, 10, 30, 60)
-_PARTS = 3  # of the plots that are drawn at a time
+_PARTS = 6  # of the plots, of which one is drawn at a time
+_BETWEEN_MS = 3  # two parts, in which the first is painted; else all would be in one go
 FIGURES_S = 0.25  # nor are figures
 SPECTRUM_S = 0.25  # a spectrum is computed no oftener
 LEGEND = (
@@ -87,7 +88,7 @@ class PlotsPanel(Panel):
         in_column(self._head, (self.grid, 1), on=self, margins=0, spacing=3)
         offer_in_palette(self.pause, self.cursors, safe_while_hidden=True)
         self._waiting: list[Sequence[AxisPlot]] = []  # to be drawn as the others are already
-        self._next = QTimer(self, singleShot=True, interval=0)
+        self._next = QTimer(self, singleShot=True, interval=_BETWEEN_MS)
         self._next.timeout.connect(self._draw_next)
         self.follow_frames(self._show_age, shown=True)
         workbench.shown.connect(lambda _: self._refresh_by_parts())

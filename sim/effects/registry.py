@@ -17,15 +17,9 @@ GROUP = "rotemina.effects"
 
 
 @cache
-def _installed() -> tuple[EntryPoint, ...]:
-    """Return all entry points; looking for them reads a file of every installed package."""
-    return tuple(entry_points(group=GROUP))
-
-
-@cache
 def _points() -> dict[str, EntryPoint]:
     """Return the entry points by id; of two with one id the built-in one."""
-    ordered = sorted(_installed(), key=lambda p: (not _built_in(p), p.value))
+    ordered = sorted(entry_points(group=GROUP), key=lambda p: (not _built_in(p), p.value))
     points: dict[str, EntryPoint] = {}
     for point in ordered:
         points.setdefault(point.name, point)
@@ -104,7 +98,7 @@ def all_effects() -> tuple[dict[str, Effect], dict[str, str]]:
             found[effect_id] = effect_named(effect_id)
         except EffectError as error:
             broken[effect_id] = str(error)
-    for point in _installed():
+    for point in entry_points(group=GROUP):
         taken = _points().get(point.name)
         if taken is not None and point.value != taken.value:
             broken[f"{point.name} ({point.value})"] = "another effect already has this id"

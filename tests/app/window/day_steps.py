@@ -22,7 +22,7 @@ from rotemina.sim.trajectory.worn_machine_demo import demonstration, worn_effect
 ROWS = 200_000  # of a long record
 ENTRIES = 500  # of the library
 MESSAGES = 5000  # of the log
-NOTICES = 200
+NOTICES = 100
 SIZES = ((1000, 700), (1920, 1080), (1280, 800))
 PAGES = ("index", "window", "gap-diagnosis", "safety", "effects", "plugins", "drivers", "paper")
 THEME = "theme"
@@ -156,7 +156,7 @@ def messages(op):
             window.log.emit(logger.makeRecord("day", logging.WARNING, "", 0, text, (), None))
 
     def notify(first):
-        for number in range(first, first + 20):
+        for number in range(first, first + 10):
             level = Level.WARNING if number % 3 else Level.ERROR
             op.bench.notify(level, f"notice {number % 40} of many")
 
@@ -165,7 +165,7 @@ def messages(op):
     yield "log", window.show_log, soon
     yield "log, search", partial(window.log_page.words.setText, "99"), soon
     yield "log", window.log_page.close, soon
-    for first in range(0, NOTICES, 20):
+    for first in range(0, NOTICES, 10):
         yield "many notices", partial(notify, first), soon
     path = op.folder / "support.zip"
     yield "support bundle", window.show_support, lambda: bool(window._support.items)

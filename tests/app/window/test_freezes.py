@@ -77,8 +77,9 @@ def as_text(turns):
 
 @pytest.mark.parametrize("part", ["window", "work", "devices"])
 def test_no_turn_of_the_loop_takes_a_tenth_of_a_change_of_theme(part, tmp_path):
-    above = too_long(day(tmp_path / "first", part))
-    if above:  # other programs on this machine also cost a thread processor time: what comes again
-        again = {turn["label"] for turn in too_long(day(tmp_path / "second", part))}
-        above = [turn for turn in above if turn["label"] in again]
+    above = too_long(day(tmp_path / "0", part))
+    for number in (1, 2):  # a busy machine makes a thread's own work slower, too: what comes again
+        if above:
+            again = {turn["label"] for turn in too_long(day(tmp_path / str(number), part))}
+            above = [turn for turn in above if turn["label"] in again]
     assert not above, as_text(above)

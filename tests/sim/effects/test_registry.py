@@ -51,11 +51,6 @@ KINDS = {  # by the spec's letters: P piezo, S stepper, F force
 LETTERS = {"P": "piezo", "S": "stepper", "F": "force"}
 
 
-def forget_points():
-    registry._installed.cache_clear()
-    registry._points.cache_clear()
-
-
 def points(*pairs):
     return {name: EntryPoint(name, value, registry.GROUP) for name, value in pairs}
 
@@ -124,11 +119,11 @@ def test_an_effect_whose_id_is_taken_is_told(monkeypatch):
     installed = [*registry.entry_points(group=registry.GROUP)]
     theirs = EntryPoint("delay", "a_package.delay:DELAY", registry.GROUP)
     monkeypatch.setattr(registry, "entry_points", lambda group: [theirs, *installed])
-    forget_points()
+    registry._points.cache_clear()
     try:
         assert "already has this id" in all_effects()[1]["delay (a_package.delay:DELAY)"]
     finally:
-        forget_points()
+        registry._points.cache_clear()
 
 
 def test_a_slip_of_an_id_is_guessed():
@@ -145,11 +140,11 @@ def test_a_built_in_effect_is_not_replaced_by_a_third_partys(monkeypatch):
     ours = EntryPoint("delay", "rotemina.sim.effects.delay:DELAY", registry.GROUP)
     theirs = EntryPoint("delay", "a_package.delay:DELAY", registry.GROUP)
     monkeypatch.setattr(registry, "entry_points", lambda group: [theirs, ours])
-    forget_points()
+    registry._points.cache_clear()
     try:
         assert registry._points()["delay"] is ours
     finally:
-        forget_points()
+        registry._points.cache_clear()
 
 
 def test_ids_are_sorted():
