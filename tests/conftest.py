@@ -12,7 +12,9 @@ from hypothesis import settings
 settings.register_profile("repeatable", derandomize=True, deadline=None, print_blob=True)
 settings.load_profile("repeatable")
 
-os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+# Without a configuration the screen has 800 × 800 px, beyond which no window goes.
+SCREEN = Path(__file__).with_name("screen.json")
+os.environ.setdefault("QT_QPA_PLATFORM", f"offscreen:configfile={SCREEN}")
 os.environ["LANGUAGE"] = "en"  # tests know the window in English, whatever the machine speaks
 
 #: Panels of every window in tests, whatever others they ask for.

@@ -78,7 +78,7 @@ class LatePanels(QObject):
         for name in names:
             self._panels.make(name)
         if names:  # laid out before anything is painted: plots take long to paint again
-            for _ in range(2):  # what the docks need, and how the window shares its room by it
+            for _ in range(3):  # what frames need, and docks, and how the window shares its room
                 QCoreApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
 
     def _is_seen(self, name: str) -> bool:

@@ -4,13 +4,15 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QSizePolicy, QToolButton
+from PySide6.QtWidgets import QFrame, QLabel, QPushButton, QToolButton, QWidget
 
 from rotemina.app.motion.playback import PlaybackPhase
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button
+from rotemina.app.widgets.flow_layout import FlowLayout
+from rotemina.app.widgets.layouts import in_row
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.trajectory.first_trajectory import example_for
 
@@ -57,18 +59,15 @@ class FirstSteps(QFrame):
         self.close_.clicked.connect(self.end)
         self._steps = self._listed()
         self._marks = [QLabel() for _ in self._steps]
-        row = QHBoxLayout(self)
+        row = FlowLayout(self)
         row.setContentsMargins(10, 4, 6, 4)
-        row.setSpacing(4)
+        row.setSpacing(8)
         for mark, step in zip(self._marks, self._steps, strict=True):
-            row.addWidget(mark)
-            for one in step.buttons:
+            first, *others = step.buttons
+            row.addWidget(_in_one(mark, first))
+            for one in others:
                 row.addWidget(one)
-            row.addSpacing(4)
-        row.addStretch(1)
         row.addWidget(self.close_)
-        # A window that is narrow stays so.
-        self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.hide()
 
     def offer(self) -> None:
@@ -163,3 +162,10 @@ class FirstSteps(QFrame):
         self._diagnosed = True
         self.asked.emit("gap")  # makes the panel, if it is not made yet
         self._bench.diagnosis_asked.emit()
+
+
+def _in_one(*parts: QWidget) -> QWidget:
+    """Return widgets as one, which stay together where a row is broken."""
+    together = QWidget()
+    in_row(*parts, on=together, margins=0, spacing=4)
+    return together

@@ -18,9 +18,6 @@ class FoldedPanels(QWidget):
         super().__init__()
         self.docks = {name: docks[name] for name in FOLDED if name in docks}
         self.buttons: dict[str, QToolButton] = {}
-        policy = self.sizePolicy()
-        policy.setRetainSizeWhenHidden(True)  # the menu bar asks for the corner's size once
-        self.setSizePolicy(policy)
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 24, 0)
         row.setSpacing(2)

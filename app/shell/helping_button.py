@@ -8,8 +8,8 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.operator_requests import Requests
 from rotemina.app.shell.steady_meaning import SteadyMeaning
 from rotemina.app.shell.window_state import Remedy
-from rotemina.app.widgets.changing_button import ChangingButton
 from rotemina.app.widgets.controls import allow
+from rotemina.app.widgets.fitted_text import FittedButton
 from rotemina.drivers.clock import Clock
 
 
@@ -64,7 +64,7 @@ _HELP = {
 }
 
 
-class HelpingButton(ChangingButton):
+class HelpingButton(FittedButton):
     """Shows what helps now; hidden where nothing needs to.
 
     What it does changes with the state. It is disabled until it has shown the same remedy for half

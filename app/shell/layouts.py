@@ -5,7 +5,7 @@ from base64 import b64decode, b64encode
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from PySide6.QtCore import QByteArray, Qt
+from PySide6.QtCore import QByteArray, QSize, Qt
 from PySide6.QtWidgets import QDockWidget, QMainWindow, QTabBar
 
 from rotemina.app.panel import Area
@@ -168,6 +168,13 @@ def hide_forgotten_tabs(window: QMainWindow) -> None:
         bar.setUsesScrollButtons(True)
         if bar.isVisible() and not any(_belongs(bar, dock) for dock in docks):
             bar.hide()
+
+
+def size_with_tabs(window: QMainWindow, dock: QDockWidget) -> QSize:
+    """Return the size of a dock with the tabs above it, as Qt counts it when docks are resized."""
+    bars = window.findChildren(QTabBar, options=Qt.FindChildOption.FindDirectChildrenOnly)
+    tabs = [bar.height() for bar in bars if bar.isVisible() and _belongs(bar, dock)]
+    return dock.size() + QSize(0, max(tabs, default=0))
 
 
 def _belongs(bar: QTabBar, dock: QDockWidget) -> bool:

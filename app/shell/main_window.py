@@ -4,8 +4,15 @@ import logging
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from PySide6.QtCore import Qt
-from PySide6.QtGui import QAction, QCloseEvent, QKeySequence, QResizeEvent, QShowEvent
+from PySide6.QtCore import QEvent, QSize, Qt
+from PySide6.QtGui import (
+    QAction,
+    QCloseEvent,
+    QKeySequence,
+    QResizeEvent,
+    QShowEvent,
+    QWindowStateChangeEvent,
+)
 from PySide6.QtWidgets import (
     QApplication,
     QDialog,
@@ -13,13 +20,13 @@ from PySide6.QtWidgets import (
     QFrame,
     QMenu,
     QTabWidget,
-    QVBoxLayout,
     QWidget,
 )
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell import commands, key_help, layout_menu, layouts
+from rotemina.app.shell.central_column import CentralColumn
 from rotemina.app.shell.column_mapping import ask_columns
 from rotemina.app.shell.deferred_panels import LatePanels
 from rotemina.app.shell.event_loop_watch import LoopWatch
@@ -48,15 +55,16 @@ from rotemina.app.shell.record_chooser import ask_records
 from rotemina.app.shell.reloading import Reloading, ReloadMenu, panel_subject
 from rotemina.app.shell.replay_bar import ReplayBar
 from rotemina.app.shell.resume_question import ResumeQuestion
+from rotemina.app.shell.screen_fit import LEAST, WHOLE_SCREEN, ScreenFit
 from rotemina.app.shell.status_line import StatusText
 from rotemina.app.shell.stop_controls import StopWatch
 from rotemina.app.shell.support_page import SupportPage
 from rotemina.app.shell.window_layout import ArrangedWindow, Arrangement
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.scroll_areas import PanelFrame, frame_of
 
 TOP_LINE = 4  # px: white where a real machine is driven
 PLUGIN_FAULTS = "plugins.md#what-a-bad-plugin-can-do"
-LEAST_HEIGHT = 120  # px of the central panels: a strip of plots
 FILES = marked("shell", "Records and trajectories (*.csv *.txt *.dat *.gz);;All files (*)")
 # Wide tables and long forms: one behind the other, not side by side or one below the other.
 TABBED = (Area.BOTTOM, Area.RIGHT)
@@ -77,6 +85,7 @@ class MainWindow(ArrangedWindow):
         broken = dict(found_broken)
         self.panels.failed = broken.__setitem__  # until there is a place to tell it
         self.docks: dict[str, QDockWidget] = {}
+        self.panel_room = QSize(LEAST)
         self._menus: dict[str, QMenu] = {}
         self._leaving = Leaving(self, workbench)
         self._support: SupportPage | None = None
@@ -94,6 +103,7 @@ class MainWindow(ArrangedWindow):
         self.late_panels = LatePanels(self.panels, self.docks, workbench)
         self.folded = FoldedPanels(self.docks)
         self.arrangement = Arrangement(self)
+        self._screen_fit = ScreenFit(self)
         self._make_menus()
         self._make_status_bar()
         self.loop_watch = LoopWatch(self)  # started by whoever runs the window
@@ -132,7 +142,7 @@ class MainWindow(ArrangedWindow):
     # --- parts ------------------------------------------------------------------------------------
 
     def _make_header(self) -> None:
-        self._bar = MotionBar(self.workbench)
+        self.header = self._bar = MotionBar(self.workbench)
         self.stop_button, self.emergency_button = self._bar.stop, self._bar.emergency
         self.addToolBar(self._bar)
         self._top_line = QFrame(self)
@@ -142,17 +152,10 @@ class MainWindow(ArrangedWindow):
         self._name_machine()
 
     def _make_docks(self) -> None:
-        centre = QWidget()
-        centre.setMinimumHeight(LEAST_HEIGHT)
-        column = QVBoxLayout(centre)
-        column.setContentsMargins(6, 6, 6, 6)
         self.first_steps = FirstSteps(self.workbench)
         self.first_steps.asked.connect(self.bring_up)
-        column.addWidget(self.replay_bar)
-        column.addWidget(self.resume_question)
-        column.addWidget(self.first_steps)
-        column.addWidget(self._central_panels(), 1)
-        self.setCentralWidget(centre)
+        bars = self.replay_bar, self.resume_question, self.first_steps
+        self.setCentralWidget(CentralColumn(bars, self._central_panels()))
         for area in TABBED:
             self.setTabPosition(layouts.DOCK_AREAS[area], QTabWidget.TabPosition.North)
         self.setCorner(Qt.Corner.BottomLeftCorner, Qt.DockWidgetArea.LeftDockWidgetArea)
@@ -172,12 +175,11 @@ class MainWindow(ArrangedWindow):
         names = [name for name, kind in self.panels.kinds.items() if kind.area is Area.CENTRE]
         central = [panel for panel in map(self.panels.make, names) if panel is not None]
         self.central_tabs: QTabWidget | None = None
-        if len(central) == 1:
-            return central[0]
+        frames = [PanelFrame(one, self.panel_room) for one in central]
         tabs = self.central_tabs = QTabWidget()
         pages = {
-            tabs.addTab(panel, translate("panels", panel.title)): panel.help_page
-            for panel in central
+            tabs.addTab(frame, translate("panels", panel.title)): panel.help_page
+            for frame, panel in zip(frames, central, strict=True)
         }
         TabHelp(tabs, pages, self.help_page.open_page)
         return tabs
@@ -208,7 +210,19 @@ class MainWindow(ArrangedWindow):
         """Put a panel that has just been made into its dock."""
         panel.setObjectName("panel")
         panel.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
-        self.docks[name].setWidget(panel)
+        dock = self.docks[name]
+        before = dock.widget()
+        dock.setWidget(PanelFrame(panel, self.panel_room))
+        if before is not None:  # of a panel that was reloaded
+            before.deleteLater()
+
+    def frames(self) -> Iterator[PanelFrame]:
+        """Yield the frames of all panels that are made."""
+        tabs = self.central_tabs
+        central = [] if tabs is None else map(tabs.widget, range(tabs.count()))
+        for widget in (*central, *(dock.widget() for dock in self.docks.values())):
+            if isinstance(widget, PanelFrame):
+                yield widget
 
     def _leave_out(self, name: str, reason: str) -> None:
         """Tell that there is a panel less, and take its dock away."""
@@ -254,9 +268,7 @@ class MainWindow(ArrangedWindow):
         view.addSeparator()
         for dock in self.docks.values():
             view.addAction(dock.toggleViewAction())
-        self.layout_row = layout_menu.LayoutRow(arrangement.arrange)
-        self.layout_row.stand_behind(self.folded)
-        self.menuBar().setCornerWidget(self.layout_row)
+        self.layout_row = layout_menu.LayoutRow(self.menuBar(), arrangement.arrange, self.folded)
 
     def commands(self) -> list[commands.Command]:
         """Return every command of the menus."""
@@ -286,7 +298,7 @@ class MainWindow(ArrangedWindow):
         """Keep the line across the whole top, and what fits the width at the side."""
         super().resizeEvent(event)
         self._top_line.setGeometry(0, 0, self.width(), TOP_LINE)
-        self.arrangement.fit(self.width())
+        self.arrangement.fit()
 
     # --- files ------------------------------------------------------------------------------------
 
@@ -386,7 +398,7 @@ class MainWindow(ArrangedWindow):
             self.docks[name].show()
             self.docks[name].raise_()
         elif self.central_tabs is not None:
-            self.central_tabs.setCurrentWidget(panel)
+            self.central_tabs.setCurrentWidget(frame_of(panel))
 
     # --- help -------------------------------------------------------------------------------------
 
@@ -448,7 +460,14 @@ class MainWindow(ArrangedWindow):
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 (Qt's name)
         """Begin to make what was not needed until now."""
         super().showEvent(event)
+        self._screen_fit.fit_soon()
         self.late_panels.start()
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 (Qt's name)
+        """Stay on the screen when the window no longer takes all of it."""
+        super().changeEvent(event)
+        if isinstance(event, QWindowStateChangeEvent) and event.oldState() & WHOLE_SCREEN:
+            self._screen_fit.fit_soon()
 
     def closeEvent(self, event: QCloseEvent) -> None:  # noqa: N802 (Qt's name)
         """Ask before what moves is stopped; wait until it rests, and for what is being written."""

@@ -1,7 +1,7 @@
 """The chip in the header that says which model predictions are made with."""
 
 from PySide6.QtCore import QEvent, Qt
-from PySide6.QtGui import QFont, QFontMetrics
+from PySide6.QtGui import QFont, QFontInfo, QFontMetrics
 from PySide6.QtWidgets import QMenu, QToolButton
 
 from rotemina.app.display_units import label
@@ -14,6 +14,7 @@ from rotemina.sim.gap.output.report.words import effect_title
 
 _MOST_EFFECTS = 2  # that are named
 _ROOM = 44  # of margins and the arrow of a menu
+_WIDEST, _TEXT = 280, 13  # px at text of so many px: with that it is smaller than the stop button
 
 
 class ModelChip(QToolButton):
@@ -26,6 +27,7 @@ class ModelChip(QToolButton):
         self.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextOnly)
         self._workbench = workbench
+        self._name = ""
         self._told: tuple[str, tuple[str, ...]] | None = None
         menu = QMenu(self)
         self.back = menu.addAction(
@@ -39,7 +41,7 @@ class ModelChip(QToolButton):
         """Take the width of the text in another size."""
         super().changeEvent(event)
         if event.type() in (QEvent.Type.FontChange, QEvent.Type.StyleChange):
-            self.setFixedWidth(self._width_of(self.text()))
+            self._fit()
 
     def refresh(self, state: SessionState) -> None:
         """Show which model is in use, and of which axes it does not know the past."""
@@ -52,9 +54,9 @@ class ModelChip(QToolButton):
 
     def _show(self, model: ModelInUse, unsettled: tuple[str, ...]) -> None:
         self._told = model.id, unsettled
-        self.setText(model_name(model) + (" ≈" if unsettled else ""))
+        self._name = model_name(model) + (" ≈" if unsettled else "")
         set_property(self, "corrected", model.corrected)
-        self.setFixedWidth(self._width_of(self.text()))
+        self._fit()
         lines = [
             translate("shell", "The model that plots, comparison, dry run and 3-D view use."),
             translate(
@@ -72,12 +74,16 @@ class ModelChip(QToolButton):
                     "model may be off by the band in the plots.",
                 ).format(axes=", ".join(map(label, unsettled)))
             )
-        self.setToolTip(plain_tip(*lines, model.id))
+        self.setToolTip(plain_tip(self._name, *lines, model.id))
 
-    def _width_of(self, text: str) -> int:
+    def _fit(self) -> None:
+        """Show as much of the name as there is room for; the tooltip has all of it."""
         font = QFont(self.font())
         font.setBold(True)
-        return QFontMetrics(font).horizontalAdvance(text) + _ROOM
+        metrics, room = QFontMetrics(font), _WIDEST * QFontInfo(font).pixelSize() // _TEXT - _ROOM
+        text = metrics.elidedText(self._name, Qt.TextElideMode.ElideRight, room)
+        self.setText(text)
+        self.setFixedWidth(metrics.horizontalAdvance(text) + _ROOM)
 
 
 def model_name(model: ModelInUse) -> str:

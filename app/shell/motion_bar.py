@@ -1,9 +1,6 @@
 """The header: which machine, how it stands and what helps, chips, and the stops."""
 
-from typing import NamedTuple
-
-from PySide6.QtCore import QEvent, QSize, Qt, Signal
-from PySide6.QtGui import QResizeEvent
+from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtWidgets import (
     QHBoxLayout,
     QLabel,
@@ -17,6 +14,7 @@ from PySide6.QtWidgets import (
 from rotemina.app.display_units import duration_text, size_text
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
+from rotemina.app.shell.header_row import HeaderRow
 from rotemina.app.shell.helping_button import HelpingButton
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.machine_badge import MachineBadge
@@ -27,30 +25,6 @@ from rotemina.app.shell.tones import PhaseLabel, Tone, set_tone
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import plain_tip
 from rotemina.app.widgets.labels import ElidedLabel
-
-_TEXT = 13.0  # px, of normal text
-
-
-class Sizes(NamedTuple):
-    """The header's height and the sizes of its parts, px at normal text."""
-
-    height: int
-    badge: QSize
-    state: QSize
-    lock: QSize
-    stop: QSize
-
-    @property
-    def width(self) -> int:
-        """What the parts of one size take together."""
-        return sum(each.width() for each in self[1:])
-
-
-LARGE = Sizes(72, QSize(280, 56), QSize(420, 56), QSize(160, 64), QSize(240, 64))
-SMALL = Sizes(46, QSize(170, 40), QSize(260, 40), QSize(100, 44), QSize(150, 44))
-_LARGE_FROM = 1600  # px of the window's width
-_NARROWEST = 60  # px
-_MOST = 0.75  # of the width that parts of one size may take, however large text is
 
 
 class StateView(QWidget):
@@ -70,6 +44,10 @@ class StateView(QWidget):
         row.setContentsMargins(0, 0, 0, 0)
         row.addLayout(words, 1)
         row.addWidget(self.help)
+
+    def show_reason(self, visible: bool) -> None:
+        """Show the line below the state, or only the state."""
+        self.doing.setVisible(visible)
 
     def refresh(self, state: SessionState) -> None:
         """Show a state."""
@@ -109,7 +87,14 @@ class OwnerChip(QLabel):
 
 
 class RecordingSign(QLabel):
-    """For how long it is recorded and how much, or that the disk takes nothing; else unseen."""
+    """For how long it is recorded and how much, or that the disk takes nothing.
+
+    Signals
+    -------
+    running(bool) : whether there is a recording.
+    """
+
+    running = Signal(bool)
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__()
@@ -118,13 +103,12 @@ class RecordingSign(QLabel):
         self.setAccessibleName(translate("shell", "Recording"))
         self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         set_tone(self, Tone.BUSY)
-        self.setVisible(False)
         workbench.refreshed.connect(lambda _: self.refresh())
 
     def refresh(self) -> None:
         """Show how the recording stands."""
         recorder = self._operation.recording
-        self.setVisible(recorder is not None)
+        self.running.emit(recorder is not None)
         if recorder is None:
             return
         writer = recorder.writer
@@ -198,52 +182,31 @@ class MotionBar(QToolBar):
         self.recording, self.events = RecordingSign(workbench), EventsChip(workbench)
         self.events.clicked.connect(self.events_asked)
         self.emergency, self.stop = EmergencyButton(workbench), StopButton(workbench)
-        self._body = QWidget()
-        self._body.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        row = QHBoxLayout(self._body)
-        row.setContentsMargins(8, 0, 8, 0)
-        row.setSpacing(10)
-        row.addWidget(self.badge)
-        row.addWidget(self.state, 100)  # up to its size; in a narrow window it gives way
-        for widget in (self.owner, self.model, self.recording, self.events):
-            row.addWidget(widget)
-        row.addStretch(1)
-        for widget in (self.emergency, self.stop):
-            row.addWidget(widget)
-        self.addWidget(self._body)
+        chips = (self.owner, self.model, self.recording, self.events)
+        # The status bar names the owners as well, and the panel of events lists what is counted.
+        droppable = (self.owner, self.events, self.model, self.recording)
+        stops = self.emergency, self.stop
+        self.row = HeaderRow(self.badge, self.state, chips, droppable, stops)
+        self.row.reason_shown.connect(self.state.show_reason)
+        self.recording.running.connect(lambda on: self.row.fill(self.recording, full=on))
+        self.recording.refresh()
+        self.addWidget(self.row)
 
     def refresh(self, state: SessionState) -> None:
         """Show a state."""
         self.state.refresh(state)
+        reason = self.doing.text() if self.doing.isHidden() else ""
+        tip = plain_tip(reason) if reason else ""
+        if tip != self.state.toolTip():
+            self.state.setToolTip(tip)
         self.emergency.refresh(state)
         self.owner.refresh(state)
-        # A narrow header has no room for both; the line below the state names the owners as well.
-        self.owner.setVisible(self.width() >= _LARGE_FROM or self.recording.isHidden())
         self.model.refresh(state)
         if self.badge.refresh(state):
             self.machine_changed.emit()
 
-    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
-        """Take the sizes that suit the window's width."""
-        super().resizeEvent(event)
-        self._fit()
-
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 (Qt's name)
-        """Take the sizes that suit the size of text."""
+        """Keep the row at the edges: Qt's own margins come back with each style sheet."""
         super().changeEvent(event)
-        if event.type() in (QEvent.Type.FontChange, QEvent.Type.StyleChange):
-            self._fit()
-
-    def _fit(self) -> None:
-        sizes = LARGE if self.width() >= _LARGE_FROM else SMALL
-        scale = max(self.doing.font().pixelSize() / _TEXT, 1.0)
-        scale = min(scale, max(_MOST * self.width() / sizes.width, 1.0))
-        parts = (self.badge, self.state, self.emergency, self.stop)
-        for widget, size in zip(parts, sizes[1:], strict=True):
-            widget.setFixedSize(size * scale)
-        for widget in (self.emergency, self.stop):  # however large text is, none of it is cut
-            widget.setFixedSize(widget.size().expandedTo(widget.minimumSizeHint()))
-        for widget in (self.badge, self.state):
-            widget.setMinimumWidth(_NARROWEST)
-        self.layout().setContentsMargins(0, 0, 0, 0)  # Qt's own come back with each style sheet
-        self._body.setFixedHeight(round(sizes.height * scale))
+        if event.type() == QEvent.Type.StyleChange:
+            self.layout().setContentsMargins(0, 0, 0, 0)

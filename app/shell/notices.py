@@ -5,10 +5,11 @@ from collections.abc import Callable, Hashable, Iterator
 
 from PySide6.QtCore import QEvent, QObject, QPoint, QRect, QSize, QTimer, Signal
 from PySide6.QtGui import QCursor
-from PySide6.QtWidgets import QMainWindow, QToolBar
+from PySide6.QtWidgets import QMainWindow
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.free_places import FreePlaces, used_places
+from rotemina.app.shell.header_row import bottom_of_header
 from rotemina.app.shell.help_topics import Explained
 from rotemina.app.shell.notice import Notice, NoticeStrip
 from rotemina.app.shell.workbench import Level
@@ -203,10 +204,7 @@ class NoticeBoard(QObject):
     def _area(self) -> QRect:
         """Return where notices may be: below the header, above the status bar."""
         window = self._window
-        top = window.menuBar().geometry().bottom() if window.menuBar().isVisible() else 0
-        for bar in window.findChildren(QToolBar):
-            if bar.isVisible() and bar.window() is window:
-                top = max(top, bar.geometry().bottom())
+        top = bottom_of_header(window)
         area = QRect(0, top, window.width(), self._line().top() - top)
         return area.adjusted(_MARGIN, _MARGIN, -_MARGIN, -_MARGIN)
 

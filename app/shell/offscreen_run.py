@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from PySide6.QtCore import QEventLoop, QTimer, SignalInstance
+from PySide6.QtWidgets import QApplication
 
 from rotemina.app.files import json_text, write_text
 from rotemina.app.motion.session import MotionSession
@@ -96,8 +97,9 @@ def _run(session: MotionSession, output: Path, signals: Sequence[int]) -> None:
     window = make_window(session, settings, output / "played")
     worn = worn_effects(session.robot) if session.service.effects is not None else ()
     try:
-        window.resize(*SIZE)
         window.show()
+        QApplication.processEvents()  # it has been fitted on a screen that is none
+        window.resize(*SIZE)
         window.workbench.start()
         if worn and window.panels.make("gap") is not None:
             told = tell_the_story(window, worn, signals)

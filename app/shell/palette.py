@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable
 
-from PySide6.QtCore import QEvent, QObject, Qt
+from PySide6.QtCore import QEvent, QObject, QPoint, Qt
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import (
     QDialog,
@@ -15,6 +15,7 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.app.shell.fuzzy_match import score
+from rotemina.app.shell.header_row import bottom_of_header
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.palette_entries import Entry
 from rotemina.app.widgets.controls import native_keys
@@ -70,8 +71,8 @@ class Palette(QDialog):
         self._show_fitting("")
         self.resize(_WIDTH, _HEIGHT)
         parent = self.parentWidget()
-        corner = parent.mapToGlobal(parent.rect().topLeft())
-        self.move(corner.x() + (parent.width() - self.width()) // 2, corner.y() + 60)
+        corner = parent.mapToGlobal(QPoint(0, bottom_of_header(parent)))  # the stops stay free
+        self.move(corner.x() + (parent.width() - self.width()) // 2, corner.y())
         self.show()
         self.raise_()
         self.activateWindow()

@@ -27,6 +27,7 @@ from rotemina.app.shell.language import translate
 from rotemina.app.shell.panel_declarations import PanelKind
 from rotemina.app.shell.reloading import panel_subject
 from rotemina.app.shell.workbench import Level
+from rotemina.app.widgets.scroll_areas import frame_of
 
 logger = logging.getLogger(__name__)
 
@@ -198,7 +199,9 @@ class PanelWatch(QObject):
             self._window.removeDockWidget(dock)
             dock.deleteLater()
         elif (tabs := _tabs_of(panel)) is not None:
-            tabs.removeTab(tabs.indexOf(panel))
+            page = frame_of(panel)
+            tabs.removeTab(tabs.indexOf(page))
+            page.deleteLater()
         panel.deleteLater()
 
 

@@ -2,6 +2,7 @@
 
 import time
 
+from PySide6.QtCore import QSize
 from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QToolButton, QWidget
 
 from rotemina.app.display_units import duration_text
@@ -89,14 +90,21 @@ class Progress:
         )
 
 
+class _WorkText(ElidedLabel):
+    """What is being done: cut where the window is narrow, rather than making it wider."""
+
+    def sizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
+        """Ask for the usual width."""
+        return QSize(_TEXT_WIDTH, super().sizeHint().height())
+
+
 class ProgressLine(QWidget):
     """One line for the status bar: text, bar, cancel; unseen while there is nothing long."""
 
     def __init__(self) -> None:
         super().__init__()
         self._progress: Progress | None = None
-        self.text, self.bar, self.cancel = ElidedLabel(), QProgressBar(), QToolButton()
-        self.text.setMinimumWidth(_TEXT_WIDTH)
+        self.text, self.bar, self.cancel = _WorkText(), QProgressBar(), QToolButton()
         self.bar.setFixedWidth(_BAR_WIDTH)
         self.bar.setAccessibleName(translate("shell", "Progress of long work"))
         self.cancel.setText(translate("shell", "Cancel"))

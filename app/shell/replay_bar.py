@@ -2,15 +2,8 @@
 
 from dataclasses import replace
 
-from PySide6.QtCore import QSignalBlocker
-from PySide6.QtWidgets import (
-    QComboBox,
-    QFrame,
-    QHBoxLayout,
-    QLabel,
-    QPushButton,
-    QVBoxLayout,
-)
+from PySide6.QtCore import QSignalBlocker, QSize
+from PySide6.QtWidgets import QComboBox, QFrame, QPushButton, QWidget
 
 from rotemina.app.display_units import duration_text
 from rotemina.app.motion.recording.replay_pace import SPEEDS
@@ -21,9 +14,20 @@ from rotemina.app.shell.timeline import Timeline
 from rotemina.app.shell.tones import PhaseLabel, Tone, set_tone
 from rotemina.app.shell.window_state import WindowSnapshot, describe_state
 from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.labels import ElidedLabel
+from rotemina.app.widgets.flow_layout import FlowLayout
+from rotemina.app.widgets.labels import ElidedLabel, LiveLabel
+from rotemina.app.widgets.layouts import in_column
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.quantities import rounded
+
+
+class _Title(ElidedLabel):
+    """What is replayed: in a line of its own before it is cut."""
+
+    def sizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
+        """Ask for all of the text."""
+        width = self.fontMetrics().horizontalAdvance(self.text())
+        return QSize(width, super().sizeHint().height())
 
 
 class ReplayBar(QFrame):
@@ -34,7 +38,7 @@ class ReplayBar(QFrame):
         self.setObjectName("replay")
         self._workbench = workbench
         self._replaying = workbench.replaying
-        self.title = ElidedLabel()
+        self.title = _Title()
         self.title.setProperty("heading", True)
         self.phase = PhaseLabel()
         self.phase.setAccessibleName(translate("shell", "Phase in the recording"))
@@ -43,7 +47,7 @@ class ReplayBar(QFrame):
                 "shell", "State of the machine at that time; the tool bar shows the present state"
             )
         )
-        self.machine = QLabel(translate("shell", "The machine is moving now"))
+        self.machine = LiveLabel(translate("shell", "The machine is moving now"))
         set_tone(self.machine, Tone.DANGER)
         self.live = QPushButton(translate("shell", "Back to live"))
         self.live.setProperty("primary", True)
@@ -64,7 +68,7 @@ class ReplayBar(QFrame):
             )
         )
         self.timeline.valueChanged.connect(lambda value: self._seek(value / 1000.0))
-        self.time = QLabel()
+        self.time = LiveLabel()
         self.time.setAccessibleName(translate("shell", "Time of the replay and its length"))
         self._lay_out()
         self.setVisible(False)
@@ -74,20 +78,17 @@ class ReplayBar(QFrame):
         workbench.theme_changed.connect(self.timeline.use_theme)
 
     def _lay_out(self) -> None:
-        head, foot = QHBoxLayout(), QHBoxLayout()
-        head.addWidget(self.title, 1)
-        head.addWidget(self.phase)
-        head.addWidget(self.machine)
-        head.addWidget(self.live)
-        foot.addWidget(self.play)
-        foot.addWidget(self.speed)
-        foot.addWidget(self.timeline, 1)
-        foot.addWidget(self.time)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(10, 4, 8, 4)
-        column.setSpacing(2)
-        column.addLayout(head)
-        column.addLayout(foot)
+        head, foot = QWidget(), QWidget()
+        for part, widgets in (
+            (head, (self.title, self.phase, self.machine, self.live)),
+            (foot, (self.play, self.speed, self.timeline, self.time)),
+        ):
+            row = FlowLayout(part)
+            row.setContentsMargins(0, 0, 0, 0)
+            row.setSpacing(6)
+            for widget in widgets:
+                row.addWidget(widget)
+        in_column(head, foot, on=self, margins=(10, 4, 8, 4), spacing=2)
 
     def _begin(self) -> None:
         """Show the controls of another recording, or none."""
@@ -99,6 +100,7 @@ class ReplayBar(QFrame):
         self.title.show_text(
             translate("shell", "Replay, not the machine: {stem}").format(stem=recording.path.stem)
         )
+        self.title.updateGeometry()
         with QSignalBlocker(self.timeline):
             self.timeline.show_recording(
                 paced.duration_s, timeline_events(paced.replay.events, recording.began_s)

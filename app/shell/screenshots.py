@@ -141,7 +141,7 @@ def in_german(folder: Path, kept: Path) -> int:
 def bring_up(window: "MainWindow", name: str) -> None:
     """Put a panel before the others of its place; the microscope with its first picture."""
     from PySide6.QtCore import Qt
-    from PySide6.QtWidgets import QApplication, QTabWidget
+    from PySide6.QtWidgets import QApplication
 
     panel = window.panels[name]
     for other, dock in window.docks.items():  # which it would share a small screen with
@@ -149,9 +149,6 @@ def bring_up(window: "MainWindow", name: str) -> None:
     window.bring_up(name)
     if name in window.docks:
         window.resizeDocks([window.docks[name]], [window.height()], Qt.Orientation.Vertical)
-    for tabs in window.findChildren(QTabWidget):
-        if tabs.indexOf(panel) >= 0:
-            tabs.setCurrentWidget(panel)
     for _ in range(_TURNS):  # what waited until it is seen is drawn by then
         QApplication.processEvents()
     while name == "microscope" and panel.view.frame is None:

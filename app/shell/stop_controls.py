@@ -4,6 +4,7 @@ import time
 
 from PySide6.QtCore import QEvent, QObject, QRectF, Qt, QTimer, Signal
 from PySide6.QtGui import (
+    QFontInfo,
     QGuiApplication,
     QKeyEvent,
     QMouseEvent,
@@ -19,6 +20,7 @@ from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.operator_requests import Requests
 from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.fitted_text import FittedButton
 from rotemina.drivers.clock import Clock
 
 RELEASE_AFTER_S = 1.0  # a second press in alarm must not release what the first one latched
@@ -157,7 +159,7 @@ def _application() -> QGuiApplication:
     return application
 
 
-class EmergencyButton(QPushButton):
+class EmergencyButton(FittedButton):
     """Stops and locks, shows that the machine is locked, and releases it by another press."""
 
     def __init__(self, requests: Requests, clock: Clock = time.monotonic) -> None:
@@ -217,7 +219,9 @@ class EmergencyButton(QPushButton):
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         colour = self.palette().buttonText().color()
-        body = QRectF(8.0, self.height() / 2.0 - 1.0, 10.0, 8.0)
+        painter.translate(0.0, self.height() / 2.0)
+        painter.scale(*(2 * (QFontInfo(self.font()).pixelSize() / 13.0,)))  # as large as the text
+        body = QRectF(8.0, -1.0, 10.0, 8.0)
         shackle = QRectF(body.left() + 2.0, body.top() - 6.0, 6.0, 12.0)
         if not self.isChecked():
             shackle.translate(4.0, 0.0)
@@ -231,7 +235,7 @@ def _two_lines(text: str) -> str:
     return "\n".join(text.rsplit(" ", 1))
 
 
-class StopButton(QPushButton):
+class StopButton(FittedButton):
     """Stops on pressing, not on release: a stop must not wait for the finger to lift."""
 
     def __init__(self, requests: Requests) -> None:

@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QLabel, QSizePolicy
 
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.fitted_text import fitted_font
 from rotemina.app.widgets.when_dressed import WhenDressed
 
 _FORM = str.maketrans("123456789-−", "000000000++")  # any digit as the widest, and any sign
@@ -73,6 +74,7 @@ class LiveLabel(QLabel):
 
     Qt's label would have all of the window laid out anew at each text. This one has that done for
     another form of it alone: any number of as many digits takes the same place, with any sign.
+    Where it has less room than it asks for, it is drawn smaller and not cut.
     """
 
     def __init__(self, text: str = "", *, quiet: bool = False) -> None:
@@ -104,12 +106,14 @@ class LiveLabel(QLabel):
         self.drawFrame(painter)
         painter.setPen(self.palette().color(self.foregroundRole()))
         flags, room = int(self.alignment()), self.contentsRect()
-        if self.wordWrap():
-            flags |= int(Qt.TextFlag.TextWordWrap)
         if self.frameWidth():  # from which Qt's label keeps half an x away
             away = self.fontMetrics().horizontalAdvance("x") // 2
             right = bool(self.alignment() & Qt.AlignmentFlag.AlignRight)
             room.adjust(0 if right else away, 0, -away if right else 0, 0)
+        if self.wordWrap():
+            flags |= int(Qt.TextFlag.TextWordWrap)
+        elif self.width() < self.sizeHint().width():
+            painter.setFont(fitted_font(self.font(), self._text, room.width()))
         painter.drawText(room, flags, self._text)
         painter.end()
 

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 
 from PySide6.QtCore import QEvent, QObject, QSize, Qt
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
     QFrame,
     QHBoxLayout,
@@ -13,6 +14,9 @@ from PySide6.QtWidgets import (
     QVBoxLayout,
     QWidget,
 )
+
+_AS_NEEDED = Qt.ScrollBarPolicy.ScrollBarAsNeeded
+_KEPT = Qt.ScrollBarPolicy.ScrollBarAlwaysOn
 
 
 class FittedScroll(QScrollArea):
@@ -46,6 +50,83 @@ class FittedScroll(QScrollArea):
             return self._least
         bar = self.verticalScrollBar().sizeHint().width()
         return max(content.minimumSizeHint().width() + bar, self._least)
+
+
+class PanelFrame(QScrollArea):
+    """The frame of a panel, as large as the panel needs unless the window has less room for it.
+
+    Then the panel is scrolled: no panel makes the window larger, however much room it asks for.
+
+    A scroll bar that was needed stays until the frame has another size: a panel that asks for less
+    because of the bar would else make it come and go for ever.
+    """
+
+    def __init__(self, panel: QWidget, room: QSize) -> None:
+        super().__init__()
+        self._room = room
+        self._told = self._fitted = QSize()
+        self.setObjectName("panelScroll")
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.setWidgetResizable(True)
+        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)  # the keyboard goes to the panel itself
+        self.horizontalScrollBar().rangeChanged.connect(
+            lambda _, most: most and self.setHorizontalScrollBarPolicy(_KEPT)
+        )
+        self.verticalScrollBar().rangeChanged.connect(
+            lambda _, most: most and self.setVerticalScrollBarPolicy(_KEPT)
+        )
+        self.setWidget(panel)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
+        """Find out anew which scroll bars are needed."""
+        if self.size() != self._fitted:  # not only the view of the panel, because of a bar
+            self._fitted = self.size()
+            self.setHorizontalScrollBarPolicy(_AS_NEEDED)
+            self.setVerticalScrollBarPolicy(_AS_NEEDED)
+        super().resizeEvent(event)
+
+    def give_room(self, room: QSize) -> None:
+        """Ask for no more than this from now on, px."""
+        self._room = room
+        self._tell()
+
+    def minimumSizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
+        """Ask for what the panel needs, if there is so much room."""
+        self._told = self._needed()
+        return self._told
+
+    def sizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
+        """Ask for what the panel would like, if there is so much room."""
+        panel = self.widget()
+        wanted = QSize() if panel is None else panel.sizeHint()
+        return wanted.boundedTo(self._room).expandedTo(self._needed())
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
+        """Be laid out anew where the panel needs another size, not at each change in it."""
+        if event.type() == QEvent.Type.LayoutRequest:
+            self._tell()
+        return super().eventFilter(watched, event)
+
+    def _tell(self) -> None:
+        if self._needed() != self._told:
+            self.updateGeometry()
+
+    def _needed(self) -> QSize:
+        panel = self.widget()
+        if panel is None:
+            return QSize(0, 0)
+        least, fixed = panel.minimumSizeHint().expandedTo(QSize(0, 0)), panel.minimumSize()
+        # As everywhere in Qt, a size that was set takes the place of the one that is computed.
+        width, height = fixed.width() or least.width(), fixed.height() or least.height()
+        return QSize(width, height).boundedTo(self._room)
+
+
+def frame_of(panel: QWidget) -> QWidget:
+    """Return the frame that a panel is in; the panel itself where it is in none."""
+    widget: QWidget | None = panel
+    while widget is not None and not isinstance(widget, PanelFrame):
+        widget = widget.parentWidget()
+    return widget or panel
 
 
 def scrolled(content: QWidget, *, sideways: bool = False, least: int | None = None) -> QScrollArea:

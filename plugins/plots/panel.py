@@ -42,6 +42,7 @@ from rotemina.sim.quantities import rounded
 from rotemina.sim.records.writing import write_record
 
 SPANS_S = (2, 5, 10, 30, 60)
+_LEAST_HEIGHT = 52  # px: of a strip of plots without the controls
 _PARTS = 6  # of the plots, of which one is drawn at a time
 _BETWEEN_MS = 3  # two parts, in which the first is painted; else all would be in one go
 FIGURES_S = 0.25  # nor are figures
@@ -86,6 +87,7 @@ class PlotsPanel(Panel):
         below = in_row((self._legend, 1), self.age)
         in_column(header, below, on=self._head, margins=0, spacing=3)
         in_column(self._head, (self.grid, 1), on=self, margins=0, spacing=3)
+        self.setMinimumHeight(_LEAST_HEIGHT)
         offer_in_palette(self.pause, self.cursors, safe_while_hidden=True)
         self._waiting: list[Sequence[AxisPlot]] = []  # to be drawn as the others are already
         self._next = QTimer(self, singleShot=True, interval=_BETWEEN_MS)

@@ -112,7 +112,7 @@ def test_the_question_mark_of_docks_and_tabs_and_the_key(qtbot, window):
     for index in range(tabs.count()):
         tabs.setCurrentIndex(index)
         tabs.cornerWidget().click()
-        assert page.page.name == tabs.widget(index).help_page
+        assert page.page.name == tabs.widget(index).widget().help_page
     page.hide()
     dock = window.docks["faults"]
     dock.raise_()
@@ -124,4 +124,4 @@ def test_the_question_mark_of_docks_and_tabs_and_the_key(qtbot, window):
     dock.setFloating(True)
     button = dock.findChild(QWidget, "help")
     assert dock.rect().contains(button.geometry())
-    assert not button.geometry().intersects(window.panels["faults"].geometry())
+    assert not button.geometry().intersects(dock.widget().geometry())

@@ -67,7 +67,7 @@ def test_panels_out_of_sight_are_made_by_and_by(qtbot, window):
         window.workbench.work("any", "Reading …", lambda: None, lambda _: None)
     assert window.panels.waiting == ()  # none is made so late that it misses what was read
     for name, dock in window.docks.items():
-        assert dock.widget() is window.panels[name]
+        assert dock.widget().widget() is window.panels[name]
 
 
 @pytest.mark.every_panel
@@ -82,7 +82,7 @@ def test_a_panel_is_made_when_its_dock_comes_into_sight(qtbot, make_robot_window
     assert window.panels.waiting
     assert "view3d" not in window.panels.made
     window.bring_up("view3d")
-    assert window.docks["view3d"].widget() is window.panels.made["view3d"]
+    assert window.docks["view3d"].widget().widget() is window.panels.made["view3d"]
     window.bring_up("nothing of that name")
 
 

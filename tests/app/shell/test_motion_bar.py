@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QApplication, QDockWidget, QFileDialog, QMessageBo
 
 from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.panel import Panel
-from rotemina.app.shell.motion_bar import LARGE, SMALL
+from rotemina.app.shell.header_row import LARGE, SMALL
 from rotemina.app.shell.stop_controls import RELEASE_AFTER_S, EmergencyButton, StopWatch
 from rotemina.app.shell.workbench import Level
 from rotemina.drivers.driver import MachineKind

@@ -87,7 +87,7 @@ def test_the_new_one_takes_the_place_of_the_old_one(qtbot, loaded, write):
     qtbot.waitUntil(lambda: loaded.panels["lamp"] is not old, timeout=LONG_MS)
     new = loaded.panels["lamp"]
     assert loaded.docks["lamp"] is dock
-    assert dock.widget() is new
+    assert dock.widget().widget() is new
     assert dock.windowTitle() == "Lamp 2"
     assert closed == [1]
     qtbot.waitUntil(lambda: not isValid(old), timeout=LONG_MS)
@@ -114,7 +114,7 @@ def test_one_that_cannot_be_made_is_left_out_and_comes_back_by_its_notice(qtbot,
     write(3)
     qtbot.mouseClick(loaded.notices.notices()[0].remedy, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: "lamp" in loaded.panels.made, timeout=LONG_MS)
-    assert loaded.docks["lamp"].widget() is loaded.panels["lamp"]
+    assert loaded.docks["lamp"].widget().widget() is loaded.panels["lamp"]
 
 
 def test_faults_are_counted_anew(qtbot, window, write):

@@ -5,9 +5,9 @@ from PySide6.QtCore import QByteArray, QPoint
 from PySide6.QtWidgets import QApplication, QLabel, QTabBar
 
 from rotemina.app.panel import Area
+from rotemina.app.shell.central_column import LEAST_HEIGHT
 from rotemina.app.shell.folded_panels import FOLDED
 from rotemina.app.shell.layouts import BUILT_IN, DIAGNOSE, MOST_KEPT, OPERATE, KeptLayouts
-from rotemina.app.shell.main_window import LEAST_HEIGHT
 
 LONG_MS = 30_000
 

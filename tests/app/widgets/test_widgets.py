@@ -1,7 +1,7 @@
 """The widgets that the panels are made of."""
 
 import pytest
-from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtCore import QPoint, QPointF, QSize, Qt
 from PySide6.QtGui import QColor, QWheelEvent
 from PySide6.QtWidgets import QApplication, QLabel, QPushButton, QWidget
 
@@ -11,7 +11,7 @@ from rotemina.app.widgets.figures import Figures
 from rotemina.app.widgets.inline_question import Question
 from rotemina.app.widgets.labels import ElidedLabel, keep_lines, legend, plain_text, show_text
 from rotemina.app.widgets.layouts import in_column
-from rotemina.app.widgets.scroll_areas import scrolled, tabbed
+from rotemina.app.widgets.scroll_areas import PanelFrame, frame_of, scrolled, tabbed
 from rotemina.app.widgets.section import Section, clear
 from rotemina.app.widgets.table import RIGHT, Table
 from rotemina.app.widgets.wheel_safe import SteadyChoice, SteadyNumber, SteadySlider
@@ -251,3 +251,46 @@ def test_one_of_several_pages_is_seen(qtbot):
     tabs.setCurrentIndex(1)
     assert views.currentWidget() is second
     assert [tabs.tabText(i) for i in (0, 1)] == ["One", "Two"]
+
+
+class Fickle(QWidget):
+    """Asks for less width when it is low: a scroll bar across makes itself needless."""
+
+    def minimumSizeHint(self):  # noqa: N802 (Qt's name)
+        return QSize(400 if self.height() >= 200 else 50, 50)
+
+    def resizeEvent(self, event):  # noqa: N802 (Qt's name)
+        super().resizeEvent(event)
+        self.updateGeometry()
+
+
+def test_a_frame_needs_what_its_panel_needs_up_to_the_room_and_scrolls_the_rest(qtbot):
+    panel = QWidget()
+    panel.setMinimumSize(300, 3000)
+    frame = PanelFrame(panel, QSize(500, 200))
+    qtbot.addWidget(frame)
+    assert frame.minimumSizeHint() == QSize(300, 200)
+    frame.give_room(QSize(250, 100))
+    assert frame.minimumSizeHint() == QSize(250, 100)
+    frame.resize(320, 400)
+    frame.show()
+    bar = frame.verticalScrollBar().sizeHint().width()
+    assert panel.size() == QSize(320 - bar, 3000)
+    assert frame.verticalScrollBar().maximum() == 2600
+    assert frame_of(panel) is frame
+    assert frame_of(frame.parentWidget() or panel) is frame
+
+
+def test_a_frame_comes_to_rest_with_a_panel_whose_needs_depend_on_its_size(qtbot):
+    panel = Fickle()
+    frame = PanelFrame(panel, QSize(500, 200))
+    qtbot.addWidget(frame)
+    frame.resize(300, 205)
+    frame.show()
+    for _ in range(3):
+        QApplication.processEvents()
+    at_rest = panel.size()
+    for _ in range(10):
+        QApplication.processEvents()
+        assert panel.size() == at_rest
+    assert frame.horizontalScrollBar().isVisible()

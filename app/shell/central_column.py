@@ -1,0 +1,48 @@
+"""The middle of the window: bars that are shown for a time, and the central panels below them."""
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import QEvent, QObject, QSize
+from PySide6.QtGui import QResizeEvent
+from PySide6.QtWidgets import QWidget
+
+from rotemina.app.widgets.layouts import in_column
+from rotemina.app.widgets.scroll_areas import PanelFrame
+
+LEAST_WIDTH, LEAST_HEIGHT = 200, 120  # px of the central panels: a strip of plots
+_MARGIN = 6  # px
+_MOST = 1 / 3  # of the window's height that bars may take; beyond that they are scrolled
+
+
+class CentralColumn(QWidget):
+    """Central panels below bars; it asks for little, whatever is in it."""
+
+    def __init__(self, bars: Sequence[QWidget], panels: QWidget) -> None:
+        super().__init__()
+        self._bars = tuple(bars)
+        self._together = QWidget()
+        in_column(*bars, on=self._together, margins=(0, 0, 0, _MARGIN), spacing=_MARGIN)
+        self._frame = PanelFrame(self._together, QSize(LEAST_WIDTH, LEAST_HEIGHT))
+        in_column(self._frame, (panels, 1), on=self, margins=_MARGIN, spacing=0)
+        self._together.installEventFilter(self)
+        self._share_height()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
+        """Share the height anew: bars may need more lines, or fewer."""
+        super().resizeEvent(event)
+        self._share_height()
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
+        """Share the height anew where a bar comes or goes."""
+        if event.type() == QEvent.Type.LayoutRequest:
+            self._share_height()
+        return False
+
+    def _share_height(self) -> None:
+        """Ask for the height of the bars in addition: they do not take that of the panels."""
+        shown = not all(bar.isHidden() for bar in self._bars)
+        wanted = self._together.heightForWidth(self.width() - 2 * _MARGIN) if shown else 0
+        height = min(wanted, round(_MOST * self.window().height()))
+        if self._frame.maximumHeight() != height:
+            self._frame.setFixedHeight(height)
+        self.setMinimumSize(LEAST_WIDTH, LEAST_HEIGHT + height)
