@@ -172,12 +172,15 @@ class HeaderRow(QWidget):
         left = _MARGIN + sizes.badge.width() + _GAP
         # The word and the button that helps are never cut; chips are dropped for them.
         needed = max(sizes.state.width(), self._state.sizeHint().width())
-        state = QSize(min(needed, end - left), sizes.state.height())
-        self._put(self._state, left, state)
-        self._show_chips(left + state.width() + _GAP, end)
+        chips = self._show_chips(left + min(needed, end - left) + _GAP, end)
+        # The reason below the word has all the room that the chips leave.
+        self._put(self._state, left, QSize(chips - _GAP - left, sizes.state.height()))
 
-    def _show_chips(self, left: int, end: int) -> None:
-        """Show as many chips as there is room for, and where to find the others."""
+    def _show_chips(self, left: int, end: int) -> int:
+        """Show as many chips as there is room for, and where to find the others.
+
+        They stand at the end of their room; return where the first one begins.
+        """
         wanted = [chip for chip in self._chips if chip not in self._empty]
         shown = list(wanted)
         button = _size(self.dropped).width() + _GAP
@@ -188,6 +191,8 @@ class HeaderRow(QWidget):
                 shown.remove(chip)
         self.dropped.chips = [chip for chip in wanted if chip not in shown]
         has_button = bool(self.dropped.chips) and button <= end - left
+        # The gap after the last one belongs to the stops.
+        left = first = end + _GAP - _width(shown) - (button if has_button else 0)
         for chip in (*self._chips, self.dropped):
             visible = chip in shown or (chip is self.dropped and has_button)
             if chip.isHidden() is visible:
@@ -195,6 +200,7 @@ class HeaderRow(QWidget):
             if visible:
                 self._put(chip, left, _size(chip))
                 left += chip.width() + _GAP
+        return first
 
     def _put(self, widget: QWidget, left: int, size: QSize) -> None:
         """Place a widget in the middle of the height."""
