@@ -131,11 +131,10 @@ def _describe_silence(snapshot: WindowSnapshot) -> StateDisplay | None:
     if state.silent_s <= 0.0:
         return None
     text = translate("shell", "No answer for {time}; commands are refused until it answers.")
-    fault = f" {sentence(spoken(state.fault))}" if state.fault else ""
     return StateDisplay(
         translate("shell", "Link lost"),
-        text.format(time=age_text(state.silent_s)) + fault,
-        Tone.DANGER if state.fault or state.latched else Tone.WARNING,
+        text.format(time=age_text(state.silent_s)),
+        Tone.DANGER if state.latched else Tone.WARNING,
     )
 
 
@@ -331,8 +330,9 @@ def _describe_readiness(_: WindowSnapshot) -> StateDisplay:
 
 _RULES: tuple[Callable[[WindowSnapshot], StateDisplay | None], ...] = (
     _describe_connection,
-    _describe_silence,
+    # A device with a fault may send no more readings: that is no lost link.
     _describe_fault,
+    _describe_silence,
     _describe_latch,
     _describe_stopping,
     _describe_homing,

@@ -305,7 +305,8 @@ class EffectsPanel(Panel):
             (self.down, +1, tr("Apply this effect later within its stage")),
         ):
             last = chosen and self.chain.neighbour(self.place, step) is None
-            allow(button, none or (tr("its stage ends there") if last else None), tip)
+            end = tr("the stage has no further effect in this direction") if last else None
+            allow(button, none or end, tip)
 
     def _show_standing(self) -> None:
         self._mark_fields()

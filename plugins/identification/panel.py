@@ -239,7 +239,11 @@ class IdentificationPanel(Panel):
     def _allow(self) -> None:
         """Allow what needs findings."""
         none = None if self.findings is not None else tr("there are no figures yet")
-        card = None if self.findings is None or self.findings.columns else tr("it is no card")
+        card = (
+            None
+            if self.findings is None or self.findings.columns
+            else tr("these figures are not a health card")
+        )
         allow(self.controls.copy, none, tr("Copy the figures as text"))
         allow(self.controls.save, none, tr("Write the figures into a file"))
         tip = tr("Store this health card with the earlier ones of the axis")

@@ -36,6 +36,10 @@
         <translation>Aufzeichnung speichern …</translation>
     </message>
     <message>
+        <source>no record is open; play a trajectory or open one</source>
+        <translation>keine Aufzeichnung ist geöffnet; eine Trajektorie abspielen oder eine Aufzeichnung öffnen</translation>
+    </message>
+    <message>
         <source>Signals and their gaps</source>
         <translation>Signale und ihre Abweichungen</translation>
     </message>

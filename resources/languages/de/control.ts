@@ -44,6 +44,10 @@
         <translation>{label}: gemessen minus Sollwert</translation>
     </message>
     <message>
+        <source>{label} does not move: its position is unknown.</source>
+        <translation>{label} bewegt sich nicht: die Position ist unbekannt.</translation>
+    </message>
+    <message>
         <source>Measured minus command; the bound is {bound}.</source>
         <translation>Gemessen minus Sollwert; die Grenze ist {bound}.</translation>
     </message>

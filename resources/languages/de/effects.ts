@@ -76,6 +76,18 @@
         <translation>Roboterdateien (*.toml)</translation>
     </message>
     <message>
+        <source>no device is connected</source>
+        <translation>kein Gerät ist verbunden</translation>
+    </message>
+    <message>
+        <source>no effect is chosen</source>
+        <translation>kein Effekt ist gewählt</translation>
+    </message>
+    <message>
+        <source>nothing was changed</source>
+        <translation>nichts wurde geändert</translation>
+    </message>
+    <message>
         <source>Not applied: {reason}</source>
         <translation>Nicht übernommen: {reason}</translation>
     </message>
@@ -780,8 +792,20 @@
         <translation>Verschlissen, zur Vorführung</translation>
     </message>
     <message>
+        <source>there are no such effects for this robot</source>
+        <translation>für diesen Roboter gibt es solche Effekte nicht</translation>
+    </message>
+    <message>
+        <source>Effects as of a machine after years of use</source>
+        <translation>Effekte wie bei einer Maschine nach Jahren des Gebrauchs</translation>
+    </message>
+    <message>
         <source>{path}: the robot file has no effects; the list is unchanged</source>
         <translation>{path}: die Roboterdatei hat keine Effekte; die Liste bleibt unverändert</translation>
+    </message>
+    <message>
+        <source>the stage has no further effect in this direction</source>
+        <translation>in dieser Richtung hat die Stufe keinen weiteren Effekt</translation>
     </message>
     <message>
         <source>the simulator did not accept the change</source>

@@ -1818,6 +1818,18 @@ Starten drücken; Kennwerte und Verwechslungsmatrix erscheinen, wenn alle Fälle
         <translation>Die Diagnose anhalten; die Bewegung läuft weiter</translation>
     </message>
     <message>
+        <source>only the simulator can hide a machine</source>
+        <translation>nur der Simulator kann eine Maschine verbergen</translation>
+    </message>
+    <message>
+        <source>a machine is hidden already; reveal it first</source>
+        <translation>eine Maschine ist schon verborgen; erst aufdecken</translation>
+    </message>
+    <message>
+        <source>no machine is hidden</source>
+        <translation>keine Maschine ist verborgen</translation>
+    </message>
+    <message>
         <source>Write a robot file of the model with the causes found</source>
         <translation>Eine Roboterdatei des Modells mit den gefundenen Ursachen schreiben</translation>
     </message>

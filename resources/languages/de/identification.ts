@@ -409,6 +409,10 @@
         <translation>{record}: {time:.3f} s, {n} Werte</translation>
     </message>
     <message>
+        <source>there are no figures yet</source>
+        <translation>es gibt noch keine Zahlen</translation>
+    </message>
+    <message>
         <source>Save results</source>
         <translation>Ergebnisse speichern</translation>
     </message>
@@ -571,6 +575,10 @@
     <message>
         <source>Excite an axis, play a trajectory or open a record to identify the machine.</source>
         <translation>Eine Achse anregen, eine Trajektorie abspielen oder eine Aufzeichnung öffnen, um die Maschine zu identifizieren.</translation>
+    </message>
+    <message>
+        <source>these figures are not a health card</source>
+        <translation>diese Zahlen sind keine Zustandskarte</translation>
     </message>
     <message>
         <source>Stored the health card of {axis}</source>

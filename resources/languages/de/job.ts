@@ -4,6 +4,14 @@
 <context>
     <name>job</name>
     <message>
+        <source>nothing has been played or opened yet</source>
+        <translation>noch wurde nichts abgespielt oder geöffnet</translation>
+    </message>
+    <message>
+        <source>No run yet</source>
+        <translation>Noch kein Lauf</translation>
+    </message>
+    <message>
         <source>Trajectory</source>
         <translation>Trajektorie</translation>
     </message>
@@ -94,6 +102,18 @@
     <message>
         <source>Save the recording in one file; motion continues</source>
         <translation>Die Aufnahme in einer Datei speichern; die Bewegung läuft weiter</translation>
+    </message>
+    <message>
+        <source>nothing is playing</source>
+        <translation>nichts wird abgespielt</translation>
+    </message>
+    <message>
+        <source>The recording has ended already.</source>
+        <translation>Die Aufnahme ist schon beendet.</translation>
+    </message>
+    <message>
+        <source>the recording is being saved</source>
+        <translation>die Aufnahme wird gespeichert</translation>
     </message>
     <message>
         <source>Saved the recording {path}</source>

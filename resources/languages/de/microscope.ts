@@ -234,6 +234,10 @@
         <translation>Jedes Bild mit Zeitpunkt als BigTIFF aufnehmen</translation>
     </message>
     <message>
+        <source>No snapshot: there is no picture. Open a camera first.</source>
+        <translation>Kein Schnappschuss: es gibt kein Bild. Erst eine Kamera öffnen.</translation>
+    </message>
+    <message>
         <source>Saved {tiff} and {png}.png</source>
         <translation>{tiff} und {png}.png gespeichert</translation>
     </message>
@@ -540,6 +544,10 @@
     <message>
         <source>Far away: go there?</source>
         <translation>Weit entfernt: hinfahren?</translation>
+    </message>
+    <message>
+        <source>No move: no place is chosen. Choose one in the map.</source>
+        <translation>Keine Bewegung: kein Ort ist gewählt. Einen in der Karte wählen.</translation>
     </message>
     <message>
         <source>Click a place to choose it.</source>

@@ -463,6 +463,10 @@
         <translation>Scharfstellen</translation>
     </message>
     <message>
+        <source>Nothing was done: the penetration went on just before the press. Read the button, then press again.</source>
+        <translation>Nichts wurde ausgeführt: die Penetration ging kurz vor dem Drücken weiter. Die Taste lesen, dann noch einmal drücken.</translation>
+    </message>
+    <message>
         <source>Prepare</source>
         <translation>Vorbereiten</translation>
     </message>

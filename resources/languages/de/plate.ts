@@ -111,6 +111,14 @@
         <translation>Berechnung: {stage} …</translation>
     </message>
     <message>
+        <source>the plate is being computed; stop that first</source>
+        <translation>die Platte wird gerade berechnet; erst abbrechen</translation>
+    </message>
+    <message>
+        <source>nothing is being computed</source>
+        <translation>nichts wird berechnet</translation>
+    </message>
+    <message>
         <source>All files (*)</source>
         <translation>Alle Dateien (*)</translation>
     </message>

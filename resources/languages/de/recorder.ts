@@ -147,6 +147,10 @@
         <translation>es wird nichts aufgenommen</translation>
     </message>
     <message>
+        <source>The recording has ended already.</source>
+        <translation>Die Aufnahme ist schon beendet.</translation>
+    </message>
+    <message>
         <source>Ending …</source>
         <translation>Endet …</translation>
     </message>
@@ -241,6 +245,10 @@
     <message>
         <source>Compare the record with the model in use</source>
         <translation>Die Aufzeichnung mit dem verwendeten Modell vergleichen</translation>
+    </message>
+    <message>
+        <source>its file is where it was</source>
+        <translation>die Datei ist an ihrem Ort</translation>
     </message>
     <message>
         <source>Export a record</source>
@@ -381,6 +389,18 @@
     <message>
         <source>Folder of the recordings; select the text to copy it</source>
         <translation>Ordner der Aufnahmen; den Text zum Kopieren markieren</translation>
+    </message>
+    <message>
+        <source>The recording is just being started or ended; wait, then press again.</source>
+        <translation>Die Aufnahme wird gerade begonnen oder beendet; warten, dann noch einmal drücken.</translation>
+    </message>
+    <message>
+        <source>type a remark first</source>
+        <translation>erst eine Bemerkung eingeben</translation>
+    </message>
+    <message>
+        <source>Nothing was noted: {why}.</source>
+        <translation>Nichts wurde vermerkt: {why}.</translation>
     </message>
     <message>
         <source>End the recording and save it in one file</source>

@@ -948,6 +948,10 @@
         <translation>Aufzeichnungen (*.csv *.csv.gz)</translation>
     </message>
     <message>
+        <source>Panel {name!r} is missing: it was left out, see the log.</source>
+        <translation>Das Fenster {name!r} fehlt: es wurde ausgelassen, siehe Protokoll.</translation>
+    </message>
+    <message>
         <source>Layout</source>
         <translation>Anordnung</translation>
     </message>
@@ -2323,6 +2327,10 @@ Bedienfenster eines hybriden Roboters zur Zellmanipulation, mit Diagnose der Abw
     <message>
         <source>{moved}. How to go on?</source>
         <translation>{moved}. Wie soll es weitergehen?</translation>
+    </message>
+    <message>
+        <source>What the header has no room for</source>
+        <translation>Wofür der Kopf keinen Platz hat</translation>
     </message>
 </context>
 </TS>

@@ -131,6 +131,18 @@
         <translation>thx, thy, zn {factor:g}-fach um die Bereichsmitte vergrößert; die Spitze ist nicht am rechten Ort gezeichnet</translation>
     </message>
     <message>
+        <source>The view is not opened: {why}.</source>
+        <translation>Die Ansicht wird nicht geöffnet: {why}.</translation>
+    </message>
+    <message>
+        <source>it is being opened already</source>
+        <translation>sie wird schon geöffnet</translation>
+    </message>
+    <message>
+        <source>there is no drawing</source>
+        <translation>es gibt keine Zeichnung</translation>
+    </message>
+    <message>
         <source>Robots to draw</source>
         <translation>Gezeichnete Roboter</translation>
     </message>

@@ -23,5 +23,9 @@
         <source>Change nothing</source>
         <translation>Nichts ändern</translation>
     </message>
+    <message>
+        <source>{title}, has something new</source>
+        <translation>{title}, enthält Neues</translation>
+    </message>
 </context>
 </TS>

@@ -17,6 +17,7 @@ from rotemina.app.shell import window_run
 from rotemina.app.shell.deferred_panels import LatePanels
 from rotemina.app.shell.layouts import TUNE
 from rotemina.app.shell.panel_host import GROUP
+from rotemina.app.widgets.scroll_areas import frame_of
 from rotemina.drivers import registry
 from rotemina.drivers.samples import DeviceState
 from rotemina.drivers.simulator.driver import Simulator
@@ -120,7 +121,7 @@ def test_what_a_layout_shows_is_made_in_small_steps_once_the_window_is_in_use(
         steps += sum(dock.widget() is not None for dock in window.docks.values()) - placed
         assert steps <= 1
     for name in wanted:
-        assert window.docks[name].widget() is panels.made[name]
+        assert window.docks[name].widget() is frame_of(panels.made[name])
 
 
 @pytest.mark.every_panel

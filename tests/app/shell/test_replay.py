@@ -86,7 +86,9 @@ def test_panels_show_the_replay_and_the_tool_bar_the_machine(qtbot, window, reco
     bench.go_to({"x": 0.05})
     qtbot.waitUntil(lambda: bench.session.snapshot().activity is DeviceState.MOVING)
     bench.open_replay(recording)
-    qtbot.waitUntil(lambda: "the machine is moving" in notices(window)[0], timeout=LONG_MS)
+    qtbot.waitUntil(
+        lambda: any("the machine is moving" in text for text in notices(window)), timeout=LONG_MS
+    )
     assert bench.source is bench.session
     assert bench.session.snapshot().locked is None
     bench.stop()

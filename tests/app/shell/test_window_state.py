@@ -353,11 +353,11 @@ def check_gravest_first(word, session):
         assert word in ("Failed", "Link", "Connecting", "Disconnected")
     elif session.activity is DeviceState.CLOSED:
         assert word == "Connecting"
+    elif session.fault or session.activity is DeviceState.FAULT:
+        assert word == "Fault"  # what halted may send no readings, and is not lost for that
     elif session.silent_s > 0.0:
         assert word == "Link"
-    elif session.fault:
-        assert word == "Fault"
-    elif session.latched and session.activity is not DeviceState.FAULT:
+    elif session.latched:
         assert word == "Locked"
 
 
