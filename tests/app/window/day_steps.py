@@ -9,7 +9,7 @@ from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QApplication, QComboBox, QDialog, QTabWidget
 
 from rotemina.app.motion.playback import PlaybackPhase
-from rotemina.app.shell.layouts import BUILT_IN, DIAGNOSE, OPERATE
+from rotemina.app.shell.layouts import BUILT_IN, DIAGNOSE, OPERATE, TUNE
 from rotemina.app.shell.theme import THEMES
 from rotemina.app.shell.workbench import Level
 from rotemina.drivers.samples import DeviceState
@@ -102,6 +102,7 @@ def long_record(robot):
 
 def start(op):
     late = op.window.late_panels
+    yield "layout Tune at the start", partial(op.window.arrangement.arrange, TUNE), soon
     yield "start", nothing, lambda: not op.panels.waiting and not late._next.isActive()
     yield "connect", nothing, lambda: op.rests
 

