@@ -151,7 +151,7 @@ def tell_the_story(
     _wait(window, signals, bench.refreshed, lambda: panel.result.proof.proof is not None)
     window.arrangement.arrange(DIAGNOSE)
     window.bring_up("gap")
-    panel.show_proof()
+    panel.result.turn_to_proof()
     _rest()
     return Story((before, after), panel.result.headline.sentence.text())
 

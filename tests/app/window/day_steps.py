@@ -34,7 +34,6 @@ class Operator:
     def __init__(self, window, folder):
         self.window, self.bench, self.panels = window, window.workbench, window.panels
         self.folder = folder
-        self.transport = lambda: self.panels["trajectory"].transport
 
     @property
     def rests(self):
@@ -176,15 +175,17 @@ def messages(op):
 
 def playback(op):
     bench, phase = op.bench, PlaybackPhase
-    click = lambda: op.transport().play.click()  # noqa: E731 (an action of several steps)
+    play = op.panels["trajectory"].transport.play
     yield "layout Operate", partial(op.window.arrangement.arrange, OPERATE), soon
     example = partial(bench.plan_trajectory, "example", example_for(bench.robot))
     yield "load the example", example, lambda: bench.plan is not None and op.rests
-    yield "play", click, op.phase(phase.PLAYING)
-    yield "pause", click, op.phase(phase.PAUSED)
-    yield "resume", click, op.phase(phase.PLAYING)
+    yield "play", nothing, play.isEnabled
+    yield "play", play.click, op.phase(phase.PLAYING)
+    yield "pause", play.click, op.phase(phase.PAUSED)
+    yield "resume", play.click, op.phase(phase.PLAYING)
     yield "play to the end", nothing, op.run_after(None)
-    yield "play", click, op.phase(phase.PLAYING)
+    yield "play", nothing, play.isEnabled
+    yield "play", play.click, op.phase(phase.PLAYING)
     yield "end", bench.end_playback, lambda: op.rests
 
 
@@ -197,12 +198,14 @@ def diagnosis(op):
     yield "load a trajectory", plan, lambda: bench.plan.trajectory is motion and op.rests
     yield "play on a worn machine", bench.play, op.run_after(bench.run)
     yield "layout Diagnose", partial(op.window.arrangement.arrange, DIAGNOSE), soon
+    yield "diagnose", nothing, gap.start.isEnabled
     yield "diagnose", gap.start.click, lambda: gap.answer is not None
     for at in range(gap.result.tabs.count()):
         yield f"diagnosis, tab {at}", partial(gap.result.tabs.setCurrentIndex, at), soon
     path = op.folder / "report.html"
     report = lambda: gap.actions_of.save_report(gap.answer, path)  # noqa: E731 (awaits the answer)
     yield "report", report, lambda: path.exists() and not bench.busy
+    yield "use the corrected model", nothing, gap.result.use.isEnabled
     yield "use the corrected model", gap.result.use.click, lambda: op.rests
     for layout in BUILT_IN:
         yield f"layout {layout.word}", partial(op.window.arrangement.arrange, layout), soon
@@ -272,6 +275,7 @@ def devices(op):
     chosen = device.choice.findText("mc68hc11")
     yield "choose a driver", partial(device.choice.setCurrentIndex, chosen), soon
     boards = partial(op.is_on, "mc68hc11")
+    yield "connect to boards", nothing, device.connect_button.isEnabled
     yield "connect to boards", device.connect_button.click, boards
     simulator = partial(bench.use_driver, Simulator, {})
     yield "connect to the simulator", simulator, partial(op.is_on, "simulator")
