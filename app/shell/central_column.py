@@ -9,8 +9,9 @@ from PySide6.QtWidgets import QWidget
 from rotemina.app.widgets.layouts import in_column
 from rotemina.app.widgets.scroll_areas import PanelFrame
 
-LEAST_WIDTH, LEAST_HEIGHT = 200, 120  # px of the central panels: a strip of plots
+LEAST_HEIGHT = 120  # px of the central panels: a strip of plots
 _MARGIN = 6  # px
+_LITTLE = 48  # px of the bars, at least
 _MOST = 1 / 3  # of the window's height that bars may take; beyond that they are scrolled
 
 
@@ -22,7 +23,7 @@ class CentralColumn(QWidget):
         self._bars = tuple(bars)
         self._together = QWidget()
         in_column(*bars, on=self._together, margins=(0, 0, 0, _MARGIN), spacing=_MARGIN)
-        self._frame = PanelFrame(self._together, QSize(LEAST_WIDTH, LEAST_HEIGHT))
+        self._frame = PanelFrame(self._together, QSize(_LITTLE, _LITTLE))
         in_column(self._frame, (panels, 1), on=self, margins=_MARGIN, spacing=0)
         self._together.installEventFilter(self)
         self._share_height()
@@ -45,4 +46,4 @@ class CentralColumn(QWidget):
         height = min(wanted, round(_MOST * self.window().height()))
         if self._frame.maximumHeight() != height:
             self._frame.setFixedHeight(height)
-        self.setMinimumSize(LEAST_WIDTH, LEAST_HEIGHT + height)
+        self.setMinimumHeight(LEAST_HEIGHT + height)

@@ -21,7 +21,7 @@ DOCK_AREAS = {
     Area.RIGHT: Qt.DockWidgetArea.RightDockWidgetArea,
     Area.BOTTOM: Qt.DockWidgetArea.BottomDockWidgetArea,
 }
-_SIDE = 0.2  # of the window's width
+_SIDE, _MOST_SIDE = 0.2, 0.4  # of the window's width, whatever the size of text
 # px at normal text: a form is cut off when it is narrower, and reads no better when it is wider.
 _NARROWEST, _WIDEST = 330, 460
 _NEAR = 6  # px between the tabs of docks and the docks
@@ -188,6 +188,7 @@ def _size(
     window: QMainWindow, first: Mapping[Area, QDockWidget], bottom: float, text_scale: float
 ) -> None:
     side = round(min(max(_SIDE * window.width(), _NARROWEST * text_scale), _WIDEST * text_scale))
+    side = min(side, round(_MOST_SIDE * window.width()))
     for area in (Area.LEFT, Area.RIGHT):
         if area in first:
             window.resizeDocks([first[area]], [side], Qt.Orientation.Horizontal)

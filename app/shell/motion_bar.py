@@ -38,7 +38,7 @@ class StateView(QWidget):
         self.help = HelpingButton(workbench)
         words = QVBoxLayout()
         words.setSpacing(2)
-        words.addWidget(self.phase)
+        words.addWidget(self.phase, 0, Qt.AlignmentFlag.AlignLeft)
         words.addWidget(self.doing)
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)

@@ -3,8 +3,10 @@
 from collections.abc import Callable
 
 from PySide6.QtCore import QEvent, QObject
+from PySide6.QtGui import QFontInfo
 from PySide6.QtWidgets import QWidget
 
+_NORMAL = 13.0  # px, of text
 _DRESSED = (QEvent.Type.FontChange, QEvent.Type.StyleChange)
 
 
@@ -25,6 +27,15 @@ class WhenDressed(QObject):
         if event.type() in _DRESSED:
             self._fit()
         return False
+
+
+def grow_with_text(widget: QWidget, resize: Callable[[int], object], length: int) -> None:
+    """Call ``resize`` with a length, px at normal text, in proportion to the size of text."""
+    WhenDressed(widget, lambda: resize(round(length * max(_size(widget) / _NORMAL, 1.0))))
+
+
+def _size(widget: QWidget) -> int:
+    return QFontInfo(widget.font()).pixelSize()
 
 
 def leave_room(widget: QWidget, text: str, beside: int = 0) -> None:

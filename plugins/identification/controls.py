@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QComboBox, QPushButton, QWidget
 from rotemina.app.display_units import label
 from rotemina.app.widgets.controls import named
 from rotemina.app.widgets.layouts import in_row
+from rotemina.app.widgets.when_dressed import grow_with_text
 from rotemina.plugins.identification import mark, tr
 from rotemina.plugins.identification.filled_template import localized
 from rotemina.plugins.identification.record_query import Question, first_axis, taps_of
@@ -151,7 +152,8 @@ class Controls(QWidget):
 def _choice(name: str, items: list[tuple[str, object]] | None = None) -> QComboBox:
     choice = named(QComboBox(), name, name)
     choice.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
-    choice.setMinimumWidth(64)  # where the window is narrow, a text is cut rather than the row
+    # Where the window is narrow, a text is cut rather than the row.
+    grow_with_text(choice, choice.setMinimumWidth, 64)
     for text, data in items or []:
         choice.addItem(text, data)
     return choice

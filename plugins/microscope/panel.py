@@ -17,6 +17,7 @@ from rotemina.app.widgets.controls import button
 from rotemina.app.widgets.labels import ElidedLabel, plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import scrolled
+from rotemina.app.widgets.when_dressed import grow_with_text
 from rotemina.drivers.cameras.frame import Frame
 from rotemina.plugins.microscope import mark, tr
 from rotemina.plugins.microscope.calibration_section import CalibrationSection
@@ -158,7 +159,7 @@ class MicroscopePanel(Panel):
 
     def _lay_out(self) -> None:
         self.tools = QStackedWidget()
-        self.tools.setFixedWidth(_WIDTH)
+        grow_with_text(self.tools, self.tools.setFixedWidth, _WIDTH)
         for sections in self._pages:
             self.tools.addWidget(_page(sections))
         middle = in_row((self.view, 1), self.tools, spacing=6)

@@ -9,6 +9,7 @@ from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import scrolled, tabbed
 from rotemina.app.widgets.tab_dots import TabNews
+from rotemina.app.widgets.when_dressed import grow_with_text
 from rotemina.plugins.recorder import tr
 from rotemina.plugins.recorder.interrupted_files import Unfinished, look
 from rotemina.plugins.recorder.interrupted_view import UnfinishedBox
@@ -98,7 +99,7 @@ class RecorderPanel(Panel):
 
     def _lay_out(self) -> None:
         scroll = scrolled(self.recording)
-        scroll.setFixedWidth(_WIDTH)
+        grow_with_text(scroll, scroll.setFixedWidth, _WIDTH)
         head = in_row(self.tabs, (self.recordings.filter, 1))
         right = in_column(head, (self.views, 1), spacing=4)
         # Beside the control dock it just fits 1280 px, in German too.

@@ -27,7 +27,7 @@ from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, set_property
 from rotemina.app.widgets.labels import LiveLabel, heading, plain_text
 from rotemina.app.widgets.layouts import in_column, in_row, keep_room
-from rotemina.app.widgets.when_dressed import WhenDressed
+from rotemina.app.widgets.when_dressed import WhenDressed, grow_with_text
 from rotemina.plugins.trajectory import mark, tr
 from rotemina.plugins.trajectory.dry_run_table import (
     BOUND,
@@ -328,8 +328,9 @@ def _table() -> QTableWidget:
     table.setCornerButtonEnabled(False)  # it would select all
     table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
     table.horizontalHeader().setStretchLastSection(True)
-    table.horizontalHeader().setFixedHeight(23)
-    table.verticalHeader().setDefaultSectionSize(21)  # six axes at 1280 × 800
+    across, down = table.horizontalHeader(), table.verticalHeader()
+    grow_with_text(across, across.setFixedHeight, 23)
+    grow_with_text(down, down.setDefaultSectionSize, 21)  # six axes at 1280 × 800
     return table
 
 

@@ -16,6 +16,7 @@ from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button, named
 from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.app.widgets.when_dressed import grow_with_text
 from rotemina.plugins.trajectory import tr
 from rotemina.plugins.trajectory.taught_trajectory import LONGEST_PAUSE_S, TaughtPoint, taught
 from rotemina.sim.quantities import parsed, rounded
@@ -53,8 +54,9 @@ class TeachView(QWidget):
         self.table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
         header = self.table.horizontalHeader()
         header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
-        header.setFixedHeight(23)
-        self.table.verticalHeader().setDefaultSectionSize(21)
+        grow_with_text(header, header.setFixedHeight, 23)
+        down = self.table.verticalHeader()
+        grow_with_text(down, down.setDefaultSectionSize, 21)
         self.table.itemChanged.connect(self._typed)
         self.take = button(tr("Add point"), self._take)
         self.again = button(tr("Replace"), self._again)

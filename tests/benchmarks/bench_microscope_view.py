@@ -42,7 +42,7 @@ def test_from_the_camera_to_the_screen(tmp_path):
     window.show()
     window.workbench.start()
     microscope, panel = window.workbench.microscope, window.panels["microscope"]
-    panel.parentWidget().parentWidget().setCurrentWidget(panel)
+    window.bring_up("microscope")
     late_s: dict[int, float] = {}
     loop = QEventLoop()
 

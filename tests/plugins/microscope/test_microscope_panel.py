@@ -22,7 +22,7 @@ LEFT = Qt.MouseButton.LeftButton
 
 def shown(window):
     panel = window.panels["microscope"]
-    panel.parentWidget().parentWidget().setCurrentWidget(panel)
+    window.bring_up("microscope")
     return panel
 
 
