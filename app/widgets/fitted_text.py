@@ -29,7 +29,7 @@ class FittedButton(QPushButton):
         self.initStyleOption(option)
         inner = self.style().subElementRect(QStyle.SubElement.SE_PushButtonContents, option, self)
         font = fitted_font(self.font(), self.text(), inner.width())
-        if font is self.font() or font == self.font():
+        if font == self.font():
             super().paintEvent(event)
             return
         option.text = ""
