@@ -4,7 +4,7 @@ from typing import Any, NamedTuple
 
 import pyqtgraph as pg
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QColor, QResizeEvent, QShowEvent
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QWidget
 
 from rotemina.app.shell.language import translate
@@ -102,7 +102,9 @@ class SignalPlot(pg.PlotWidget):
         self._scale: tuple[float, float] | None = None
         self._stale = False
         self.setAntialiasing(False)
-        self._turn = PaintedInTurn(self, lambda: super(SignalPlot, self).resizeEvent(None))
+        self._turn = PaintedInTurn(
+            self.viewport(), lambda: super(SignalPlot, self).resizeEvent(None)
+        )
         self.set_theme(theme)
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 (Qt's name)
@@ -116,6 +118,13 @@ class SignalPlot(pg.PlotWidget):
             self._turn.hold()
         else:
             super().resizeEvent(event)
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
+        """Paint the ground alone until its turn comes."""
+        if self._turn is not None and self._turn.is_held:
+            QPainter(self.viewport()).fillRect(event.rect(), QColor(self._theme.surface))
+        else:
+            super().paintEvent(event)
 
     def settle(self) -> None:
         """Be painted now, such as for a picture of the window."""

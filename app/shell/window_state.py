@@ -101,7 +101,7 @@ def _describe_connection(snapshot: WindowSnapshot) -> StateDisplay | None:
             return StateDisplay(
                 translate("shell", "Failed"), sentence(text), Tone.DANGER, Remedy.RECONNECT
             )
-        lost = translate("shell", "The last answer came {time} ago; the machine may have moved")
+        lost = translate("shell", "No answer for {time}; the machine may have moved")
         text = lost.format(time=age_text(state.age_s or 0.0))
         return StateDisplay(
             translate("shell", "Link lost"),

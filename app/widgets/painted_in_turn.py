@@ -12,11 +12,13 @@ class PaintedInTurn(QObject):
     """Holds the painting of a widget back until the widgets before it are painted.
 
     Several plots side by side that are shown or resized at once would otherwise be painted all
-    together, and the window would not react meanwhile.
+    together, and the window would not react meanwhile. The widget paints no more than its ground
+    while it is held.
 
     Parameters
     ----------
     widget : QWidget
+        What is updated when its turn comes.
     fit : callable
         Fits the widget's contents to its size; called once before it is painted, however often it
         was resized until then.
@@ -27,11 +29,15 @@ class PaintedInTurn(QObject):
         self._widget, self._fit = widget, fit
         self._is_held = False
 
+    @property
+    def is_held(self) -> bool:
+        """Whether its turn has yet to come."""
+        return self._is_held
+
     def hold(self) -> None:
         """Paint the widget as soon as its turn comes."""
         if not self._is_held:
             self._is_held = True
-            self._widget.setUpdatesEnabled(False)
             _queue().add(self)
 
     def release(self) -> None:
@@ -39,7 +45,7 @@ class PaintedInTurn(QObject):
         if self._is_held:
             self._is_held = False
             self._fit()
-            self._widget.setUpdatesEnabled(True)
+            self._widget.update()
 
 
 class _Queue(QObject):

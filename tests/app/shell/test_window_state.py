@@ -74,7 +74,7 @@ ROWS = [
         state(connection=Connection.FAILED, fault="unplugged", link_lost=True, age_s=3.0),
         {},
         "Link lost",
-        "The last answer came 3.0 s ago; the machine may have moved. Unplugged",
+        "No answer for 3.0 s; the machine may have moved. Unplugged",
         "danger",
         Remedy.RECONNECT,
     ),

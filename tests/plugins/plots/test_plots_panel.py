@@ -262,3 +262,13 @@ def test_plots_stand_in_as_many_rows_as_fit_and_are_no_narrower_than_can_be_read
     wanted = {(r, c): name for r, names in enumerate(rows) for c, name in enumerate(names)}
     assert placed == wanted
     assert [name for name, plot in panel.plots.items() if plot._times] == times
+
+
+def test_a_plot_whose_turn_has_not_come_shows_its_ground_and_no_black(qtbot, window, panel):
+    plot = panel.plots["x"].plot
+    plot.settle()
+    plot.resizeEvent(None)
+    middle = plot.mapTo(window, plot.rect().center())
+    assert window.grab().toImage().pixelColor(middle).name() == window.workbench.theme.surface
+    plot.settle()
+    assert not plot._turn.is_held
