@@ -183,7 +183,7 @@ class MotionBar(QToolBar):
         self.events.clicked.connect(self.events_asked)
         self.emergency, self.stop = EmergencyButton(workbench), StopButton(workbench)
         chips = (self.owner, self.model, self.recording, self.events)
-        # The status bar names the owners as well, and the panel of events lists what is counted.
+        # The state names who moves as well, and the panel of events lists what is counted.
         droppable = (self.owner, self.events, self.model, self.recording)
         stops = self.emergency, self.stop
         self.row = HeaderRow(self.badge, self.state, chips, droppable, stops)

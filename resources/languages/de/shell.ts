@@ -1136,8 +1136,8 @@
         <translation>Ausgefallen</translation>
     </message>
     <message>
-        <source>The last answer came {time} ago; the machine may have moved</source>
-        <translation>Letzte Antwort vor {time}; die Maschine kann sich bewegt haben</translation>
+        <source>No answer for {time}; the machine may have moved</source>
+        <translation>Keine Antwort seit {time}; die Maschine kann sich bewegt haben</translation>
     </message>
     <message>
         <source>Disconnected</source>

@@ -74,7 +74,7 @@ def test_the_reason_gives_way_after_the_chips_and_is_in_the_tooltip_then(qtbot, 
     resized(window, 1024, scale=2.0)
     assert not bar.doing.isVisible()
     window.workbench.emergency_stop()
-    qtbot.waitUntil(lambda: "Stop and lock is" in bar.state.toolTip(), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: "Locked by the operator" in bar.state.toolTip(), timeout=LONG_MS)
     resized(window, 1900, scale=1.0)
     qtbot.waitUntil(lambda: bar.state.toolTip() == "", timeout=LONG_MS)
     assert bar.doing.isVisible()
@@ -90,7 +90,7 @@ def test_nothing_of_the_window_stands_on_the_stops(window):
     palette = window.palette_page.frameGeometry()
     for button in (bar.stop, bar.emergency):
         place = QRect(button.mapTo(window, QPoint()), button.size())
-        assert not window.notices.geometry().intersects(place)
+        assert not any(notice.geometry().intersects(place) for notice in window.notices.shown())
         assert not palette.intersects(place.translated(window.mapToGlobal(QPoint())))
         assert window.childAt(place.center()) is button
     window.toggle_palette()
