@@ -188,5 +188,9 @@ def _words(button: QAbstractButton) -> str:
 def _why_not(button: QAbstractButton) -> str | None:
     if button.isEnabled():
         return None
-    reason = why_not(button)
-    return spoken(reason) if reason else translate("shell", "its panel does not permit it now")
+    part: QWidget | None = button
+    while part is not None:  # the part of a panel that holds it may be disabled as a whole
+        if reason := why_not(part):
+            return spoken(reason)
+        part = part.parentWidget()
+    return translate("shell", "its panel does not permit it now")

@@ -23,6 +23,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from rotemina.app.motion.state import Connection
 from rotemina.app.panel import offer_in_palette
 from rotemina.app.shell import key_help
 from rotemina.app.shell import theme as themes
@@ -66,7 +67,11 @@ def test_every_action_of_every_menu_and_of_the_palette(qtbot, window, silent, mo
     assert {dock.windowTitle() for dock in window.docks.values()} <= seen
     assert {theme for theme, _ in dressed} == set(themes.THEMES.values())
     assert len({scale for _, scale in dressed}) > 1
-    window.workbench.release()
+    bench = window.workbench
+    bench.release()
+    bench.reconnect()  # the menu has disconnected it
+    connected = Connection.CONNECTED
+    qtbot.waitUntil(lambda: bench.session.snapshot().connection is connected, timeout=LONG_MS)
     window.palette_page.hide()
     offered = list(window._entries())
     for entry in offered:
