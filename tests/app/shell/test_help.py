@@ -84,7 +84,7 @@ def test_every_action_of_every_menu_and_of_the_palette(qtbot, window, silent, mo
             entry.run()
             done += 1
     assert done > len(clicked) + len(window.docks)
-    assert len(clicked) > 20
+    assert clicked
     assert window.isVisible()
     qtbot.waitUntil(lambda: not window.workbench.busy, timeout=LONG_MS)
 
