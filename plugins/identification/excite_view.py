@@ -156,7 +156,8 @@ class ExciteView(QWidget):
         owner = tr("{axis}: free")
         if driver:
             owner = tr("{axis}: controlled by {driver}")
-        self.owner.setText(owner.format(axis=label(axis), driver=spoken(driver or "")))
+        words = owner.format(axis=label(axis), driver=spoken(driver or ""))
+        self.owner.setText(tr("Waits until the dry run has ended …") if waiting else words)
         allow(
             self.play, self._why_not(session, state), tr("Play the motion and analyse the record")
         )

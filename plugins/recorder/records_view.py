@@ -117,9 +117,8 @@ class RecordsView(QWidget):
     # --- parts ------------------------------------------------------------------------------------
 
     def _make_buttons(self) -> None:
-        self.open = ChangingButton(
-            tr("Replay"), tr("Compare"), run=lambda: self._with_chosen(self._open)
-        )
+        # Without room for "Compare", which it says while the fields of the section are hidden.
+        self.open = ChangingButton(tr("Replay"), run=lambda: self._with_chosen(self._open))
         self.to_record = button(tr("Export …"), self._ask_export)
         self.to_trajectory = button(
             tr("To trajectory"), lambda: self._with_chosen(self.take_in_hand)
