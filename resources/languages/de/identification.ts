@@ -541,6 +541,10 @@
         <translation>{axis}: gesteuert von {driver}</translation>
     </message>
     <message>
+        <source>Waits until the dry run has ended …</source>
+        <translation>Wartet auf das Ende des Probelaufs …</translation>
+    </message>
+    <message>
         <source>it waits until the dry run has ended</source>
         <translation>es wartet auf das Ende des Probelaufs</translation>
     </message>
