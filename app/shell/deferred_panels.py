@@ -18,7 +18,7 @@ _CONNECTING_MS = 1500  # for which they leave the processor to a machine that is
 class LatePanels(QObject):
     """Makes the panels of docks.
 
-    One whose dock comes into sight is made next. The others follow one by one as soon as the
+    One whose dock is shown is made next. The others follow one by one as soon as the
     window stands, so that a start does not wait for them: in small steps, between which the window
     reacts. They are made before anything is read or compared in the background: none misses a
     trajectory or a record.

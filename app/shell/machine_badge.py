@@ -52,7 +52,7 @@ TIPS = {
 
 
 def machine_of(driver: Driver, connection: Connection) -> Machine:
-    """Return what a driver drives, or drove last; what cannot be told for sure is a real machine.
+    """Return what a driver drives, or drove last; what is not known for sure is a real machine.
 
     It changes at most twice when another device is connected, and not while a link is lost or the
     same device is connected again: that is what it was until it says something else.

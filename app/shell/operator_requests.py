@@ -57,7 +57,7 @@ class Requests(QObject):
     refused(str) : a request that was not taken, and why.
     withdrawn(str) : a request that waited ended without effect, and why.
     acted() : a request was taken.
-    settled(hashable) : the request or work of this subject was taken or done; what was told of an
+    settled(hashable) : the request or work of this subject was taken or done; the notice of an
         earlier failure is over.
     ports_offered(tuple of OfferedPort) : where virtual boards listen now.
     panel_asked(str) : the operator asked for the panel of that name.

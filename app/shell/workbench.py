@@ -80,7 +80,7 @@ class Workbench(Requests):
     What moves or connects the machine is among
     :class:`~rotemina.app.shell.operator_requests.Requests`: a refusal becomes a notice.
 
-    ``plan`` is the trajectory in hand, ``planning`` the name of one whose dry run is under way or
+    ``plan`` is the loaded trajectory, ``planning`` the name of one whose dry run is under way or
     "", ``run`` the last comparison, ``run_path`` the file of its
     record, ``record`` what would be saved, and ``unsaved`` a played record that no file holds yet:
     each is written into ``played_folder`` by itself as soon as it ends. ``pace`` (times as fast as
@@ -416,7 +416,7 @@ class Workbench(Requests):
         request: WaitingRequest,
         play: Callable[[Plan], object],
     ) -> None:
-        """Take a trajectory in hand and, if its dry run permits it, call ``play`` with the plan.
+        """Plan a trajectory and, if its dry run permits it, call ``play`` with the plan.
 
         The request waits until then; if it is withdrawn meanwhile, nothing is played.
         """
@@ -728,7 +728,7 @@ class Workbench(Requests):
         self._tell_objection(plan)
 
     def _tell_objection(self, plan: Plan) -> None:
-        """Tell why a plan would not be played, until another is in hand or this one would be."""
+        """Show why a plan cannot be played, until another is loaded or this one can be."""
         if not plan.objection:
             return
 

@@ -114,7 +114,7 @@ class Actuation:
         self._play(lambda: conditioning(self._workbench.robot, inverse.model, start))
 
     def try_it(self) -> None:
-        """Play decaying swings, and show the error beside those of other states."""
+        """Play decaying swings, and show the error next to those of other states."""
         axis = self._controls.chosen
         self._play(lambda: trial_motion(self._workbench.robot, axis))
 

@@ -19,7 +19,7 @@ _FORBIDDEN = mark("the dry run found a problem")
 
 
 def against_playing(workbench: Workbench, session: SessionState) -> str | None:
-    """Return why the plan in hand cannot be played, paused or resumed now; None: it can."""
+    """Return why the plan cannot be played, paused or resumed now; None: it can."""
     playback = workbench.playback.state
     changing = workbench.against_toggling(playback)
     if playback.phase is PlaybackPhase.PLAYING:
@@ -49,7 +49,7 @@ def waiting_words(workbench: Workbench) -> str:
 
 
 class PlayButton(ChangingButton):
-    """Plays, pauses or resumes the trajectory in hand, as it says."""
+    """Plays, pauses or resumes the loaded trajectory, as it says."""
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(tr("Play"), tr("Pause"), tr("Resume"), run=workbench.toggle_playback)

@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QApplication, QWidget
 from rotemina.app.shell.main_window import MainWindow
 from rotemina.app.shell.screen_fit import fit_on_screen
 
-ROOM = QRect(100, 30, 1024, 690)  # beside a task bar
+ROOM = QRect(100, 30, 1024, 690)  # next to a task bar
 
 
 class SmallScreen:

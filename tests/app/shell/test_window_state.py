@@ -346,7 +346,7 @@ def check_display(session, more):
 
 
 def check_gravest_first(word, session):
-    """Nothing lighter is told while something grave is so."""
+    """The gravest of several things is shown."""
     if session.connection is Connection.FAILED:
         assert word in ("Failed", "Link")
     if session.connection is not Connection.CONNECTED:
@@ -362,7 +362,7 @@ def check_gravest_first(word, session):
 
 
 def check_present(word, display, session, more):
-    """Nothing past or impossible is told, and nothing green that accepts no motion."""
+    """Nothing past or impossible is shown, and nothing green that accepts no motion."""
     moves = session.activity in MOVING
     if word in ("Ready", "Paused", "Stopped"):
         assert session.activity is DeviceState.IDLE
