@@ -41,9 +41,18 @@ class CentralColumn(QWidget):
 
     def _share_height(self) -> None:
         """Ask for the height of the bars in addition: they do not take that of the panels."""
-        shown = not all(bar.isHidden() for bar in self._bars)
-        wanted = self._together.heightForWidth(self.width() - 2 * _MARGIN) if shown else 0
-        height = min(wanted, round(_MOST * self.window().height()))
+        width = self.width() - 2 * _MARGIN
+        most = round(_MOST * self.window().height()) if self._has_bars() else 0
+        wanted = self._together.heightForWidth(width)
+        if wanted > most > 0:
+            wanted = self._together.heightForWidth(width - self._frame.bar_width())
+        wanted = max(wanted, 0)  # of no bar at all, Qt says −1
+        if self._together.minimumHeight() != wanted:
+            self._together.setMinimumHeight(wanted)
+        height = min(wanted, most)
         if self._frame.maximumHeight() != height:
             self._frame.setFixedHeight(height)
         self.setMinimumHeight(LEAST_HEIGHT + height)
+
+    def _has_bars(self) -> bool:
+        return not all(bar.isHidden() for bar in self._bars)

@@ -15,8 +15,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-_AS_NEEDED = Qt.ScrollBarPolicy.ScrollBarAsNeeded
-_KEPT = Qt.ScrollBarPolicy.ScrollBarAlwaysOn
+_MOST_FREED = 3  # times that a scroll bar goes before the frame has another size
 
 
 class FittedScroll(QScrollArea):
@@ -56,34 +55,24 @@ class PanelFrame(QScrollArea):
     """The frame of a panel, as large as the panel needs unless the window has less room for it.
 
     Then the panel is scrolled: no panel makes the window larger, however much room it asks for.
-
-    A scroll bar that was needed stays until the frame has another size: a panel that asks for less
-    because of the bar would else make it come and go for ever.
     """
 
     def __init__(self, panel: QWidget, room: QSize) -> None:
         super().__init__()
         self._room = room
         self._told = self._fitted = QSize()
+        self._across = self._down = False  # which scroll bars are needed
+        self._freed = 0  # times that they were not needed any more, at the present size
         self.setObjectName("panelScroll")
         self.setFrameShape(QFrame.Shape.NoFrame)
-        self.setWidgetResizable(True)
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)  # the keyboard goes to the panel itself
-        self.horizontalScrollBar().rangeChanged.connect(
-            lambda _, most: most and self.setHorizontalScrollBarPolicy(_KEPT)
-        )
-        self.verticalScrollBar().rangeChanged.connect(
-            lambda _, most: most and self.setVerticalScrollBarPolicy(_KEPT)
-        )
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.setVerticalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setWidget(panel)
 
-    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
-        """Find out anew which scroll bars are needed."""
-        if self.size() != self._fitted:  # not only the view of the panel, because of a bar
-            self._fitted = self.size()
-            self.setHorizontalScrollBarPolicy(_AS_NEEDED)
-            self.setVerticalScrollBarPolicy(_AS_NEEDED)
-        super().resizeEvent(event)
+    def bar_width(self) -> int:
+        """Return the thickness of a scroll bar, px."""
+        return self.verticalScrollBar().sizeHint().width()
 
     def give_room(self, room: QSize) -> None:
         """Ask for no more than this from now on, px."""
@@ -92,23 +81,32 @@ class PanelFrame(QScrollArea):
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
         """Ask for what the panel needs, if there is so much room."""
-        self._told = self._needed()
+        self._told = self._needed().boundedTo(self._room)
         return self._told
 
     def sizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
         """Ask for what the panel would like, if there is so much room."""
         panel = self.widget()
-        wanted = QSize() if panel is None else panel.sizeHint()
-        return wanted.boundedTo(self._room).expandedTo(self._needed())
+        wanted = QSize(0, 0) if panel is None else panel.sizeHint()
+        return wanted.expandedTo(self._needed()).boundedTo(self._room)
 
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
+        """Fit the panel into the frame."""
+        super().resizeEvent(event)
+        if self.size() != self._fitted:  # not only the view of the panel, because of a bar
+            self._fitted, self._freed = self.size(), 0
+            self._fit()
+
+    def event(self, event: QEvent) -> bool:
         """Be laid out anew where the panel needs another size, not at each change in it."""
-        if event.type() == QEvent.Type.LayoutRequest:
+        done = super().event(event)
+        if event.type() == QEvent.Type.LayoutRequest:  # of the panel: it has no other receiver
             self._tell()
-        return super().eventFilter(watched, event)
+            self._fit()
+        return done
 
     def _tell(self) -> None:
-        if self._needed() != self._told:
+        if self._needed().boundedTo(self._room) != self._told:
             self.updateGeometry()
 
     def _needed(self) -> QSize:
@@ -117,8 +115,28 @@ class PanelFrame(QScrollArea):
             return QSize(0, 0)
         least, fixed = panel.minimumSizeHint().expandedTo(QSize(0, 0)), panel.minimumSize()
         # As everywhere in Qt, a size that was set takes the place of the one that is computed.
-        width, height = fixed.width() or least.width(), fixed.height() or least.height()
-        return QSize(width, height).boundedTo(self._room)
+        return QSize(fixed.width() or least.width(), fixed.height() or least.height())
+
+    def _fit(self) -> None:
+        """Give the panel the size of the frame, or what it needs, and show the bars for that."""
+        panel, whole, needed = self.widget(), self.contentsRect().size(), self._needed()
+        if panel is None:
+            return
+        thick = self.bar_width()
+        down = needed.height() > whole.height()
+        across = needed.width() > whole.width() - thick * down
+        down = needed.height() > whole.height() - thick * across
+        if (self._across and not across) or (self._down and not down):
+            # A panel that asks for less because of a bar would make it come and go for ever.
+            self._freed += 1
+            if self._freed > _MOST_FREED:
+                across, down = across or self._across, down or self._down
+        self._across, self._down = across, down
+        on, off = Qt.ScrollBarPolicy.ScrollBarAlwaysOn, Qt.ScrollBarPolicy.ScrollBarAlwaysOff
+        self.setHorizontalScrollBarPolicy(on if across else off)
+        self.setVerticalScrollBarPolicy(on if down else off)
+        view = whole - QSize(thick * down, thick * across)
+        panel.resize(view.expandedTo(needed))
 
 
 def frame_of(panel: QWidget) -> QWidget:
