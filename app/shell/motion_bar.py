@@ -76,7 +76,7 @@ class OwnerChip(QLabel):
 
     def _show(self, owners: str, axes: str) -> None:
         self._told = owners
-        self.setText(sentence(owners) if owners else translate("shell", "Free"))
+        self.setText(sentence(owners) if owners else translate("shell", "No one is driving"))
         set_tone(self, Tone.BUSY if owners else Tone.QUIET)
         self.setToolTip(
             plain_tip(
@@ -155,7 +155,7 @@ class EventsChip(QToolButton):
         self._show()
 
     def _show(self) -> None:
-        self.setText(translate("shell", "Events {n}").format(n=self._count))
+        self.setText(translate("shell", "Warnings {n}").format(n=self._count))
 
 
 class MotionBar(QToolBar):

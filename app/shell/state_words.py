@@ -5,10 +5,11 @@ from collections.abc import Iterable
 from rotemina.app.display_units import duration_text, label
 from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.motion.playback import PlaybackState
-from rotemina.app.motion.state import SessionState
+from rotemina.app.motion.state import Connection, SessionState
 from rotemina.app.motion.stop import StopRequest
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
+from rotemina.drivers.samples import DeviceState
 from rotemina.sim.quantities import amount, fixed
 from rotemina.sim.robot.model import Robot
 
@@ -25,6 +26,17 @@ def describe_movers(state: SessionState) -> str:
         for owner, axes in owned.items()
     ]
     return "; ".join(sentences)
+
+
+def describe_motion(state: SessionState) -> str:
+    """Return who moves which axes, that none moves, or that nobody can know."""
+    if movers := describe_movers(state):
+        return movers
+    if state.connection is not Connection.CONNECTED or state.silent_s > 0.0:
+        return translate("shell", "Not known: the machine does not answer.")
+    if state.activity in (DeviceState.MOVING, DeviceState.PLAYING, DeviceState.HOMING):
+        return translate("shell", "Axes are moving.")
+    return translate("shell", "No axis is moving.")
 
 
 def describe_stop(request: StopRequest) -> str:

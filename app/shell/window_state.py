@@ -162,12 +162,12 @@ def _describe_latch(snapshot: WindowSnapshot) -> StateDisplay | None:
         text = translate("shell", "The axes are still coming to rest.")
     elif state.stop is not None and state.latched == LOCKED == state.stop.why:
         if state.stop.by == OPERATOR:
-            by = translate("shell", "Locked by the operator at {time}; Release lets it move again.")
+            by = translate("shell", "Locked by the operator at {time}. Release it to move.")
         else:
-            by = translate("shell", "Locked by the program at {time}; Release lets it move again.")
+            by = translate("shell", "Locked by the program at {time}. Release it to move.")
         text = by.format(time=f"{state.stop.at:%H:%M:%S}")
     else:
-        held = translate("shell", "{reason} is active; Release lets it move again.")
+        held = translate("shell", "{reason} is active. Release it to move.")
         text = held.format(reason=sentence(spoken(state.latched)))
     return StateDisplay(translate("shell", "Locked"), text, Tone.DANGER, Remedy.RELEASE)
 

@@ -4,7 +4,7 @@ from PySide6.QtWidgets import QHBoxLayout, QPushButton
 
 from rotemina.app.display_units import label
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.state_words import describe_movers
+from rotemina.app.shell.state_words import describe_motion
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button
 from rotemina.app.widgets.section import Section
@@ -42,7 +42,7 @@ class PositionSection(Section):
             ),
             tr("Return to the position before the latest move: up, across, down"),
         )
-        self.owners.setText(describe_movers(state) or tr("No axis is moving."))
+        self.owners.setText(describe_motion(state))
 
     def _offer(self, axes: tuple[str, ...]) -> None:
         """Have a button for each axis that has a switch."""

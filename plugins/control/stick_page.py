@@ -6,13 +6,14 @@ from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.motion.state import SessionState
 from rotemina.app.motion.teleoperation.scaling import STEP_PRESETS
 from rotemina.app.panel import STALE_S
+from rotemina.app.shell.state_words import describe_motion
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button, plain_tip
 from rotemina.app.widgets.labels import ElidedLabel
 from rotemina.app.widgets.layouts import in_column, in_grid, in_row
 from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.plugins.control import tr
-from rotemina.plugins.control.wording import owners_text, taken
+from rotemina.plugins.control.wording import taken
 from rotemina.plugins.teleoperation.wording import law_choices, mode_choice, reason_text, trust_text
 from rotemina.sim.quantities import rounded
 
@@ -56,7 +57,7 @@ class HandPage(QWidget):
                 box.setCurrentIndex(box.findData(value))
         self.trust.show_text(trust_text(view))
         self.reason.show_text(steered.refused or reason_text(steered, stale=stale))
-        self.owners.show_text(owners_text(state) or tr("No axis is moving."))
+        self.owners.show_text(describe_motion(state))
         others = taken(state)
         allow(
             self.over,

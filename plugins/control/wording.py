@@ -10,7 +10,6 @@ from rotemina.app.motion.ranges import Range
 from rotemina.app.motion.state import SessionState
 from rotemina.app.motion.teleoperation.teleoperation_state import TeleoperationState
 from rotemina.app.panel import STALE_S
-from rotemina.app.shell.engine_words import spoken
 from rotemina.plugins.control import mark, tr
 from rotemina.sim.kinematics.keep_out import SLOW_HEIGHT, SLOW_SPEED, KeepOutZone
 from rotemina.sim.quantities import Scale, exact, fixed, parsed, rounded
@@ -259,14 +258,6 @@ def _millimetres(metres: float) -> str:
 def taken(state: SessionState) -> tuple[str, ...]:
     """Return the axes that someone else drives from whom they may be taken over."""
     return tuple(axis for axis, owner in state.owners.items() if owner not in _NOT_TAKEN)
-
-
-def owners_text(state: SessionState) -> str:
-    """Return who drives which axes."""
-    by_owner: dict[str, list[str]] = {}
-    for axis, owner in state.owners.items():
-        by_owner.setdefault(owner, []).append(label(axis))
-    return "; ".join(f"{spoken(owner)}: {', '.join(axes)}" for owner, axes in by_owner.items())
 
 
 def steering_text(state: TeleoperationState, device: str) -> str:

@@ -179,7 +179,7 @@ class PlotsPanel(Panel):
         self.cursors.setCheckable(True)
         self.cursors.setToolTip(tr("Two lines to drag; their values appear above each plot"))
         self.cursors.toggled.connect(lambda _: self._show_cursors())
-        self.pause = QPushButton(tr("Pause"))
+        self.pause = QPushButton(tr("Freeze"))
         self.pause.setCheckable(True)
         self.pause.setToolTip(tr("Freeze the plots; motion, recording and replay continue"))
         self.pause.toggled.connect(self._hold)

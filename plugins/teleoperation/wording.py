@@ -152,7 +152,7 @@ def reason_text(state: TeleoperationState, *, stale: bool) -> str:
     if stale:
         return tr("The input devices do not respond: stop the machine and restart the program.")
     if state.reason is not None:
-        return tr("No motion: {reason}.").format(reason=spoken(state.reason))
+        return tr("Hand control waits: {reason}.").format(reason=spoken(state.reason))
     return "" if state.driving else tr("Moves with the stick.")
 
 

@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.app.display_units import axis_scale, label
+from rotemina.app.motion.playback import PlaybackPhase
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel, offer_in_palette
 from rotemina.app.shell.engine_words import error_text, spoken
@@ -304,6 +305,8 @@ class TrajectoryPanel(Panel):
         self.points.refresh(state)
         playback, plan = self.workbench.playback.state, self.workbench.plan
         gaps, moved = playback.gaps, describe_moved(self.workbench.robot, playback)
+        # Only from rest does the next motion begin with the way to the first row.
+        self.path.show_tip(state.tip, approaches=playback.phase is PlaybackPhase.IDLE)
         self.gaps.setVisible(bool(gaps or moved))
         set_property(self.gaps, "bad", bool(moved))
         if moved:

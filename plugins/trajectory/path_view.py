@@ -28,15 +28,18 @@ class PathView(QWidget):
         self._rows = np.empty((0, 3))
         self._out = np.empty(0, dtype=bool)
         self._drawn: QPixmap | None = None
+        self._frames: list[TipFrame] = []  # of the drawn views
+        self._tip: tuple[float, float, float] | None = None
+        self._approaches = True
         self.whole = False
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Expanding)
         self.setAccessibleName(tr("Path of the tip"))
         self.setToolTip(
             plain_tip(
                 tr(
-                    "Path of the tip from above and from the side; dashed: approach to the "
-                    "first row; red: forbidden by floor, objective or radius; frame: reach of "
-                    "the axes."
+                    "Path of the tip from above and from the side; dot: where the tip is; "
+                    "dashed: approach to the first row; red: forbidden by floor, objective or "
+                    "radius; frame: reach of the axes."
                 ),
                 tr("Click to switch between the whole reach and the path."),
             )
@@ -61,6 +64,12 @@ class PathView(QWidget):
             )
         self._renew()
 
+    def show_tip(self, tip: tuple[float, float, float] | None, *, approaches: bool) -> None:
+        """Mark where the tip is, m, and its way to the first row if the next motion begins so."""
+        if (tip, approaches) != (self._tip, self._approaches):
+            self._tip, self._approaches = tip, approaches
+            self.update()
+
     def set_theme(self, theme: Theme) -> None:
         """Change all colours."""
         self._theme = theme
@@ -81,6 +90,10 @@ class PathView(QWidget):
             self._drawn = self._draw(path)
         painter = QPainter(self)
         painter.drawPixmap(0, 0, self._drawn)
+        if self._tip is not None:
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+            for frame in self._frames:
+                self._draw_tip(painter, path, frame, np.array(self._tip))
         painter.end()
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 (Qt's name)
@@ -105,9 +118,11 @@ class PathView(QWidget):
         painter = QPainter(picture)
         painter.setFont(self.font())
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        self._frames = []
         for left, up in ((0.0, 1), (width + _GAP, 2)):
-            area = QRectF(left, _CAPTION, width, height)
-            self._draw_view(painter, path, TipFrame(area, middle, scale, up))
+            frame = TipFrame(QRectF(left, _CAPTION, width, height), middle, scale, up)
+            self._frames.append(frame)
+            self._draw_view(painter, path, frame)
             painter.setPen(QColor(self._theme.quiet))
             caption = tr("above: x, y") if up == 1 else tr("side: x, z")
             painter.drawText(QRectF(left, 0, width, _CAPTION), Qt.AlignmentFlag.AlignLeft, caption)
@@ -137,13 +152,19 @@ class PathView(QWidget):
         reach = Workspace.of(path.zone.chain).hull
         painter.setPen(QPen(QColor(theme.line), 1.0))
         painter.drawRect(QRectF(frame.point(reach.low), frame.point(reach.high)).normalized())
-        painter.setPen(QPen(QColor(theme.quiet), 1.0, Qt.PenStyle.DashLine))
-        painter.drawLine(frame.point(path.now), frame.point(path.rows[0]))
         painter.setPen(QPen(QColor(theme.accent), 1.5))
         painter.drawPolyline(frame.points(self._rows))
         painter.setPen(QPen(QColor(theme.danger_text), 3.0))
         painter.drawPoints(frame.points(self._rows[self._out]))
+        painter.restore()
+
+    def _draw_tip(self, painter: QPainter, path: TipPath, frame: TipFrame, tip: FloatArray) -> None:
+        painter.save()
+        painter.setClipRect(frame.area)
+        if self._approaches:
+            painter.setPen(QPen(QColor(self._theme.quiet), 1.0, Qt.PenStyle.DashLine))
+            painter.drawLine(frame.point(tip), frame.point(path.rows[0]))
         painter.setPen(Qt.PenStyle.NoPen)
-        painter.setBrush(QColor(theme.text))
-        painter.drawEllipse(frame.point(path.now), 3.0, 3.0)
+        painter.setBrush(QColor(self._theme.text))
+        painter.drawEllipse(frame.point(tip), 3.0, 3.0)
         painter.restore()

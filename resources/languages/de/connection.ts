@@ -476,10 +476,6 @@
         <translation>Zur Position vor der letzten Bewegung zurückfahren: hoch, quer, ab</translation>
     </message>
     <message>
-        <source>No axis is moving.</source>
-        <translation>Keine Achse bewegt sich.</translation>
-    </message>
-    <message>
         <source>Not homed: {axes}</source>
         <translation>Nicht referenziert: {axes}</translation>
     </message>

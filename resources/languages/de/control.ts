@@ -689,10 +689,6 @@
         <translation>Achsen übernehmen, die eine andere Steuerung bewegt; sie fahren bis zum ersten eigenen Befehl weiter</translation>
     </message>
     <message>
-        <source>No axis is moving.</source>
-        <translation>Keine Achse bewegt sich.</translation>
-    </message>
-    <message>
         <source>no other control moves an axis</source>
         <translation>keine andere Steuerung bewegt eine Achse</translation>
     </message>

@@ -103,10 +103,6 @@
         <translation>Cursor</translation>
     </message>
     <message>
-        <source>Pause</source>
-        <translation>Pause</translation>
-    </message>
-    <message>
         <source>More</source>
         <translation>Mehr</translation>
     </message>
@@ -165,6 +161,10 @@
     <message>
         <source>Two lines to drag; their values appear above each plot</source>
         <translation>Zwei verschiebbare Linien; ihre Werte stehen über jedem Diagramm</translation>
+    </message>
+    <message>
+        <source>Freeze</source>
+        <translation>Einfrieren</translation>
     </message>
     <message>
         <source>Freeze the plots; motion, recording and replay continue</source>

@@ -996,10 +996,6 @@
         <translation>Warnungen und Fehler, seit das Protokoll geöffnet wurde (Strg+L)</translation>
     </message>
     <message>
-        <source>Events {n}</source>
-        <translation>Ereignisse {n}</translation>
-    </message>
-    <message>
         <source>Motion</source>
         <translation>Bewegung</translation>
     </message>
@@ -1180,16 +1176,16 @@
         <translation>Die Achsen kommen noch zur Ruhe.</translation>
     </message>
     <message>
-        <source>Locked by the operator at {time}; Release lets it move again.</source>
-        <translation>Vom Bediener um {time} gesperrt; nach Freigeben lässt sie sich wieder bewegen.</translation>
+        <source>Locked by the operator at {time}. Release it to move.</source>
+        <translation>Vom Bediener um {time} gesperrt. Erst freigeben.</translation>
     </message>
     <message>
-        <source>Locked by the program at {time}; Release lets it move again.</source>
-        <translation>Vom Programm um {time} gesperrt; nach Freigeben lässt sie sich wieder bewegen.</translation>
+        <source>Locked by the program at {time}. Release it to move.</source>
+        <translation>Vom Programm um {time} gesperrt. Erst freigeben.</translation>
     </message>
     <message>
-        <source>{reason} is active; Release lets it move again.</source>
-        <translation>{reason} ist aktiv; nach Freigeben lässt sie sich wieder bewegen.</translation>
+        <source>{reason} is active. Release it to move.</source>
+        <translation>{reason} ist aktiv. Erst freigeben.</translation>
     </message>
     <message>
         <source>Locked</source>
@@ -1320,6 +1316,18 @@
         <translation>{owner} bewegt {axes}</translation>
     </message>
     <message>
+        <source>Not known: the machine does not answer.</source>
+        <translation>Unbekannt: die Maschine antwortet nicht.</translation>
+    </message>
+    <message>
+        <source>Axes are moving.</source>
+        <translation>Achsen bewegen sich.</translation>
+    </message>
+    <message>
+        <source>No axis is moving.</source>
+        <translation>Keine Achse bewegt sich.</translation>
+    </message>
+    <message>
         <source>Stopped by the operator at {time}</source>
         <translation>Vom Bediener um {time} angehalten</translation>
     </message>
@@ -1373,6 +1381,10 @@
         <translation>Diese Arbeit abbrechen</translation>
     </message>
     <message>
+        <source>No one is driving</source>
+        <translation>Niemand steuert</translation>
+    </message>
+    <message>
         <source>Recording</source>
         <translation>Aufnahme</translation>
     </message>
@@ -1383,6 +1395,10 @@
     <message>
         <source>● {time}  {size}</source>
         <translation>● {time}  {size}</translation>
+    </message>
+    <message>
+        <source>Warnings {n}</source>
+        <translation>Warnungen {n}</translation>
     </message>
     <message>
         <source>Phase in the recording</source>
@@ -1744,10 +1760,6 @@ Einstellungen: {settings}</translation>
     <message>
         <source>Who moves the machine</source>
         <translation>Wer die Maschine bewegt</translation>
-    </message>
-    <message>
-        <source>Free</source>
-        <translation>Frei</translation>
     </message>
     <message>
         <source>Open or close this panel</source>

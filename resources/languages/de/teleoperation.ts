@@ -311,6 +311,10 @@ Leer  Kupplung</translation>
         <translation>wartet</translation>
     </message>
     <message>
+        <source>Hand control waits: {reason}.</source>
+        <translation>Handsteuerung wartet: {reason}.</translation>
+    </message>
+    <message>
         <source>input devices are being set up</source>
         <translation>Eingabegeräte werden eingerichtet</translation>
     </message>
@@ -497,10 +501,6 @@ Leer  Kupplung</translation>
     <message>
         <source>blocked</source>
         <translation>blockiert</translation>
-    </message>
-    <message>
-        <source>No motion: {reason}.</source>
-        <translation>Keine Bewegung: {reason}.</translation>
     </message>
     <message>
         <source>{driver} is in control; take over to use the pad</source>

@@ -235,6 +235,10 @@
         <translation>Bahn der Spitze</translation>
     </message>
     <message>
+        <source>Path of the tip from above and from the side; dot: where the tip is; dashed: approach to the first row; red: forbidden by floor, objective or radius; frame: reach of the axes.</source>
+        <translation>Weg der Spitze von oben und von der Seite; Punkt: wo die Spitze ist; gestrichelt: Anfahrt zur ersten Zeile; rot: durch Boden, Objektiv oder Radius verboten; Rahmen: Reichweite der Achsen.</translation>
+    </message>
+    <message>
         <source>{share:.0f} % of the rows are forbidden</source>
         <translation>{share:.0f} % der Zeilen sind verboten</translation>
     </message>
@@ -321,10 +325,6 @@
     <message>
         <source>Make a trajectory from the points and check it in a dry run</source>
         <translation>Aus den Punkten eine Trajektorie erzeugen und im Probelauf prüfen</translation>
-    </message>
-    <message>
-        <source>Path of the tip from above and from the side; dashed: approach to the first row; red: forbidden by floor, objective or radius; frame: reach of the axes.</source>
-        <translation>Bahn der Spitze von oben und von der Seite; gestrichelt: Anfahrt zur ersten Zeile; rot: verboten durch Boden, Objektiv oder Radius; Rahmen: Reichweite der Achsen.</translation>
     </message>
     <message>
         <source>Click to switch between the whole reach and the path.</source>

@@ -48,18 +48,17 @@ def test_a_chip_that_was_dropped_still_does_what_it_does(window, monkeypatch):
     bar = resized(window, 1000)
     assert not bar.events.isVisible()
     assert bar.row.dropped.isVisible()
-    entries(bar.row.dropped)["Events 0"].trigger()
+    entries(bar.row.dropped)["Warnings 0"].trigger()
     assert window.log_page.isVisible()
     window.log_page.hide()
-    assert not entries(bar.row.dropped)["Free"].isEnabled()
+    assert not entries(bar.row.dropped)["No one is driving"].isEnabled()
 
 
 def test_a_recording_is_shown_before_any_other_chip(window):
     bar = resized(window, 1000)
     before = bar.recording.isVisible()
-    bar.row.fill(bar.recording, full=True)
     bar.recording.setText("● 12:34  5 MB")
-    settle()
+    bar.row.fill(bar.recording, full=True)  # without a frame, in which nothing is recorded
     assert not before
     assert bar.recording.isVisible()
     assert not bar.owner.isVisible()

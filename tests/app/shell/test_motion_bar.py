@@ -54,7 +54,7 @@ def test_the_phase_and_the_reason_are_shown(qtbot, window):
     bench.emergency_stop()
     qtbot.waitUntil(lambda: bar.doing.text().startswith("Locked by the operator"), timeout=LONG_MS)
     assert bar.phase.property("tone") == "danger"
-    qtbot.waitUntil(lambda: bar.owner.text() == "Free", timeout=LONG_MS)
+    qtbot.waitUntil(lambda: bar.owner.text() == "No one is driving", timeout=LONG_MS)
 
 
 def test_escape_with_shift_latches_and_without_does_not(qtbot, window, press_escape):
@@ -358,10 +358,10 @@ def test_what_is_noticed_is_counted_until_the_log_is_opened(qtbot, window):
     bar = window._bar
     window.workbench.notify(Level.WARNING, "something")
     window.workbench.notify(Level.INFO, "a word")
-    assert bar.events.text() == "Events 1"
+    assert bar.events.text() == "Warnings 1"
     click(qtbot, bar.events)
     assert window.log_page.isVisible()
-    assert bar.events.text() == "Events 0"
+    assert bar.events.text() == "Warnings 0"
 
 
 def test_play_waits_until_what_was_switched_has_settled(qtbot, window):

@@ -12,6 +12,7 @@ from rotemina.app.motion.playback import PAUSE_REASON, PlaybackPhase, PlaybackSt
 from rotemina.app.motion.resuming import ResumeStep
 from rotemina.app.motion.state import Connection, SessionState, lock_reason
 from rotemina.app.motion.stop import LOCKED, StopRequest
+from rotemina.app.shell.state_words import describe_motion
 from rotemina.app.shell.tones import Tone
 from rotemina.app.shell.window_state import Remedy, WindowSnapshot, describe_state
 from rotemina.drivers.samples import DeviceState
@@ -106,7 +107,7 @@ ROWS = [
         state(latched=LOCKED, stop=StopRequest("operator", LOCKED, AT), halted=True),
         {"playback": PAUSED},
         "Locked",
-        "Locked by the operator at 12:03:04; Release lets it move again.",
+        "Locked by the operator at 12:03:04. Release it to move.",
         "danger",
         Remedy.RELEASE,
     ),
@@ -114,7 +115,7 @@ ROWS = [
         state(latched="the stick's stop"),
         {},
         "Locked",
-        "The stick's stop is active; Release lets it move again.",
+        "The stick's stop is active. Release it to move.",
         "danger",
         Remedy.RELEASE,
     ),
@@ -421,3 +422,17 @@ def test_no_work_is_worded_against_the_state_in_which_it_is_done(more):
                 **obstacle,
             )
             check_display(session, more)
+
+
+@pytest.mark.parametrize(
+    ("session", "words"),
+    [
+        (state(), "No axis is moving."),
+        (state(activity=DeviceState.MOVING), "Axes are moving."),
+        (state(owners={"x": "operator"}), "Operator moves X"),
+        (state(silent_s=0.4), "Not known: the machine does not answer."),
+        (state(connection=Connection.FAILED), "Not known: the machine does not answer."),
+    ],
+)
+def test_nothing_is_said_to_rest_that_nobody_sees(session, words):
+    assert describe_motion(session) == words

@@ -101,7 +101,7 @@ SIMULATOR, BOARDS = "SIMULATOR", "VIRTUAL BOARDS"
         (pause, SIMULATOR, "Paused at row", "Resume goes on from here", "", "warning"),
         (
             lambda _, window: window.workbench.emergency_stop(),
-            *(SIMULATOR, "Locked", "Release lets it move again", "Release", "danger"),
+            *(SIMULATOR, "Locked", "Release it to move", "Release", "danger"),
         ),
         (
             report_a_fault,

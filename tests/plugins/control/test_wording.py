@@ -17,7 +17,6 @@ from rotemina.plugins.control.wording import (
     echo,
     grade_of,
     is_little,
-    owners_text,
     range_tip,
     room_left_text,
     status_text,
@@ -92,9 +91,8 @@ def test_what_is_left_of_a_piezo_is_the_way_to_the_nearer_end():
     assert "2.000 µm up" in range_tip("zn", high - 2e-6, ZN.range, UM)
 
 
-def test_owners_are_named_and_a_playback_cannot_be_taken_over():
+def test_a_playback_cannot_be_taken_over():
     state = SessionState(owners={"x": "joystick", "y": "joystick", "zn": "playback"})
-    assert owners_text(state) == "joystick: X, Y; playback: Z nano"
     assert taken(state) == ("x", "y")
 
 

@@ -81,7 +81,7 @@ def test_how_it_stands_is_one_word(state, stale, word, tone):
 def test_a_loop_that_does_not_answer_is_told_before_all_else():
     assert "do not respond" in wording.reason_text(replace(STATE, driving=True), stale=True)
     held = replace(STATE, reason="the machine is playing")
-    assert wording.reason_text(held, stale=False) == "No motion: the machine is playing."
+    assert wording.reason_text(held, stale=False) == "Hand control waits: the machine is playing."
 
 
 @pytest.mark.parametrize(
