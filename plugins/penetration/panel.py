@@ -56,7 +56,7 @@ class PenetrationPanel(Panel):
         self._last_inputs: object = ()
         self._problem = ""
         self.bar = RunBar(workbench)
-        self.message = named(plain_text(quiet=False, lines=2), tr("State of the penetration"))
+        self.message = named(plain_text(quiet=False, lines=3), tr("State of the penetration"))
         self.form = ParameterForm(workbench.robot, self._operation.penetration_parameters)
         self._planning = Background(self)
         self._planned_for = workbench.session.driver

@@ -166,7 +166,7 @@ class RunBar(RunButtons):
 
 def _chip(text: str) -> QLabel:
     chip = plain_text(text, quiet=False)
-    chip.setStyleSheet("padding: 1px 5px;")  # six of them in one row
+    chip.setStyleSheet("padding: 1px 3px;")  # six of them in one row
     chip.setMinimumWidth(16)  # in a narrow dock they are cut; the phase stands before them
     chip.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
     return chip
