@@ -2342,7 +2342,7 @@ Bedienfenster eines hybriden Roboters zur Zellmanipulation, mit Diagnose der Abw
     </message>
     <message>
         <source>What the header has no room for</source>
-        <translation>Wofür der Kopf keinen Platz hat</translation>
+        <translation>Wofür die Kopfzeile keinen Platz hat</translation>
     </message>
 </context>
 </TS>
