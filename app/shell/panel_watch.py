@@ -14,12 +14,14 @@ import logging
 import sys
 import threading
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, MutableMapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, MutableMapping
 from contextlib import contextmanager
 from types import FrameType, TracebackType
 
 from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtGui import QPainter
 from PySide6.QtWidgets import QDockWidget, QMainWindow, QTabWidget, QWidget
+from shiboken6 import isValid
 
 from rotemina.app.panel import Panel
 from rotemina.app.shell.help_topics import Explained, Remedy
@@ -165,15 +167,16 @@ class PanelWatch(QObject):
         if painting or self._faults[name] >= MOST_FAULTS:
             panel = self._panels.pop(name)
             dock = self._docks.pop(name, None)
+            _end_painters(frames, panel)
             text = (
                 translate("shell", "Panel {name!r} is left out: it cannot be drawn: {error}")
                 if painting
                 else translate("shell", "Panel {name!r} is left out after {n} faults: {error}")
             )
             told = text.format(name=name, n=self._faults[name], error=_said(error))
-            self._tell(Level.ERROR, self._explained(told, name))
+            notice = self._explained(told, name)
             # Not now: this may be in the middle of the panel's own event.
-            QTimer.singleShot(0, self._window, lambda: self._take_out(panel, dock))
+            QTimer.singleShot(0, self._window, lambda: self._take_out(panel, dock, notice))
         elif self._faults[name] == 1:
             text = translate("shell", "Panel {name!r} has failed: {error}")
             told = text.format(name=name, error=_said(error))
@@ -192,8 +195,9 @@ class PanelWatch(QObject):
         above = _upwards(module)
         return next((self._modules[one] for one in above if one in self._modules), None)
 
-    def _take_out(self, panel: Panel, dock: QDockWidget | None) -> None:
+    def _take_out(self, panel: Panel, dock: QDockWidget | None, notice: Explained) -> None:
         """Take a panel out of the window and end it, with its timers and what it listens to."""
+        self._tell(Level.ERROR, notice)
         panel.hide()
         if dock is not None:
             self._window.removeDockWidget(dock)
@@ -203,6 +207,17 @@ class PanelWatch(QObject):
             tabs.removeTab(tabs.indexOf(page))
             page.deleteLater()
         panel.deleteLater()
+
+
+def _end_painters(frames: Iterable[FrameType], panel: Panel) -> None:
+    """End the painters that a failed paint event has left active.
+
+    Qt would paint and resize the whole window beneath them, and crash.
+    """
+    for holder in (*(frame.f_locals for frame in frames), vars(panel)):
+        for value in list(holder.values()):
+            if isinstance(value, QPainter) and isValid(value) and value.isActive():
+                value.end()
 
 
 def _said(error: BaseException) -> str:

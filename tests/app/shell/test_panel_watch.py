@@ -19,6 +19,7 @@ THEIRS = """
 import sys
 
 from PySide6.QtCore import QTimer
+from PySide6.QtGui import QPainter
 from PySide6.QtWidgets import QLabel
 
 
@@ -27,6 +28,7 @@ class Fragile(QLabel):
 
     def paintEvent(self, event):
         if self.paints_badly:
+            self.painter = QPainter(self)
             raise ValueError("no colour")
 
     def click(self):
@@ -105,6 +107,17 @@ def test_one_that_cannot_paint_is_left_out_at_once(make):
     assert docks == {}
     assert list(panels) == ["tabbed"]
     assert window.findChildren(QDockWidget) == []
+
+
+def test_painters_that_a_failed_paint_event_leaves_are_ended_before_qt_goes_on(make):
+    _, panels, _, told = make()
+    bad = panels["docked"]
+    bad.paints_badly = True
+    bad.repaint()
+    assert not told  # a notice is not shown in the middle of painting
+    assert not bad.painter.isActive()
+    settle()
+    assert told
 
 
 def test_of_two_in_one_module_the_one_that_fails_is_left_out(make):

@@ -181,7 +181,9 @@ def playback(op):
     yield "load the example", example, lambda: bench.plan is not None and op.rests
     yield "play", nothing, play.isEnabled
     yield "play", play.click, op.phase(phase.PLAYING)
+    yield "play", nothing, play.isEnabled  # for half a second no press counts
     yield "pause", play.click, op.phase(phase.PAUSED)
+    yield "pause", nothing, play.isEnabled
     yield "resume", play.click, op.phase(phase.PLAYING)
     yield "play to the end", nothing, op.run_after(None)
     yield "play", nothing, play.isEnabled
