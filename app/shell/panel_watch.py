@@ -21,7 +21,7 @@ from types import FrameType, TracebackType
 from PySide6.QtCore import QObject, QTimer, Signal
 from PySide6.QtGui import QPainter
 from PySide6.QtWidgets import QDockWidget, QMainWindow, QTabWidget, QWidget
-from shiboken6 import isValid
+from shiboken6 import invalidate, isValid
 
 from rotemina.app.panel import Panel
 from rotemina.app.shell.help_topics import Explained, Remedy
@@ -120,7 +120,7 @@ class PanelWatch(QObject):
         try:
             yield
         except BaseException as error:
-            if not self._noted(error, error.__traceback__):
+            if not self._noted(error, error.__traceback__, handle_painter=invalidate):
                 raise
 
     def _on_thread(self, seen: threading.ExceptHookArgs) -> None:
@@ -153,8 +153,17 @@ class PanelWatch(QObject):
         elif times & (times - 1) == 0:
             logger.error("the same fault of the program, %d times so far: %s", times, _said(error))
 
-    def _noted(self, error: BaseException, trace: TracebackType | None) -> bool:
-        """Judge an exception, and return whether it is that of a panel that is watched."""
+    def _noted(
+        self,
+        error: BaseException,
+        trace: TracebackType | None,
+        handle_painter: Callable[[QPainter], object] = QPainter.end,
+    ) -> bool:
+        """Judge an exception, and return whether it is that of a panel that is watched.
+
+        ``handle_painter`` is called for each painter that it has left active. To end one is right
+        within the paint event alone: later, what it painted on may be gone, and Qt would crash.
+        """
         frames = list(_frames(trace))
         name = next(filter(None, map(self._owner, frames)), None)
         if name is None:
@@ -167,7 +176,8 @@ class PanelWatch(QObject):
         if painting or self._faults[name] >= MOST_FAULTS:
             panel = self._panels.pop(name)
             dock = self._docks.pop(name, None)
-            _end_painters(frames, panel)
+            for painter in _active_painters(frames, panel):
+                handle_painter(painter)
             text = (
                 translate("shell", "Panel {name!r} is left out: it cannot be drawn: {error}")
                 if painting
@@ -209,15 +219,15 @@ class PanelWatch(QObject):
         panel.deleteLater()
 
 
-def _end_painters(frames: Iterable[FrameType], panel: Panel) -> None:
-    """End the painters that a failed paint event has left active.
+def _active_painters(frames: Iterable[FrameType], panel: Panel) -> Iterator[QPainter]:
+    """Yield the painters that a failed paint event has left active.
 
     Qt would paint and resize the whole window beneath them, and crash.
     """
     for holder in (*(frame.f_locals for frame in frames), vars(panel)):
         for value in list(holder.values()):
             if isinstance(value, QPainter) and isValid(value) and value.isActive():
-                value.end()
+                yield value
 
 
 def _said(error: BaseException) -> str:
