@@ -92,12 +92,13 @@ class Background(QObject):
             thread.join(timeout_s)
         return thread is None or not thread.is_alive()
 
-    def end(self, timeout_s: float = 10.0) -> bool:
-        """Wait as :meth:`wait` does, and let no answer arrive afterwards.
-
-        This is for closing the window: what an answer would be shown on is about to be deleted.
-        """
+    def drop_answers(self) -> None:
+        """Let no answer arrive to what was asked until now: what would show it is going."""
         self._requests.clear()
+
+    def end(self, timeout_s: float = 10.0) -> bool:
+        """Wait as :meth:`wait` does, and let no answer arrive afterwards: the window closes."""
+        self.drop_answers()
         return self.wait(timeout_s)
 
     def _work_off(self) -> None:

@@ -19,9 +19,9 @@ from rotemina.app.shell.helping_button import HelpingButton
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.machine_badge import MachineBadge
 from rotemina.app.shell.model_chip import ModelChip
+from rotemina.app.shell.state_tone import PhaseLabel, Tone, set_tone
 from rotemina.app.shell.state_words import describe_movers, sentence
 from rotemina.app.shell.stop_controls import EmergencyButton, StopButton
-from rotemina.app.shell.tones import PhaseLabel, Tone, set_tone
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import plain_tip
 from rotemina.app.widgets.labels import ElidedLabel

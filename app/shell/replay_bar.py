@@ -10,8 +10,8 @@ from rotemina.app.motion.recording.replay_pace import SPEEDS
 from rotemina.app.motion.state import SessionState
 from rotemina.app.recorded_events import timeline_events
 from rotemina.app.shell.language import translate
+from rotemina.app.shell.state_tone import PhaseLabel, Tone, set_tone
 from rotemina.app.shell.timeline import Timeline
-from rotemina.app.shell.tones import PhaseLabel, Tone, set_tone
 from rotemina.app.shell.window_state import WindowSnapshot, describe_state
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.flow_layout import FlowLayout

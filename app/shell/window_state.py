@@ -14,6 +14,7 @@ from rotemina.app.motion.state import Connection, SessionState
 from rotemina.app.motion.stop import LOCKED
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
+from rotemina.app.shell.state_tone import Tone
 from rotemina.app.shell.state_words import (
     age_text,
     axes_text,
@@ -22,7 +23,6 @@ from rotemina.app.shell.state_words import (
     describe_stop,
     sentence,
 )
-from rotemina.app.shell.tones import Tone
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.robot.model import Robot
 

@@ -40,7 +40,7 @@ class PortFinder(QObject):
         super().__init__(parent)
         self._background = Background(self)
         self._workbench = workbench
-        workbench.closing.connect(self._background.wait)
+        workbench.closing.connect(self._background.end)
 
     def look(self) -> None:
         """Look again."""

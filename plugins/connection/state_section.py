@@ -2,7 +2,7 @@
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.tones import PhaseLabel
+from rotemina.app.shell.state_tone import PhaseLabel
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button
 from rotemina.app.widgets.labels import plain_text

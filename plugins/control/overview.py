@@ -4,7 +4,7 @@ from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import STALE_S
-from rotemina.app.shell.tones import Tone, set_tone
+from rotemina.app.shell.state_tone import Tone, set_tone
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import named, set_property, show_tip
 from rotemina.app.widgets.labels import ElidedLabel

@@ -7,7 +7,7 @@ from rotemina.app.motion.teleoperation.input_devices import InputSnapshot
 from rotemina.app.motion.teleoperation.moved_control import Detected
 from rotemina.app.motion.teleoperation.profile import OperatorRole, Profile, SilencePolicy
 from rotemina.app.shell.engine_words import error_text, spoken
-from rotemina.app.shell.tones import Tone, set_tone
+from rotemina.app.shell.state_tone import Tone, set_tone
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button
 from rotemina.app.widgets.labels import plain_text, show_text

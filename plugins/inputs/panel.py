@@ -13,8 +13,8 @@ from rotemina.app.motion.teleoperation.input_arbiter import DevicesView, DeviceV
 from rotemina.app.motion.teleoperation.input_devices import InputSnapshot
 from rotemina.app.panel import STALE_S, Area, Panel
 from rotemina.app.shell.language import marked
+from rotemina.app.shell.state_tone import Tone, set_tone
 from rotemina.app.shell.theme import Theme
-from rotemina.app.shell.tones import Tone, set_tone
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import named
 from rotemina.app.widgets.labels import plain_text

@@ -59,6 +59,7 @@ class PenetrationPanel(Panel):
         self.message = named(plain_text(quiet=False, lines=3), tr("State of the penetration"))
         self.form = ParameterForm(workbench.robot, self._operation.penetration_parameters)
         self._planning = Background(self)
+        workbench.closing.connect(self._planning.drop_answers)
         self._planned_for = workbench.session.driver
         self.plan_preview = PlanPreview(self.form.parameters, None, tr(_PLANNING))
         self.readouts, self.preview = Readouts(workbench), ThrustPreview(workbench.theme)

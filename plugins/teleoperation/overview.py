@@ -5,7 +5,7 @@ from PySide6.QtWidgets import QSizePolicy
 from rotemina.app.motion.teleoperation.input_arbiter import DevicesView
 from rotemina.app.motion.teleoperation.teleoperation_state import TeleoperationState
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.tones import Tone, set_tone
+from rotemina.app.shell.state_tone import Tone, set_tone
 from rotemina.app.widgets.controls import named, plain_tip, set_property
 from rotemina.app.widgets.labels import ElidedLabel, plain_text
 from rotemina.app.widgets.layouts import in_row

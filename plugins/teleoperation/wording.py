@@ -16,7 +16,7 @@ from rotemina.app.motion.teleoperation.profile_check import PluggedDevice
 from rotemina.app.motion.teleoperation.scales import LawKind
 from rotemina.app.motion.teleoperation.teleoperation_state import CoordinateView, TeleoperationState
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.tones import Tone
+from rotemina.app.shell.state_tone import Tone
 from rotemina.plugins.teleoperation import mark, plain_units, tr
 from rotemina.sim.quantities import Scale, fixed, scale_in
 from rotemina.sim.robot.model import Robot

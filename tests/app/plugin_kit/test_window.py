@@ -121,9 +121,12 @@ def look():
     (window,) = [one for one in QApplication.topLevelWidgets() if isinstance(one, MainWindow)]
     bad = ("paints", "ticks", "leaves", "paints_an_end", "interrupts", "threads")
     named = [name for name in bad if name in window.panels]
+    said = "".join(told)
+    silent = [name for name in bad if f"Panel '{name}' is left out" not in said]
     tries += 1
-    if named and tries < 400:
-        window.bring_up(named[tries % len(named)])  # tabs are behind the controls
+    if (named or silent) and tries < 400:
+        if named:
+            window.bring_up(named[tries % len(named)])  # tabs are behind the controls
         QTimer.singleShot(50, look)
         return
     answer = {"panels": list(window.panels), "told": told, "visible": window.isVisible()}

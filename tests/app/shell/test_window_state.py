@@ -12,8 +12,8 @@ from rotemina.app.motion.playback import PAUSE_REASON, PlaybackPhase, PlaybackSt
 from rotemina.app.motion.resuming import ResumeStep
 from rotemina.app.motion.state import Connection, SessionState, lock_reason
 from rotemina.app.motion.stop import LOCKED, StopRequest
+from rotemina.app.shell.state_tone import Tone
 from rotemina.app.shell.state_words import describe_motion
-from rotemina.app.shell.tones import Tone
 from rotemina.app.shell.window_state import Remedy, WindowSnapshot, describe_state
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.robot.file import load_robot

@@ -14,7 +14,7 @@ from rotemina.app.motion.teleoperation.profile_check import PluggedDevice
 from rotemina.app.motion.teleoperation.reference import Bounds
 from rotemina.app.motion.teleoperation.scales import LawKind, Scale
 from rotemina.app.motion.teleoperation.teleoperation_state import CoordinateView, TeleoperationState
-from rotemina.app.shell.tones import Tone
+from rotemina.app.shell.state_tone import Tone
 from rotemina.drivers.inputs.device import InputIdentity
 from rotemina.plugins.teleoperation import wording
 from rotemina.sim.robot.file import load_robot
