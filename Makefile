@@ -74,7 +74,7 @@ bench: system $(VENV)/.bench  ## measure (tests/benchmarks), and write docs/benc
 	@$(PYTEST) --override-ini python_files='bench_*.py' --page docs/benchmarks.md tests/benchmarks
 
 screenshots: system $(VENV)/.screenshots  ## draw the pictures of the documentation
-	@$(BIN)/python -m rotemina.app.shell.screenshots docs/screenshots
+	@$(BIN)/python -m rotemina.app.shell.startup.screenshots docs/screenshots
 
 structure:  ## draw the folders for docs/structure.md, and print lines and lengths
 	@$(PYTHON) .ci/structure.py --page
@@ -86,25 +86,30 @@ LUPDATE := $(BIN)/pyside6-lupdate -silent -tr-function-alias QT_TRANSLATE_NOOP+=
 LRELEASE := $(BIN)/pyside6-lrelease -silent
 
 # What refuses and reports below the window; the diagnosis has a file of its own.
-ENGINE := app/motion app/microscope app/cameras app/calibration app/records app/scene app/plugin_kit \
-$(wildcard app/*.py) drivers \
+ENGINE := app/motion app/operation app/microscope app/cameras app/calibration app/records app/scene \
+app/plugin_kit app/panel app/settings app/system drivers \
 $(filter-out sim/gap sim/blind%,$(wildcard sim/*))
 # lupdate knows no context that a panel's folder names once: it reads copies that name it at each text.
 languages: system $(VENV)/.run  ## find what is to be translated, make resources/languages/*.qm
 	@rm -rf build/languages; mkdir -p build/languages; cp -R app plugins build/languages
-	@for file in build/languages/plugins/*/*.py; do \
-	context=$$(basename $$(dirname $$file)); \
+	@for file in $$(find build/languages/plugins -mindepth 2 -name '*.py'); do \
+	context=$${file#build/languages/plugins/}; context=$${context%%/*}; \
 	sed -e "s/\([^[:alnum:]_.]\)tr(/\1translate(\"$$context\", /g" \
 	-e "s/\([^[:alnum:]_.]\)mark(/\1marked(\"$$context\", /g" $$file >$$file.new && mv $$file.new $$file || exit 1; done
-	@$(BIN)/python -c 'from rotemina.plugins.effects.words import catalogue; \
-	print(*(f"translate(\"effects\", {text!r})" for text in catalogue()), sep="\n")' \
+	@$(BIN)/python -c 'from rotemina.plugins.effects.words import iterate_translatable_texts; \
+	print(*(f"translate(\"effects\", {text!r})" for text in iterate_translatable_texts()), sep="\n")' \
 	>build/languages/plugins/effects/catalogue.py
 	@for folder in app/shell app/widgets app/cli plugins/*/; do \
-	if ls $$folder/*.py >/dev/null 2>&1 && grep -Eqs '\b(translate|marked|message|tr|mark)\(' $$folder/*.py; then \
-	$(LUPDATE) build/languages/$${folder%/}/*.py $$([ $$folder != plugins/gap/ ] || find sim/gap -name '*.py') \
-	-ts resources/languages/de/$$(basename $$folder).ts || exit 1; \
-	fi; done
-	@$(LUPDATE) $$(find $(ENGINE) -name '*.py') -ts resources/languages/de/engine.ts
+	name=$$(basename $$folder); folders=$${folder%/}; \
+	case $$name in shell) folders="$$folders app/language app/workbench";; gap) folders="$$folders sim/gap";; esac; \
+	$(BIN)/python .ci/translations.py raised $$folders >build/languages/raised_$$name.py; \
+	copies=$$(for each in $$folders; do [ -d build/languages/$$each ] && echo build/languages/$$each || echo $$each; done); \
+	$(LUPDATE) $$(find $$copies -name '*.py') build/languages/raised_$$name.py \
+	-ts resources/languages/de/$$name.ts || exit 1; \
+	done
+	@$(BIN)/python .ci/translations.py raised $(ENGINE) >build/languages/raised_engine.py
+	@$(LUPDATE) $$(find $(ENGINE) -name '*.py') build/languages/raised_engine.py \
+	-ts resources/languages/de/engine.ts
 	@$(LRELEASE) resources/languages/de/*.ts -qm resources/languages/de.qm
 
 viewer: $(VENV)/.python  ## take the viewer of the 3-D view from the newest package meshcat
@@ -142,7 +147,7 @@ help:  ## list these targets
 # venv and the libraries of Qt.
 system:
 	@$(PYTHON) -c 'import ctypes' 2>/dev/null || { $(INSTALL_PYTHON); }
-	@$(PYTHON) -I -B app/system_check.py --install $(PROGRAMS) $(QT_PLATFORM)
+	@$(PYTHON) -I -B app/system/system_check.py --install $(PROGRAMS) $(QT_PLATFORM)
 
 APT_GET := apt-get install -y --no-install-recommends python3 python3-venv
 define INSTALL_PYTHON

@@ -1,4 +1,4 @@
-"""Files that the program carries.
+"""Data files that are shipped with the program.
 
 Robots, trajectories, published models, templates, languages, theme and icons.
 """

@@ -1,4 +1,4 @@
-"""What every test may use: an offscreen Qt and the folder of shared material."""
+"""Fixtures for all tests: Qt offscreen, windows, recordings, diagnoses, shared material."""
 
 import gc
 import os
@@ -12,83 +12,93 @@ from hypothesis import settings
 settings.register_profile("repeatable", derandomize=True, deadline=None, print_blob=True)
 settings.load_profile("repeatable")
 
-# Without a configuration the screen has 800 × 800 px, beyond which no window goes.
+# Without this configuration the offscreen screen has 800 × 800 px, which limits all windows.
 SCREEN = Path(__file__).with_name("screen.json")
 os.environ.setdefault("QT_QPA_PLATFORM", f"offscreen:configfile={SCREEN}")
-os.environ["LANGUAGE"] = "en"  # tests know the window in English, whatever the machine speaks
+# Tests expect English texts, whatever the language of the machine.
+os.environ["LANGUAGE"] = "en"
 
-#: Panels of every window in tests, whatever others they ask for.
-USUAL = ("control", "trajectory")
+#: Panels that every window in tests has.
+USUAL_PANELS = ("control", "trajectory")
 
-BESIDE_REPOSITORY = Path(__file__).parents[2] / "shared"
+DEFAULT_SHARED_FOLDER = Path(__file__).parents[2] / "shared"
 
 
 def pytest_collection_finish():
-    """Spare the garbage collector what stays anyway: 0.4 s for which every thread waits."""
+    """Exclude permanent objects from garbage collection, which would stop all threads for 0.4 s."""
     gc.collect()
     gc.freeze()
 
 
 def pytest_terminal_summary(terminalreporter):
-    """Tell how often a test was tried again because this machine was too busy for its boards."""
-    reports = [one for each in terminalreporter.stats.values() for one in each]
-    for one in reports:
-        if getattr(one, "when", None) == "call":
-            tries = [why for name, why in one.user_properties if name == "tried again"]
+    """Report how often a test was repeated because the machine was too busy for its boards."""
+    reports = [report for group in terminalreporter.stats.values() for report in group]
+    for report in reports:
+        if getattr(report, "when", None) == "call":
+            tries = [reason for name, reason in report.user_properties if name == "tried again"]
             if tries:
-                terminalreporter.write_line(f"tried again {len(tries)} times: {one.nodeid}")
+                terminalreporter.write_line(f"tried again {len(tries)} times: {report.nodeid}")
 
 
 @pytest.fixture(scope="session")
 def shared_dir() -> Path:
-    """Folder of shared material: ``ROTEMINA_SHARED``, else ``../shared``."""
-    folder = Path(os.environ.get("ROTEMINA_SHARED", BESIDE_REPOSITORY))
+    """Folder of shared material: ``ROTEMINA_SHARED``, or by default ``../shared``."""
+    folder = Path(os.environ.get("ROTEMINA_SHARED", DEFAULT_SHARED_FOLDER))
     if folder.is_dir():
         return folder
-    absent = f"no shared material in {folder} (set ROTEMINA_SHARED)"
+    problem = f"no shared material in {folder} (set ROTEMINA_SHARED)"
     if os.environ.get("CI") == "true":
-        pytest.fail(absent)
-    pytest.skip(absent)
+        pytest.fail(problem)
+    pytest.skip(problem)
 
 
 @pytest.fixture
 def settings(tmp_path):
-    """Preferences of nobody, kept in the test's own folder."""
-    from rotemina.app.settings import Settings
+    """Empty preferences in a temporary folder."""
+    from rotemina.app.settings import UserSettings
 
-    return Settings(tmp_path / "preferences" / "settings.json")
+    return UserSettings(tmp_path / "preferences" / "settings.json")
 
 
 @pytest.fixture
 def panels_made(request, monkeypatch):
-    """Leave out of a window the panels that a module of tests does not ask for.
+    """Limit the panels of a window to those that a test module needs.
 
-    Making all of them takes seconds. ``PANELS`` in a module names those beside the usual ones;
-    tests of one panel ask for that one by their place; others, and those that are marked
-    ``every_panel``, get all.
+    Making all panels takes seconds. ``PANELS`` in a module names those in addition to the usual
+    ones. Tests in the folder or file of a panel get that panel. All other tests, and those marked
+    ``every_panel``, get all panels.
     """
-    wanted = getattr(request.module, "PANELS", None)
+    wanted_panels = getattr(request.module, "PANELS", None)
     if "plugins" in request.path.parts:
-        wanted = {*(wanted or ()), request.path.parent.name, *request.path.stem.split("_")}
-    if wanted is None or request.node.get_closest_marker("every_panel") is not None:
+        wanted_panels = {
+            *(wanted_panels or ()),
+            request.path.parent.name,
+            *request.path.stem.split("_"),
+        }
+    if wanted_panels is None or request.node.get_closest_marker("every_panel") is not None:
         return
-    from rotemina.app.shell import panel_host
+    from rotemina.app.shell.panels import panel_host
 
-    discover = panel_host.discover
+    discover = panel_host.discover_plugins
 
-    def some(group, base, known):
-        found = discover(group, base, known)
-        kept = {name: one for name, one in found.found.items() if name in {*USUAL, *wanted}}
-        return replace(found, found=kept)
+    def discover_some(group, base, known):
+        discovery = discover(group, base, known)
+        wanted_plugins = {
+            name: plugin
+            for name, plugin in discovery.plugins.items()
+            if name in {*USUAL_PANELS, *wanted_panels}
+        }
+        return replace(discovery, plugins=wanted_plugins)
 
-    monkeypatch.setattr(panel_host, "discover", some)
+    monkeypatch.setattr(panel_host, "discover_plugins", discover_some)
 
 
 @pytest.fixture
 def make_robot_window(qtbot, settings, tmp_path, panels_made):
-    """Make windows on the simulator of any robot; all are closed, and no thread stays.
+    """Return a function that makes a window on the simulator of a robot.
 
-    With a driver of its own, made of the robot, nobody waits until the window can move anything.
+    All windows are closed after the test, and no thread may remain. If ``driver`` is given, it is
+    called with the robot, and the function does not wait until motion is permitted.
     """
     import threading
 
@@ -96,27 +106,29 @@ def make_robot_window(qtbot, settings, tmp_path, panels_made):
     from shiboken6 import isValid
 
     from rotemina.app.motion.session import MotionSession
-    from rotemina.app.shell.window_run import make_window
-    from rotemina.drivers.simulator.driver import Simulator
-    from rotemina.sim.robot.file import load_robot
+    from rotemina.app.shell.startup.window_run import make_window
+    from rotemina.drivers.simulator import Simulator
+    from rotemina.sim.robot_files import load_robot
 
     windows = []
-    gc.disable()  # as the program does: the session's thread must not free what is Qt's
+    # As in the program: the thread of the session must not free objects of Qt.
+    gc.disable()
 
     def make(robot="rotemina", driver=None):
-        described = load_robot(robot)
-        simulator = Simulator(described, {"settle_s": 0.02})
-        session = MotionSession(driver(described) if driver else simulator)
+        robot_model = load_robot(robot)
+        simulator = Simulator(robot_model, {"settle_s": 0.02})
+        session = MotionSession(driver(robot_model) if driver else simulator)
         window = make_window(session, settings, tmp_path / "played")
         windows.append(window)
         window.show()
         window.workbench.start()
         if driver is None:
-            qtbot.waitUntil(lambda: session.snapshot().locked is None, timeout=20_000)
+            qtbot.waitUntil(lambda: session.snapshot().lock_reason is None, timeout=20_000)
         return window
 
     yield make
-    for window in filter(isValid, windows):  # a test may have closed its own
+    # A test may already have closed and deleted a window.
+    for window in filter(isValid, windows):
         window.workbench.close()
         window.hide()
         window.deleteLater()
@@ -129,7 +141,7 @@ def make_robot_window(qtbot, settings, tmp_path, panels_made):
 
 @pytest.fixture
 def window(make_robot_window):
-    """The operator's window on the simulated RoTeMiNa, connected and idle."""
+    """A main window on the simulated RoTeMiNa, connected and idle."""
     return make_robot_window()
 
 
@@ -155,15 +167,15 @@ def press_escape(qtbot):
 
 @pytest.fixture
 def open_menu():
-    """Return a function that clicks on the first menu of a window, and returns the menu."""
+    """Return a function that opens the first menu of a window by a click, and returns the menu."""
     from PySide6.QtCore import Qt
     from PySide6.QtTest import QTest
 
     def open_first(window):
         bar = window.menuBar()
-        place = bar.mapTo(window, bar.actionGeometry(bar.actions()[0]).center())
+        position = bar.mapTo(window, bar.actionGeometry(bar.actions()[0]).center())
         for act in (QTest.mousePress, QTest.mouseRelease):
-            act(window.windowHandle(), Qt.MouseButton.LeftButton, pos=place)
+            act(window.windowHandle(), Qt.MouseButton.LeftButton, pos=position)
         menu = bar.actions()[0].menu()
         assert menu.isVisible()
         return menu
@@ -173,17 +185,17 @@ def open_menu():
 
 @pytest.fixture
 def press_behind_menu():
-    """Return a function that presses the mouse on a button while a menu takes all presses."""
+    """Return a function that presses the mouse on a button behind an open menu."""
     from PySide6.QtCore import QEvent, QPointF, Qt
     from PySide6.QtGui import QMouseEvent
     from PySide6.QtWidgets import QApplication
 
     def press(menu, button):
-        place, left = button.mapToGlobal(button.rect().center()), Qt.MouseButton.LeftButton
+        position, left = button.mapToGlobal(button.rect().center()), Qt.MouseButton.LeftButton
         event = QMouseEvent(
             QEvent.Type.MouseButtonPress,
-            QPointF(menu.mapFromGlobal(place)),
-            QPointF(place),
+            QPointF(menu.mapFromGlobal(position)),
+            QPointF(position),
             left,
             left,
             Qt.KeyboardModifier.NoModifier,
@@ -195,64 +207,64 @@ def press_behind_menu():
 
 @pytest.fixture
 def make_recording():
-    """Record a session of 1.2 s: x moves from 0.2 s on, at 1 s somebody notes something."""
-    from rotemina.app.motion.recording.session_recorder import SessionRecorder
+    """Return a function that records 1.2 s: x moves from 0.2 s on, a note is added at 1 s."""
+    from rotemina.app.motion.recording import SessionRecorder
     from rotemina.app.motion.session import MotionSession
-    from rotemina.drivers.clock import VirtualClock
-    from rotemina.drivers.simulator.driver import Simulator
-    from rotemina.sim.robot.file import load_robot
+    from rotemina.drivers.contract import VirtualClock
+    from rotemina.drivers.simulator import Simulator
+    from rotemina.sim.robot_files import load_robot
 
-    left = []
+    unfinished_files = []
 
-    def make(path, robot="rotemina", *, ended=True):
+    def record_session(path, robot="rotemina", *, ended=True):
         path.parent.mkdir(parents=True, exist_ok=True)
         clock = VirtualClock(7.0)
         session = MotionSession(Simulator(load_robot(robot), clock=clock))
         session.connect()
         session.run_once()
-        began = "2026-03-04T05:06:07+01:00"
-        recorder = SessionRecorder(session, path, began=began, clock=clock)
+        start_date = "2026-03-04T05:06:07+01:00"
+        recorder = SessionRecorder(session, path, began=start_date, clock=clock)
         recorder.start(thread=False)
         axis = session.driver.axes[0]
         for step in range(60):
             if step == 10:
                 session.jog(axis, 5e-4 if robot == "rotemina" else 1e-6)
             if step == 50:
-                recorder.note("a note")
+                recorder.record_note("a note")
             clock.advance(0.02)
             session.run_once()
         recorder.writer.run_once()
         if ended:
             recorder.close()
         else:
-            left.append(recorder.writer._file)
+            unfinished_files.append(recorder.writer._file)
         session.close()
         return path
 
-    yield make
-    for file in left:
+    yield record_session
+    for file in unfinished_files:
         file.close()
 
 
 @pytest.fixture(scope="session")
 def make_diagnosis():
-    """A maker of a diagnosis by hand: hysteresis on thx, or creep; nothing on the other axes."""
+    """Return a function that makes a diagnosis: hysteresis or creep on thx, other axes healthy."""
     import numpy as np
 
-    from rotemina.sim.effects.formulation import Stage
-    from rotemina.sim.gap import diagnosis as gap
+    from rotemina.sim.effects import EffectStage
+    from rotemina.sim.gap.result import diagnosis as gap
     from rotemina.sim.messages import message
-    from rotemina.sim.records.record import Tap
-    from rotemina.sim.robot.file import load_robot
-    from rotemina.sim.robot.model import AxisEffect
+    from rotemina.sim.records import Tap
+    from rotemina.sim.robot import AxisEffect
+    from rotemina.sim.robot_files import load_robot
 
     width = gap.FittedParameter("width", 1.2e-4, "rad", (1.1e-4, 1.3e-4), "high")
     shape = gap.FittedParameter("shape", 4.0, "", None)
-    loop = gap.Cause(
+    hysteresis = gap.GapCause(
         axis="thx",
         effect="hysteresis",
         formulation="prandtl_ishlinskii",
-        stage=Stage.ACTUATOR,
+        stage=EffectStage.ACTUATOR,
         tap=Tap.MEAS,
         from_axis=None,
         probability=0.91,
@@ -263,7 +275,7 @@ def make_diagnosis():
         closed_interval=(0.97, 0.99),
         parameters=(width, shape),
     )
-    shrinkage = gap.Shrinkage(
+    shrinkage = gap.GapShrinkage(
         axis="thx",
         tap=Tap.MEAS,
         raw=3.3e-5,
@@ -277,7 +289,7 @@ def make_diagnosis():
     )
     time_s = np.arange(500) / 1000.0
     command = 5.8e-4 + 1e-4 * np.sin(2.0 * np.pi * 2.0 * time_s) ** 2
-    split = gap.Experiment(
+    experiment = gap.SuggestedExperiment(
         axis="thx",
         splits=("hysteresis", "creep"),
         why=message("gap", "A step and a long rest: creep goes on, hysteresis does not."),
@@ -290,46 +302,49 @@ def make_diagnosis():
     )
 
     def make(places, *others):
-        """Return a diagnosis of thx and others, with what ``places`` says of each axis."""
+        """Return a diagnosis of thx and ``others``; ``places`` gives the gaps of each axis."""
         thx = gap.AxisDiagnosis(
             axis="thx",
-            verdict=gap.Verdict.EXPLAINED,
+            verdict=gap.GapVerdict.EXPLAINED,
             places=places("thx"),
-            causes=(loop,),
+            causes=(hysteresis,),
             shrinkage=(shrinkage,),
             ranking=(
-                gap.Ranked("hysteresis", "prandtl_ishlinskii", None, 0.91, 1.2, (1.1, 1.3)),
-                gap.Ranked("cross_coupling", None, others[0], 0.09, 43.0, (38.0, 47.0)),
+                gap.RankedCandidate(
+                    "hysteresis", "prandtl_ishlinskii", None, 0.91, 1.2, (1.1, 1.3)
+                ),
+                gap.RankedCandidate("cross_coupling", None, others[0], 0.09, 43.0, (38.0, 47.0)),
             ),
             remarks=(message("gap", "The rest depends on time."),),
             fitted=(AxisEffect(axis="thx", id="hysteresis", parameters={"width": 1.2e-4}),),
         )
-        healthy = {name: gap.AxisDiagnosis(name, gap.Verdict.NONE, places(name)) for name in others}
+        healthy_axes = {
+            name: gap.AxisDiagnosis(name, gap.GapVerdict.NONE, places(name)) for name in others
+        }
         robot = load_robot("rotemina")
-        return gap.Diagnosis(robot, {"thx": thx, **healthy}, experiments=(split,), seed=3)
+        return gap.Diagnosis(robot, {"thx": thx, **healthy_axes}, experiments=(experiment,), seed=3)
 
     return make
 
 
 @pytest.fixture
 def made_diagnosis(make_diagnosis):
-    """Of no record: hysteresis and more on thx, something unknown on y, nothing on zn."""
-    from rotemina.sim.effects.formulation import Stage
-    from rotemina.sim.gap.diagnosis import UNKNOWN, Verdict
-    from rotemina.sim.gap.location.located_gap import LocatedGap, Portion
-    from rotemina.sim.gap.location.regimes import Regime
-    from rotemina.sim.records.record import Tap
-    from rotemina.sim.robot.model import AxisEffect
+    """An invented diagnosis: hysteresis and more on thx, an unknown cause on y, no gap on zn."""
+    from rotemina.sim.effects import EffectStage
+    from rotemina.sim.gap.location import GapPortion, LocatedGap, OperatingRegime
+    from rotemina.sim.gap.result import UNKNOWN_EFFECT_ID, GapVerdict
+    from rotemina.sim.records import Tap
+    from rotemina.sim.robot import AxisEffect
 
     def places(axis):
-        """Return two places of thx, and one of any other axis."""
-        found = {
+        """Return two gaps of thx, or one of any other axis."""
+        gaps = {
             "thx": (
-                (Tap.REF, Stage.ACTUATOR, 1.0e-7, 200.0, 20.0),
-                (Tap.MEAS, Stage.SENSOR, 4.0e-7, 100.0, 10.0),
+                (Tap.REF, EffectStage.ACTUATOR, 1.0e-7, 200.0, 20.0),
+                (Tap.MEAS, EffectStage.SENSOR, 4.0e-7, 100.0, 10.0),
             ),
-            "y": ((Tap.MEAS, Stage.ACTUATOR, 2.0e-8, 15.0, 5.0),),
-            "zn": ((Tap.MEAS, Stage.ACTUATOR, 1.2e-8, 0.01, 0.05),),
+            "y": ((Tap.MEAS, EffectStage.ACTUATOR, 2.0e-8, 15.0, 5.0),),
+            "zn": ((Tap.MEAS, EffectStage.ACTUATOR, 1.2e-8, 0.01, 0.05),),
         }
         return tuple(
             LocatedGap(
@@ -341,23 +356,23 @@ def made_diagnosis(make_diagnosis):
                 excess=excess,
                 excess_interval=(excess - spread, excess + spread),
                 by_regime={
-                    Regime.REVERSAL: Portion(0.8, (0.7, 0.9), 2.0 * excess),
-                    Regime.REST: Portion(0.2, (0.1, 0.3), 0.5 * excess),
+                    OperatingRegime.REVERSAL: GapPortion(0.8, (0.7, 0.9), 2.0 * excess),
+                    OperatingRegime.REST: GapPortion(0.2, (0.1, 0.3), 0.5 * excess),
                 },
                 by_band={
-                    (0.5, 4.0): Portion(0.9, (0.8, 1.0)),
-                    (4.0, 10.0): Portion(0.1, (0.0, 0.2)),
+                    (0.5, 4.0): GapPortion(0.9, (0.8, 1.0)),
+                    (4.0, 10.0): GapPortion(0.1, (0.0, 0.2)),
                 },
             )
-            for tap, stage, floor, excess, spread in found[axis]
+            for tap, stage, floor, excess, spread in gaps[axis]
         )
 
-    made = make_diagnosis(places, "y", "zn")
-    thx, y = made.axes["thx"], made.axes["y"]
-    strange = replace(
+    diagnosis = make_diagnosis(places, "y", "zn")
+    thx, y = diagnosis.axes["thx"], diagnosis.axes["y"]
+    unknown_cause = replace(
         thx.causes[0],
         axis="y",
-        effect=UNKNOWN,
+        effect=UNKNOWN_EFFECT_ID,
         formulation=None,
         stage=None,
         probability=0.9,
@@ -385,8 +400,8 @@ def made_diagnosis(make_diagnosis):
         ),
     )
     axes = {
-        "y": replace(y, verdict=Verdict.UNKNOWN, causes=(strange,)),
+        "y": replace(y, verdict=GapVerdict.UNKNOWN, causes=(unknown_cause,)),
         "thx": replace(thx, fitted=fitted),
-        "zn": made.axes["zn"],
+        "zn": diagnosis.axes["zn"],
     }
-    return replace(made, axes=axes)
+    return replace(diagnosis, axes=axes)

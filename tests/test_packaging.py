@@ -1,4 +1,4 @@
-"""An editable install hides what a wheel lacks: the packaging tables are held to the folders."""
+"""The packaging tables agree with the folders, because an editable install hides missing files."""
 
 import re
 import shutil
@@ -15,57 +15,59 @@ import pytest
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
-from rotemina.sim.effects.formulation import Effect
+from rotemina.sim.effects import Effect
 
 ROOT = Path(__file__).parents[1]
 PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
 PROJECT = PYPROJECT["project"]
 SETUPTOOLS = PYPROJECT["tool"]["setuptools"]
-HELP = "rotemina.docs"
+HELP_PACKAGE = "rotemina.docs"
 ENTRY_POINTS = {
     "console_scripts": PROJECT["scripts"],
     **PROJECT["entry-points"],
 }
 
 
-def shipped_files() -> list[tuple[str, Path]]:
-    """Package name and path of every file in the layers' folders."""
+def list_shipped_files() -> list[tuple[str, Path]]:
+    """Return the package name and path of every file in the folders of the layers."""
     files = []
     for layer, folder in SETUPTOOLS["package-dir"].items():
-        if layer == HELP:
-            continue  # what the program carries of it is chosen
+        if layer == HELP_PACKAGE:
+            # Only selected pages are shipped.
+            continue
         for path in sorted((ROOT / folder).rglob("*")):
             inside = path.relative_to(ROOT / folder)
             if path.is_dir() or any(part.startswith((".", "__py")) for part in inside.parts):
                 continue
             if path.suffix == ".ts":
-                continue  # what languages are made from stays in the source
+                # The sources of translations are not shipped.
+                continue
             files.append((".".join([layer, *inside.parent.parts]), path))
     return files
 
 
-def test_packages_are_the_folders_that_hold_files():
-    folders = {package for package, _ in shipped_files()}
-    assert sorted(SETUPTOOLS["packages"]) == sorted({*folders, HELP})
+def test_packages_are_the_folders_that_contain_files():
+    folders = {package for package, _ in list_shipped_files()}
+    assert sorted(SETUPTOOLS["packages"]) == sorted({*folders, HELP_PACKAGE})
 
 
-def test_packages_import_by_their_own_init():
-    folders = {path.parent for _, path in shipped_files()}
+def test_every_package_has_an_init():
+    folders = {path.parent for _, path in list_shipped_files()}
     assert [folder for folder in folders if not (folder / "__init__.py").is_file()] == []
 
 
 def test_package_data_covers_every_file():
     patterns = SETUPTOOLS["package-data"]
-    left_out = [
+    missing = [
         str(path.relative_to(ROOT))
-        for package, path in shipped_files()
+        for package, path in list_shipped_files()
         if path.suffix != ".py"
         and not any(
             fnmatch(path.name, pattern)
             for pattern in patterns.get("*", []) + patterns.get(package, [])
         )
     ]
-    assert left_out == []
+    assert missing == []
 
 
 @pytest.mark.parametrize(
@@ -83,38 +85,47 @@ def test_entry_points_resolve(group, name, value):
 
 def test_the_version_is_written_once():
     assert metadata.version("rotemina") == PROJECT["version"]
-    sources = [path for _, path in shipped_files() if path.suffix == ".py"]
+    sources = [path for _, path in list_shipped_files() if path.suffix == ".py"]
     assert [path.name for path in sources if "__version__ =" in path.read_text("utf-8")] == []
 
 
-def test_nothing_is_installed_that_has_no_business_in_a_laboratory():
-    """Tunnels to the internet, shells and message queues came by way of meshcat once."""
-    wanted, seen = [*PROJECT["dependencies"]], set()
-    while wanted:
-        requirement = Requirement(wanted.pop())
+def test_no_unsuitable_package_is_installed():
+    """Meshcat once brought in tunnels to the internet, shells and message queues."""
+    pending, names = [*PROJECT["dependencies"]], set()
+    while pending:
+        requirement = Requirement(pending.pop())
         name = canonicalize_name(requirement.name)
-        if name not in seen and (requirement.marker is None or requirement.marker.evaluate()):
-            seen.add(name)
-            with suppress(metadata.PackageNotFoundError):  # tells of an extra that is not asked for
-                wanted += [one for one in metadata.requires(name) or () if "extra ==" not in one]
-    assert len(seen) > 25
-    assert not seen & {"meshcat", "pyngrok", "ngrok", "ipython", "pyzmq", "jedi"}
+        if name not in names and (requirement.marker is None or requirement.marker.evaluate()):
+            names.add(name)
+            # A package of an extra may be missing.
+            with suppress(metadata.PackageNotFoundError):
+                pending += [
+                    dependency
+                    for dependency in metadata.requires(name) or ()
+                    if "extra ==" not in dependency
+                ]
+    assert len(names) > 25
+    assert not names & {"meshcat", "pyngrok", "ngrok", "ipython", "pyzmq", "jedi"}
 
 
 @pytest.mark.parametrize("file", sorted(ROOT.glob(".ci/constraints/*.txt")), ids=lambda f: f.name)
-def test_tested_versions_name_every_package_and_no_host(file):
+def test_constraints_name_every_package_and_no_host(file):
     lines = file.read_text("utf-8").splitlines()
     assert [line for line in lines if not re.fullmatch(r"[\w.-]+==[\w.+]+", line)] == []
-    tested = {canonicalize_name(line.partition("==")[0]) for line in lines}
+    constrained = {canonicalize_name(line.partition("==")[0]) for line in lines}
     extras = PROJECT["optional-dependencies"]
-    kinds = [PROJECT["dependencies"], *(extras[name] for name in ("test", "lint", "bench", "docs"))]
-    named = (Requirement(one) for kind in kinds for one in kind)
-    wanted = {
-        canonicalize_name(one.name)
-        for one in named
-        if one.marker is None or one.marker.evaluate({"python_version": file.stem})
+    requirement_lists = [
+        PROJECT["dependencies"],
+        *(extras[name] for name in ("test", "lint", "bench", "docs")),
+    ]
+    requirements = (Requirement(text) for texts in requirement_lists for text in texts)
+    needed = {
+        canonicalize_name(requirement.name)
+        for requirement in requirements
+        if requirement.marker is None or requirement.marker.evaluate({"python_version": file.stem})
     }
-    assert wanted - tested <= {"setuptools"}  # which comes with Python and is not listed
+    # Setuptools comes with Python and is not listed.
+    assert needed - constrained <= {"setuptools"}
 
 
 @pytest.mark.slow
@@ -129,7 +140,7 @@ def test_pip_install_gives_the_command(tmp_path):
     shutil.rmtree(source)
 
     command = shutil.which("rotemina", path=scripts)
-    answer = subprocess.run([command, "--help"], check=True, capture_output=True, text=True)
-    assert "rotemina" in answer.stdout
+    process = subprocess.run([command, "--help"], check=True, capture_output=True, text=True)
+    assert "rotemina" in process.stdout
     installed = {path.name for path in environment.rglob("rotemina/*")}
     assert installed >= set(SETUPTOOLS["package-dir"].values())

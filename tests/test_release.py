@@ -1,4 +1,4 @@
-"""The wheel, as it is released: made from the source archive, tried apart from the source."""
+"""The wheel as released: built from the source archive, and tested without the source."""
 
 import json
 import os
@@ -28,7 +28,7 @@ def test_the_citation_names_the_version():
 
 @pytest.fixture(scope="module")
 def archives(tmp_path_factory):
-    """Wheel and source archive, made without a network, each from the one before."""
+    """Source archive, built without a network, and the wheel built from it."""
     generated = shutil.ignore_patterns(".*", "build", "dist", "*.egg-info", "__pycache__")
     folder = tmp_path_factory.mktemp("release")
     source = shutil.copytree(ROOT, folder / "source", ignore=generated)
@@ -42,7 +42,7 @@ def archives(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def command(archives):
-    """``rotemina`` of the wheel in an environment that borrows everything else from this one."""
+    """``rotemina`` from the wheel, in an environment that uses all other packages of this one."""
     environment = archives / "environment"
     venv.create(environment)
     bin_folder = environment / ("Scripts" if sys.platform == "win32" else "bin")
@@ -56,15 +56,15 @@ def command(archives):
         check=True,
     )  # fmt: skip
     installed = next(environment.rglob("rotemina/app")).parents[1]
-    # A path in a .pth is not searched for further ones: the editable install stays out.
+    # Further .pth files in a path from a .pth are ignored, so the editable install is not found.
     (installed / "borrowed.pth").write_text(sysconfig.get_path("purelib") + "\n", "utf-8")
     return shutil.which("rotemina", path=bin_folder)
 
 
 @pytest.mark.slow
-@pytest.mark.xdist_group("release")  # one wheel for all
+@pytest.mark.xdist_group("release")  # All tests share one wheel.
 @pytest.mark.skipif(find_spec("build") is None, reason="build comes with the extra 'test'")
-def test_the_source_archive_holds_what_a_wheel_is_made_of(archives):
+def test_the_source_archive_contains_the_sources_of_a_wheel(archives):
     (archive,) = archives.glob("*.tar.gz")
     with tarfile.open(archive) as file:
         names = {name.partition("/")[2] for name in file.getnames()}
@@ -72,36 +72,38 @@ def test_the_source_archive_holds_what_a_wheel_is_made_of(archives):
 
 
 @pytest.mark.slow
-@pytest.mark.xdist_group("release")  # one wheel for all
+@pytest.mark.xdist_group("release")  # All tests share one wheel.
 @pytest.mark.skipif(find_spec("build") is None, reason="build comes with the extra 'test'")
-def test_the_wheel_carries_every_page_and_the_pictures_in_them(archives):
+def test_the_wheel_contains_every_page_and_its_pictures(archives):
     (wheel,) = archives.glob("*.whl")
-    carried = {name.removeprefix("rotemina/docs/") for name in zipfile.ZipFile(wheel).namelist()}
+    files = {name.removeprefix("rotemina/docs/") for name in zipfile.ZipFile(wheel).namelist()}
     pages = sorted((ROOT / "docs").glob("*.md")) + sorted((ROOT / "docs" / "decisions").glob("*"))
-    assert {str(page.relative_to(ROOT / "docs")) for page in pages} <= carried
-    shown = {name for page in pages for name in re.findall(r"!\[[^]]*]\(([^)]*)", page.read_text())}
-    assert shown <= carried
-    assert len(shown) > 2
+    assert {str(page.relative_to(ROOT / "docs")) for page in pages} <= files
+    pictures = {
+        name for page in pages for name in re.findall(r"!\[[^]]*]\(([^)]*)", page.read_text())
+    }
+    assert pictures <= files
+    assert len(pictures) > 2
 
 
 @pytest.mark.slow
-@pytest.mark.xdist_group("release")  # one wheel for all
+@pytest.mark.xdist_group("release")  # All tests share one wheel.
 @pytest.mark.skipif(find_spec("build") is None, reason="build comes with the extra 'test'")
 def test_the_wheel_runs_from_another_folder(command, tmp_path):
-    def answer(*words):
+    def run(*arguments):
         environment = {**os.environ, "QT_QPA_PLATFORM": "offscreen"}
         environment.pop("PYTHONPATH", None)
-        done = subprocess.run(
-            [command, *words], cwd=tmp_path, env=environment,
+        process = subprocess.run(
+            [command, *arguments], cwd=tmp_path, env=environment,
             capture_output=True, text=True, check=False,
         )  # fmt: skip
-        assert done.returncode == 0, done.stdout + done.stderr
-        return done.stdout
+        assert process.returncode == 0, process.stdout + process.stderr
+        return process.stdout
 
-    assert answer("--version").strip() == f"rotemina {PROJECT['version']}"
-    found = {one["name"]: one for one in json.loads(answer("doctor", "--json"))}
-    assert str(Path(command).parent) in found["Python"]["seen"]
-    answer("excite", "sine", "--axes", "thx", "-o", "sine.csv")
-    answer("simulate", "sine.csv", "-o", "answer.csv")
+    assert run("--version").strip() == f"rotemina {PROJECT['version']}"
+    checks = {check["name"]: check for check in json.loads(run("doctor", "--json"))}
+    assert str(Path(command).parent) in checks["Python"]["seen"]
+    run("excite", "sine", "--axes", "thx", "-o", "sine.csv")
+    run("simulate", "sine.csv", "-o", "answer.csv")
     assert (tmp_path / "answer.csv").stat().st_size > 1000
-    assert "hysteresis" in answer("effect", "list")
+    assert "hysteresis" in run("effect", "list")

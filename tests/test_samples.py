@@ -1,4 +1,4 @@
-"""Files that users have on their disks are read with what is in them; see ``tests/samples``."""
+"""Files of users are read with all their contents; see ``tests/samples``."""
 
 import ast
 import dataclasses
@@ -22,82 +22,93 @@ import cv2
 import numpy as np
 import pytest
 
-from rotemina.app import driver_settings
-from rotemina.app.blind.cases import GeneratedCases
-from rotemina.app.blind.classifier import classifier_for
+from rotemina.app.blind import CaseShard
+from rotemina.app.blind.cases import GeneratedCaseSource
+from rotemina.app.blind.classifier import load_or_train_classifier
 from rotemina.app.blind.naive_methods import CONTESTANTS
-from rotemina.app.blind.resumable_run import BlindRun, finished
-from rotemina.app.blind.shard import Shard
-from rotemina.app.calibration.health_book import HealthBook
-from rotemina.app.calibration.store import CalibrationStore
-from rotemina.app.microscope.calibration_file import load as load_microscope
+from rotemina.app.blind.resumable_run import ResumableBlindRun, read_finished_run
+from rotemina.app.calibration import CalibrationStore, HealthBook
+from rotemina.app.microscope.calibration_file import load_calibration as load_microscope
 from rotemina.app.microscope.camera_memory import CameraMemory
-from rotemina.app.microscope.microscope import FOLDER as MICROSCOPE
-from rotemina.app.motion.compared_run import compared
-from rotemina.app.motion.model_in_use import ModelInUse
-from rotemina.app.motion.operation import PENETRATION, SCALES, Operation
-from rotemina.app.motion.penetration.parameters import PenetrationParameters
-from rotemina.app.motion.penetration.run_log import RunLog, Verdict
-from rotemina.app.motion.penetration.status import Phase
-from rotemina.app.motion.recording.exporting import record_of
-from rotemina.app.motion.recording.recording_reader import Recording
-from rotemina.app.motion.recording.recovery import recover, unfinished
-from rotemina.app.motion.recording.replay import Replay
-from rotemina.app.motion.saved_positions import HOME, LOAD, WORK, SavedPositions
-from rotemina.app.motion.session import MotionSession
-from rotemina.app.motion.state import Connection
-from rotemina.app.motion.teleoperation.axis_calibration import CalibrationFolder
-from rotemina.app.motion.teleoperation.intent import Action
-from rotemina.app.motion.teleoperation.modes import Modes
-from rotemina.app.motion.teleoperation.profile import (
-    OperatorRole,
-    SilencePolicy,
-    listed_profiles,
+from rotemina.app.microscope.microscope import CALIBRATION_FOLDER as MICROSCOPE
+from rotemina.app.motion.inputs import OperatorAction, OperatorRole, SilencePolicy
+from rotemina.app.motion.inputs.axis_calibration import InputCalibrationFolder
+from rotemina.app.motion.inputs.profile import list_profiles
+from rotemina.app.motion.model import ModelInUse
+from rotemina.app.motion.penetration import (
+    PenetrationParameters,
+    PenetrationPhase,
+    PenetrationVerdict,
+    RunLog,
 )
-from rotemina.app.motion.teleoperation.scales import Scale, Scales
-from rotemina.app.motion.teleoperation.teleoperation_loop import DIRECT
-from rotemina.app.range_settings import kept_ranges
-from rotemina.app.recorded_events import Severity, timeline_events
-from rotemina.app.records.database import RecordStore
-from rotemina.app.records.entry import Kind
-from rotemina.app.records.library import Library, read
-from rotemina.app.settings import Settings
-from rotemina.app.toml_file import Format
-from rotemina.drivers.cameras.frame import Region
-from rotemina.drivers.cameras.sequence import ImageSequences
-from rotemina.drivers.cameras.settings import PixelType, Trigger
-from rotemina.drivers.inputs.device import InputIdentity
-from rotemina.drivers.registry import driver_named
-from rotemina.drivers.samples import DeviceState
-from rotemina.drivers.simulator.driver import Simulator
-from rotemina.plugins.gap.blind_figures import BlindResult
-from rotemina.sim.compensate.file import read_trained
-from rotemina.sim.effects.registry import effect_ids, effect_named, is_built_in
+from rotemina.app.motion.playback import compare_with_model
+from rotemina.app.motion.recording import (
+    Recording,
+    Replay,
+    find_unfinished,
+    make_record,
+    recover_recording,
+)
+from rotemina.app.motion.session import (
+    HOME,
+    LOAD,
+    WORK,
+    MotionSession,
+    SavedPositions,
+    load_ranges,
+)
+from rotemina.app.motion.state import ConnectionState
+from rotemina.app.motion.teleoperation import CoordinateScale, ModeScales
+from rotemina.app.motion.teleoperation.modes import SteeringModes
+from rotemina.app.motion.teleoperation.teleoperation_loop import DIRECT_MODE
+from rotemina.app.operation import OperatorControl
+from rotemina.app.operation.operation import PENETRATION_FILE, SCALES_FILE
+from rotemina.app.records import (
+    EventSeverity,
+    RecordCatalogue,
+    RecordKind,
+    RecordStore,
+    make_timeline_events,
+    read_entry,
+)
+from rotemina.app.settings import TomlFormat, UserSettings, driver_settings
+from rotemina.drivers.cameras import CameraTrigger, PixelType, SensorRegion
+from rotemina.drivers.cameras.sequence import ImageSequenceSource
+from rotemina.drivers.contract import DeviceState, find_driver
+from rotemina.drivers.inputs import InputIdentity
+from rotemina.drivers.simulator import Simulator
+from rotemina.plugins.gap.blind.blind_figures import BlindResult
+from rotemina.sim.compensate import read_trained
+from rotemina.sim.effects import (
+    is_built_in,
+    list_effect_ids,
+    load_effect,
+)
 from rotemina.sim.errors import InputError
-from rotemina.sim.feedback.gains import AntiWindup, Gains
+from rotemina.sim.feedback import ControllerGains
+from rotemina.sim.feedback.gains import AntiWindup
 from rotemina.sim.gap.compare.calibration import calibration_in
-from rotemina.sim.gap.diagnosis import Offset
-from rotemina.sim.gap.diagnosis import Verdict as Found
-from rotemina.sim.gap.output.document_reader import read_document
-from rotemina.sim.records.reading import read_record
-from rotemina.sim.records.record import Tap
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.robot.model import CascadeController
-from rotemina.sim.tuning.objectives import SecondObjective
-from rotemina.sim.tuning.tuning_result import load_tuning
+from rotemina.sim.gap.output import read_document
+from rotemina.sim.gap.result import GapVerdict, ModelOffset
+from rotemina.sim.records import Tap, read_record
+from rotemina.sim.robot import CascadeController
+from rotemina.sim.robot_files import load_robot
+from rotemina.sim.tuning import SecondObjective, load_tuning
 
 ROOT = Path(__file__).parents[1]
 SAMPLES = Path(__file__).parent / "samples"
 CONFIG, FILES, OUTPUTS = SAMPLES / "config", SAMPLES / "files", SAMPLES / "outputs"
 ROBOT = load_robot("rotemina")
-BEGAN = datetime(2026, 3, 4, 5, 6, 7, tzinfo=UTC)
+START_TIME = datetime(2026, 3, 4, 5, 6, 7, tzinfo=UTC)
 STICK = InputIdentity("hid:046d:c215:0001", "a stick", "hid")
 LABELS = ("run 7", "an operator", "dish B")
 BLIND = "blind/RoTeMiNa-seed-7"
-STATES = {  # of the docks that show, by layout: at the left, at the right, at the bottom
+# For each layout, the visible docks at the left, at the right and at the bottom.
+VISIBLE_DOCKS = {
     "My Operate": (
         ("control",),
-        (),  # folded away
+        # The panels at the right are folded away.
+        (),
         ("trajectory", "comparison", "penetration", "recorder", "view3d"),
     ),
     "My Tune": (
@@ -123,49 +134,53 @@ STATES = {  # of the docks that show, by layout: at the left, at the right, at t
 }
 
 
-def load_maker():
-    """Import the script that has made the samples."""
+def load_sample_script():
+    """Import the script that made the samples."""
     spec = importlib.util.spec_from_file_location("make_samples", SAMPLES / "make_samples.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
 
 
-MAKER = load_maker()
+SAMPLE_SCRIPT = load_sample_script()
 
 
 @pytest.fixture
 def config(tmp_path):
-    """A user's folder of preferences, which may be written."""
+    """A writable copy of a user's folder of preferences."""
     return Path(shutil.copytree(CONFIG, tmp_path / "config"))
 
 
 @pytest.fixture
 def data(tmp_path):
-    """A user's folder of data, which may be written."""
+    """A writable copy of a user's folder of data."""
     return Path(shutil.copytree(SAMPLES / "data", tmp_path / "data"))
 
 
 @pytest.fixture
 def settings(config):
-    return Settings(config / "settings.json")
-
-
-# --- preferences ----------------------------------------------------------------------------------
+    return UserSettings(config / "settings.json")
 
 
 def test_preferences_of_the_machine(settings):
-    assert not settings.fault
-    ranges = kept_ranges(settings, load_robot(FILES / "robot.toml"))
+    assert not settings.load_error
+    ranges = load_ranges(settings, load_robot(FILES / "robot.toml"))
     assert ranges == {"table": (0.01, 0.04), "tilt": (1e-4, 9e-4)}
-    used = CameraMemory(settings).last
-    assert (used.identity.key, used.identity.source) == ("sequence:/records/cells", "sequence")
-    assert used.by_address
-    kept = used.settings
-    assert (kept.exposure_s, kept.gain, kept.rate_hz) == (0.02, 3.5, 12.5)
-    assert kept.region == Region(8, 16, 640, 480)
-    assert (kept.pixel_type, kept.trigger) == (PixelType.MONO16, Trigger.SOFTWARE)
-    assert not kept.repeat
+    camera = CameraMemory(settings).last_camera
+    assert (camera.identity.key, camera.identity.source) == ("sequence:/records/cells", "sequence")
+    assert camera.by_address
+    camera_settings = camera.settings
+    assert (camera_settings.exposure_s, camera_settings.gain, camera_settings.rate_hz) == (
+        0.02,
+        3.5,
+        12.5,
+    )
+    assert camera_settings.region == SensorRegion(8, 16, 640, 480)
+    assert (camera_settings.pixel_type, camera_settings.trigger) == (
+        PixelType.MONO16,
+        CameraTrigger.SOFTWARE,
+    )
+    assert not camera_settings.repeat
 
 
 @pytest.mark.parametrize(
@@ -177,37 +192,37 @@ def test_preferences_of_the_machine(settings):
     ],
 )
 def test_settings_of_drivers(settings, driver, values):
-    assert tuple(driver_settings.kept(settings, driver_named(driver)).values()) == values
+    assert tuple(driver_settings.load_settings(settings, find_driver(driver)).values()) == values
 
 
 def test_preferences_of_the_window(settings, qtbot):
     from PySide6.QtWidgets import QWidget
 
-    from rotemina.app.shell.language import chosen
-    from rotemina.app.shell.layouts import KeptLayouts
-    from rotemina.app.shell.recent_files import RecentFiles
-    from rotemina.plugins.microscope.overlays import Layer
+    from rotemina.app.language.language import determine_language
+    from rotemina.app.shell.records import RecentFilesMenu
+    from rotemina.app.shell.window.layouts import SavedLayouts
+    from rotemina.plugins.microscope.overlays import OverlayLayer
 
     parent = QWidget()
     qtbot.addWidget(parent)
-    uses = dict.fromkeys(("trajectory", "record"), ("", print))
-    listed = RecentFiles(settings, uses, parent).listed
-    assert [(kind, path.name) for kind, path in listed] == [
+    actions = dict.fromkeys(("trajectory", "record"), ("", print))
+    recent_files = RecentFilesMenu(settings, actions, parent).entries
+    assert [(kind, path.name) for kind, path in recent_files] == [
         ("trajectory", "tour.csv"),
         ("record", "run 7.csv.gz"),
     ]
-    assert chosen(settings) == "de"
-    assert set(KeptLayouts(settings).names()) == set(STATES)
+    assert determine_language(settings) == "de"
+    assert set(SavedLayouts(settings).list_names()) == set(VISIBLE_DOCKS)
     layers = {key for key in settings.values if key.startswith("microscope.layer.")}
-    assert layers == {f"microscope.layer.{layer.name.lower()}" for layer in Layer}
+    assert layers == {f"microscope.layer.{layer.name.lower()}" for layer in OverlayLayer}
 
 
-@pytest.mark.parametrize("name", STATES)
-def test_docks_stand_where_they_were_left(settings, qtbot, name):
+@pytest.mark.parametrize("name", VISIBLE_DOCKS)
+def test_docks_are_restored_where_they_were_left(settings, qtbot, name):
     from PySide6.QtCore import Qt
     from PySide6.QtWidgets import QDockWidget, QMainWindow
 
-    from rotemina.app.shell.layouts import VERSION, KeptLayouts
+    from rotemina.app.shell.window.layouts import STATE_VERSION, SavedLayouts
 
     window = QMainWindow()
     qtbot.addWidget(window)
@@ -215,22 +230,23 @@ def test_docks_stand_where_they_were_left(settings, qtbot, name):
     for panel, dock in docks.items():
         dock.setObjectName(f"dock-{panel}")
         window.addDockWidget(Qt.DockWidgetArea.LeftDockWidgetArea, dock)
-        dock.hide()  # those of the centre have none
-    assert window.restoreState(KeptLayouts(settings).state(name), VERSION)
-    assert places(window, docks) == tuple(map(set, STATES[name]))
+        # Panels in the centre have no dock.
+        dock.hide()
+    assert window.restoreState(SavedLayouts(settings).read_state(name), STATE_VERSION)
+    assert find_visible_docks(window, docks) == tuple(map(set, VISIBLE_DOCKS[name]))
     assert docks["faults"].isFloating() == (name == "Faults & more")
 
 
-def places(window, docks):
-    """Return which docks show at the left, at the right and at the bottom."""
+def find_visible_docks(window, docks):
+    """Return the visible docks at the left, at the right and at the bottom."""
     from PySide6.QtCore import Qt
 
     area = Qt.DockWidgetArea
     areas = (area.LeftDockWidgetArea, area.RightDockWidgetArea, area.BottomDockWidgetArea)
-    shown = {name: dock for name, dock in docks.items() if not dock.isHidden()}
+    visible = {name: dock for name, dock in docks.items() if not dock.isHidden()}
     return tuple(
-        {n for n, d in shown.items() if not d.isFloating() and window.dockWidgetArea(d) == each}
-        for each in areas
+        {n for n, d in visible.items() if not d.isFloating() and window.dockWidgetArea(d) == side}
+        for side in areas
     )
 
 
@@ -239,40 +255,42 @@ def places(window, docks):
 def test_a_window_looks_and_works_as_it_was_left(settings, make_robot_window, tmp_path):
     from rotemina.plugins.microscope.picture_section import LayerSection
 
-    settings.set("window.language", "en")  # other tests of this process speak it
+    # Other tests of this process expect English.
+    settings.set("window.language", "en")
     shutil.copytree(SAMPLES / "data", tmp_path, dirs_exist_ok=True)
     window = make_robot_window()
     bench, panels = window.workbench, window.panels
-    assert places(window, window.docks) == tuple(map(set, STATES["Faults & more"]))
-    for name, state in STATES.items():
-        window.arrangement.use_kept(name)
-        assert places(window, window.docks) == tuple(map(set, state)), name
+    assert find_visible_docks(window, window.docks) == tuple(
+        map(set, VISIBLE_DOCKS["Faults & more"])
+    )
+    for name, state in VISIBLE_DOCKS.items():
+        window.arrangement.use_saved_layout(name)
+        assert find_visible_docks(window, window.docks) == tuple(map(set, state)), name
     assert bench.theme.name == "light"
     assert window.arrangement.text_scale == 1.15
     labels = bench.library.labels
     assert (labels.run, labels.operator, labels.sample) == LABELS
-    assert len(window.recent_files.listed) == 2
+    assert len(window.recent_files.entries) == 2
     window.first_steps.offer()
-    assert window.first_steps.isHidden()  # it was closed
-    assert panels["control"].head.speed.share == 0.25
+    # The user has closed it.
+    assert window.first_steps.isHidden()
+    assert panels["control"].overview.speed.fraction == 0.25
     boxes = window.findChild(LayerSection).boxes
-    shown = {layer.name for layer, box in boxes.items() if box.isChecked()}
-    assert shown == {"CROSSHAIR"}
-    assert panels["inputs"]  # a panel that was not shown yet is made when it is asked for
+    visible_layers = {layer.name for layer, box in boxes.items() if box.isChecked()}
+    assert visible_layers == {"CROSSHAIR"}
+    # This makes the panel, which was not shown yet.
+    assert panels["inputs"]
     assert bench.operation.devices.profile.name == "Two sticks"
     assert not bench.operation.problems
 
 
-# --- a user's folder ------------------------------------------------------------------------------
-
-
-def test_an_operation_finds_all_files_of_its_user(config, data):
+def test_an_operator_control_loads_all_files_of_its_user(config, data):
     session = MotionSession(Simulator(ROBOT))
-    operation = Operation(session, config, data)
+    operation = OperatorControl(session, config, data)
     try:
         assert operation.problems == []
         assert set(session.corrections.names) == {"zn"}
-        assert [one.path.stem for one in operation.devices.profiles] == ["Two sticks"]
+        assert [profile.path.stem for profile in operation.devices.profiles] == ["Two sticks"]
         assert operation.penetration_parameters.axis == "z"
         assert len(operation.penetration_log.read()[0]) == 4
         assert operation.teleoperator.scales.modes
@@ -283,7 +301,7 @@ def test_an_operation_finds_all_files_of_its_user(config, data):
 
 
 def test_a_profile(config):
-    (listed,) = listed_profiles(config / "profiles")
+    (listed,) = list_profiles(config / "profiles")
     assert listed.problem is None
     assert listed.profile.name == "Two sticks"
     first, second = listed.profile.devices
@@ -293,34 +311,34 @@ def test_a_profile(config):
         SilencePolicy.STOP,
     )
     assert (second.seat, second.when_silent) == (OperatorRole.TRAINEE, SilencePolicy.CONTINUE)
-    assert [(one.control, one.drives, one.inverted) for one in first.axes] == [
+    assert [(axis.control, axis.drives, axis.inverted) for axis in first.axes] == [
         ("axis 1", "x", False),
         ("axis 2", "zn", True),
     ]
-    *buttons, beyond = first.actions
-    assert {one.action for one in buttons} == set(Action)
-    assert (beyond.control, beyond.action, beyond.at, beyond.hysteresis) == (
+    *buttons, axis_action = first.actions
+    assert {button.action for button in buttons} == set(OperatorAction)
+    assert (axis_action.control, axis_action.action, axis_action.at, axis_action.hysteresis) == (
         "axis 3",
-        Action.FINE,
+        OperatorAction.FINE,
         -0.6,
         0.2,
     )
 
 
 def test_the_calibration_of_a_stick(config):
-    found = CalibrationFolder(config / "calibrations").read(STICK).axis("axis 1")
-    assert (found.low, found.centre, found.high) == (-0.9, 0.02, 0.95)
-    assert (found.dead_zone, found.expo, found.inverted) == (0.03, 0.4, True)
-    assert found.travel_m == 0.03
+    calibration = InputCalibrationFolder(config / "calibrations").read(STICK).find_axis("axis 1")
+    assert (calibration.low, calibration.centre, calibration.high) == (-0.9, 0.02, 0.95)
+    assert (calibration.dead_zone, calibration.expo, calibration.inverted) == (0.03, 0.4, True)
+    assert calibration.travel_m == 0.03
 
 
 def test_calibrations_of_sensors(config):
-    stored, problems = CalibrationStore(config, ROBOT).listed()
+    stored, problems = CalibrationStore(config, ROBOT).list_calibrations()
     assert problems == ()
-    by_axis = {one.calibration.axis: one for one in stored}
-    assert {axis: one.on for axis, one in by_axis.items()} == {"x": False, "zn": True}
+    by_axis = {entry.calibration.axis: entry for entry in stored}
+    assert {axis: entry.on for axis, entry in by_axis.items()} == {"x": False, "zn": True}
     zn, x = by_axis["zn"].calibration, by_axis["x"].calibration
-    # Records name it by its digest.
+    # Records refer to it by its digest.
     assert zn.name == "2026-03-04T05:06:07+00:00 aab6493f"
     assert (zn.before_rms, zn.after_rms, zn.runs, zn.notes) == (
         1e-7,
@@ -328,45 +346,51 @@ def test_calibrations_of_sensors(config):
         3,
         ("the laser drifted",),
     )
-    model = zn.applied.model
+    model = zn.applied_calibration.model
     assert (model.gain_error, model.bend, model.weights) == (0.0125, (2e-8, -1e-8), (0.01, 0.02))
     assert (model.lag, model.lag_s) == ("first_order", 1e-4)
     assert x.sensor.model.lag == "delay"
     assert x.sensor.harmonics == (1e-8, 2e-8, 3e-9, 4e-9)
-    assert [(one.value, one.half_width) for one in zn.figures] == [(0.0125, 1e-4), (4e-10, None)]
+    assert [(figure.value, figure.half_width) for figure in zn.figures] == [
+        (0.0125, 1e-4),
+        (4e-10, None),
+    ]
     assert (zn.sources[0].name, zn.sources[0].digest) == ("run 7.csv.gz", "0123456789abcdef")
-    assert zn.iso_reached.figures.accuracy == 1e-7
-    assert zn.iso_reading_before.figures.mean_reversal == -2e-8
+    assert zn.iso_reached.positioning.accuracy == 1e-7
+    assert zn.iso_reading_before.positioning.mean_reversal == -2e-8
 
 
 def test_health_cards(config):
-    first, second = HealthBook(config, ROBOT.name).cards("zn")
+    first, second = HealthBook(config, ROBOT.name).read_cards("zn")
     assert (first.date[:10], first.record) == ("2026-03-04", "run 4.csv")
     assert second.figures[0] == ("static gain", 0.97, 0.002, "1")
 
 
 def test_the_calibration_of_a_microscope(config):
-    found = load_microscope(config / MICROSCOPE, "opencv:0", "20x/0.4")
-    assert found.view.holds(np.array([639.0, 479.0]))
-    assert found.stage("micro").map.matrix.tolist() == [[3.1e6, 1.5e3], [-1.6e3, 3.2e6]]
-    assert found.stage("micro").map.covariance[1, 2] == 6.0
-    assert found.stage("nano").pixel_of(np.array([0.01, 0.02, 0.0])).tolist() == [321.5, 241.25]
-    assert (found.focus.axis, found.focus.sharpest) == ("z", 0.0125)
+    calibration = load_microscope(config / MICROSCOPE, "opencv:0", "20x/0.4")
+    assert calibration.view.contains(np.array([639.0, 479.0]))
+    assert calibration.get_stage("micro").map.matrix.tolist() == [[3.1e6, 1.5e3], [-1.6e3, 3.2e6]]
+    assert calibration.get_stage("micro").map.covariance[1, 2] == 6.0
+    assert calibration.get_stage("nano").predict_pixel(np.array([0.01, 0.02, 0.0])).tolist() == [
+        321.5,
+        241.25,
+    ]
+    assert (calibration.focus.axis, calibration.focus.sharpest) == ("z", 0.0125)
 
 
 def test_saved_positions(config):
     positions = SavedPositions(config, ROBOT)
     positions.read()
-    assert set(positions.kept) == {HOME, LOAD, WORK, "dish B, cell 3"}
-    assert positions.kept[LOAD]["x"] == 0.01375
+    assert set(positions.positions) == {HOME, LOAD, WORK, "dish B, cell 3"}
+    assert positions.positions[LOAD]["x"] == 0.01375
 
 
 def test_scales_of_every_mode(config):
-    operation = Operation(MotionSession(Simulator(ROBOT)), config, config)
-    scales, modes = operation.teleoperator.scales, Modes(ROBOT)
+    operation = OperatorControl(MotionSession(Simulator(ROBOT)), config, config)
+    scales, modes = operation.teleoperator.scales, SteeringModes(ROBOT)
     operation.close()
     middle = {name: sum(axis.range) / 2.0 for name, axis in ROBOT.axes.items()}
-    scale = Scale(
+    scale = CoordinateScale(
         way=2e-4,
         speed=3e-4,
         time_constant_s=0.5,
@@ -375,32 +399,35 @@ def test_scales_of_every_mode(config):
         contact_gain=0.25,
     )
     for mode in modes.names:
-        for coordinate in modes.begin(mode, middle).coordinates.values():
-            assert scales.of(mode, coordinate) == scale
-    assert set(scales.modes) == {*modes.names, DIRECT}
+        for coordinate in modes.begin_mode(mode, middle).coordinates.values():
+            assert scales.find_scale(mode, coordinate) == scale
+    assert set(scales.modes) == {*modes.names, DIRECT_MODE}
 
 
 def test_parameters_of_a_penetration(config):
-    found = PenetrationParameters.load(config / "penetration.toml")
-    assert found == MAKER.penetration_parameters()
-    assert (found.direction, found.shape, found.shaping) == ("up", "table", "inverse")
-
-
-# --- a user's data --------------------------------------------------------------------------------
+    parameters = PenetrationParameters.load(config / "penetration.toml")
+    assert parameters == SAMPLE_SCRIPT.make_penetration_parameters()
+    assert (parameters.direction, parameters.shape, parameters.shaping) == (
+        "up",
+        "table",
+        "inverse",
+    )
 
 
 def test_runs_of_penetrations(data):
     runs, problems = RunLog(data / "penetrations.jsonl").read()
     assert problems == ()
-    assert {run.verdict for run in runs} == set(Verdict)
-    assert {name for name, _ in runs[0].phases} == set(Phase)
+    assert {run.verdict for run in runs} == set(PenetrationVerdict)
+    assert {name for name, _ in runs[0].phases} == set(PenetrationPhase)
     assert (runs[0].run, runs[0].operator, runs[0].sample) == LABELS
     assert runs[0].thrust.depth == 4.9e-5
     assert runs[0].contact_height == 0.0125
     assert runs[0].gave_way is True
     assert runs[1].thrust is None
-    # A panel offers to use them again.
-    assert PenetrationParameters(**runs[0].parameters) == MAKER.penetration_parameters()
+    # A panel offers these parameters for another run.
+    assert (
+        PenetrationParameters(**runs[0].parameters) == SAMPLE_SCRIPT.make_penetration_parameters()
+    )
 
 
 def test_a_playback_with_all_its_metadata(data):
@@ -409,13 +436,13 @@ def test_a_playback_with_all_its_metadata(data):
     assert len(record.time_s) == 60
     assert record.signal("zn", Tap.U)[0] == 62.263157894736835
     assert record.history == "unknown"
-    about = record.metadata
-    assert about["trajectory"] == "tour"
-    assert about["calibration thx"] == "2026-03-04 01234567"
-    assert about["noted"] == "contact of zn"
-    assert {"began", "robot", "robot_sha256", "driver", "model", "effects"} <= set(about)
-    assert (about["run"], about["operator"], about["sample"]) == LABELS
-    run = compared(ModelInUse.nominal_of(Simulator(ROBOT)), "tour", record)
+    metadata = record.metadata
+    assert metadata["trajectory"] == "tour"
+    assert metadata["calibration thx"] == "2026-03-04 01234567"
+    assert metadata["noted"] == "contact of zn"
+    assert {"began", "robot", "robot_sha256", "driver", "model", "effects"} <= set(metadata)
+    assert (metadata["run"], metadata["operator"], metadata["sample"]) == LABELS
+    run = compare_with_model(ModelInUse.make_nominal(Simulator(ROBOT)), "tour", record)
     assert set(run.gaps) >= {("thx", Tap.MEAS), ("zn", Tap.MEAS)}
 
 
@@ -425,8 +452,8 @@ def test_a_recording(data):
 
 
 def test_an_interrupted_recording(data):
-    (path,) = unfinished(data / "recordings")
-    check_recording(Recording.open(recover(path)))
+    (path,) = find_unfinished(data / "recordings")
+    check_recording(Recording.open(recover_recording(path)))
 
 
 def check_recording(recording):
@@ -436,19 +463,19 @@ def check_recording(recording):
     assert tuple(recording.metadata[key] for key in ("run", "operator", "sample")) == LABELS
     assert json.loads(recording.metadata["settings"]) == {"control.speed": 0.25}
     assert recording.count == 30
-    samples = recording.samples()
+    samples = recording.read_samples()
     assert np.ptp(samples.command, axis=0).tolist() == pytest.approx([1e-5, 0.0, 0.0])
     assert set(recording.channels) == {"clock", f"input {STICK.key}", "intent", "tip"}
-    assert recording.channel("tip")["quality"].tolist() == [0.75]
-    assert record_of(recording).has("x", Tap.MEAS)
-    told = timeline_events(recording.events(), recording.began_s)
-    words = Counter(one.word for one in told if one.weight is not Severity.DETAIL)
+    assert recording.read_channel("tip")["quality"].tolist() == [0.75]
+    assert make_record(recording).has("x", Tap.MEAS)
+    events = make_timeline_events(recording.read_events(), recording.began_s)
+    words = Counter(event.word for event in events if event.severity is not EventSeverity.DETAIL)
     assert words["Fault"] == words["Refused"] == words["Stop"] == words["Note"] == 1
     replay = Replay(recording)
     replay.seek(recording.ended_s)
     state = replay.snapshot()
-    assert (state.connection, state.activity) == (Connection.CONNECTED, DeviceState.FAULT)
-    assert (state.fault, state.latched) == (
+    assert (state.connection, state.activity) == (ConnectionState.CONNECTED, DeviceState.FAULT)
+    assert (state.fault, state.latch_reason) == (
         "the amplifier is off",
         "the emergency stop was pressed",
     )
@@ -463,56 +490,53 @@ def check_recording(recording):
 
 
 def test_the_library_of_records(data):
-    library = Library(data)
+    library = RecordCatalogue(data)
     library.refresh()
-    by_kind = {one.kind: one for one in library.entries if one.name}
-    assert set(by_kind) == set(Kind)
-    playback, elsewhere = by_kind[Kind.PLAYBACK], by_kind[Kind.FILE]
+    by_kind = {entry.kind: entry for entry in library.entries if entry.name}
+    assert set(by_kind) == set(RecordKind)
+    playback, elsewhere = by_kind[RecordKind.PLAYBACK], by_kind[RecordKind.FILE]
     assert (playback.name, playback.note) == ("The first tour", "the dish was warm")
     assert (playback.missing, playback.changed) == (False, False)
     assert playback.gap.axis == "zn"
-    assert read(playback, ROBOT).axes == ("thx", "zn")
+    assert read_entry(playback, ROBOT).axes == ("thx", "zn")
     assert elsewhere.missing
-    assert (elsewhere.began, elsewhere.duration_s) == (BEGAN, 12.5)
+    assert (elsewhere.began, elsewhere.duration_s) == (START_TIME, 12.5)
     assert (elsewhere.run, elsewhere.operator, elsewhere.sample) == LABELS
     assert (elsewhere.gap.axis, elsewhere.gap.rms, elsewhere.gap.unit) == ("zn", 1.5e-7, "m")
     assert (elsewhere.robot, elsewhere.machine) == ("RoTeMiNa", "0123456789abcdef")
     assert (elsewhere.problem, elsewhere.changed) == ("its time stands still", True)
-    assert by_kind[Kind.RECORDING].events == 10
+    assert by_kind[RecordKind.RECORDING].events == 10
 
 
-def test_a_blind_test_goes_on_where_it_was(data):
-    run = BlindRun(data / BLIND, GeneratedCases("rotemina", 3, 7))
-    assert run.pending(Shard()) == ["case_0002"]
-    key, outcomes = finished(data / BLIND)
+def test_a_blind_test_continues_where_it_stopped(data):
+    run = ResumableBlindRun(data / BLIND, GeneratedCaseSource("rotemina", 3, 7))
+    assert run.list_pending(CaseShard()) == ["case_0002"]
+    key, outcomes = read_finished_run(data / BLIND)
     assert key == {"seed": 7, "robot": "rotemina"}
-    assert [one.verdict for one in outcomes] == ["insufficient_excitation"] * 2
-    assert outcomes[1].truth == [("y", "microstep_error", None)]
-    assert outcomes[1].named == [("thx", "hysteresis", None)]
+    assert [outcome.verdict for outcome in outcomes] == ["insufficient_excitation"] * 2
+    assert outcomes[1].true_causes == [("y", "microstep_error", None)]
+    assert outcomes[1].named_causes == [("thx", "hysteresis", None)]
     assert outcomes[1].closure == 1.0
     assert outcomes[1].has_remainder
     for name in CONTESTANTS:
-        assert len(run.outcomes_of(name)) == 2
-    known = classifier_for(ROBOT, data / BLIND / "classifier.npz")
-    assert len(known.names) == len(known.known)
+        assert len(run.read_outcomes_of(name)) == 2
+    classifier = load_or_train_classifier(ROBOT, data / BLIND / "classifier.npz")
+    assert len(classifier.names) == len(classifier.known_features)
 
 
 def test_the_score_of_a_blind_test():
     result = BlindResult.read(OUTPUTS / "blind.json")
-    assert (result.done, result.asked) == (2, 3)
-    told = "insufficient_excitation"
-    assert result.counts == {("microstep_error", told): 1, ("none", told): 1}
+    assert (result.done, result.total) == (2, 3)
+    verdict = "insufficient_excitation"
+    assert result.counts == {("microstep_error", verdict): 1, ("none", verdict): 1}
     assert any(row.cells[2].startswith("100") for row in result.rows)
-
-
-# --- files of the user's choice -------------------------------------------------------------------
 
 
 def test_a_robot_file():
     robot = load_robot(FILES / "robot.toml")
     table, tilt, push, still = (robot.axes[name] for name in ("table", "tilt", "push", "still"))
     assert (table.kind, tilt.kind, push.kind) == ("stepper", "piezo", "force")
-    assert (table.max_speed, table.max_acceleration, table.following) == (0.01, 0.2, 1e-3)
+    assert (table.max_speed, table.max_acceleration, table.following_limit) == (0.01, 0.2, 1e-3)
     assert (table.steps_per_rev, table.microsteps_per_step, table.pitch) == (200, 16, 1e-3)
     assert table.sensor.noise_floor == pytest.approx(np.hypot(2e-8, 1e-8 / np.sqrt(12.0)))
     assert (tilt.natural_frequency_hz, tilt.damping_ratio, tilt.gain) == (300.0, 0.03, 8.95e-6)
@@ -535,35 +559,37 @@ def test_a_robot_file():
 
 def test_every_formulation_of_every_effect():
     robot = load_robot(FILES / "effects.toml")
-    kept = {(one.id, one.formulation): set(one.parameters) for one in robot.effects}
-    known = {
-        (name, one.name): {parameter.name for parameter in one.parameters}
-        for name in filter(is_built_in, effect_ids())
-        for one in effect_named(name).formulations
+    stored_parameters = {
+        (effect.id, effect.formulation): set(effect.parameters) for effect in robot.effects
     }
-    assert kept == known
+    known_parameters = {
+        (name, formulation.name): {parameter.name for parameter in formulation.parameters}
+        for name in filter(is_built_in, list_effect_ids())
+        for formulation in load_effect(name).formulations
+    }
+    assert stored_parameters == known_parameters
 
 
 def test_a_corrected_robot():
     robot = load_robot(FILES / "twin.toml")
-    assert {one.id for one in robot.effects} == {"hysteresis", "cross_coupling"}
+    assert {effect.id for effect in robot.effects} == {"hysteresis", "cross_coupling"}
     assert robot.axes == ROBOT.axes
 
 
 def test_a_diagnosis():
-    found = read_document(OUTPUTS / "gap.json")
-    assert found.verdict is Found.INSUFFICIENT
-    assert dict(found.axes) == {
-        "thx": Found.PARTLY,
-        "y": Found.NONE,
-        "zn": Found.INSUFFICIENT,
+    document = read_document(OUTPUTS / "gap.json")
+    assert document.verdict is GapVerdict.INSUFFICIENT
+    assert dict(document.axes) == {
+        "thx": GapVerdict.PARTLY,
+        "y": GapVerdict.NONE,
+        "zn": GapVerdict.INSUFFICIENT,
     }
-    assert found.robot == ROBOT
-    loop, coupled = found.effects
+    assert document.robot == ROBOT
+    loop, coupled = document.effects
     assert (loop.axis, loop.id, loop.formulation) == ("thx", "hysteresis", "prandtl_ishlinskii")
     assert loop.parameters == {"width": 1.2e-4, "shape": 4.0}
     assert coupled.from_axis == "zn"
-    assert found.offsets == {"thx": {Tap.MEAS: Offset(1e-7, 1e-9)}}
+    assert document.offsets == {"thx": {Tap.MEAS: ModelOffset(1e-7, 1e-9)}}
 
 
 def test_a_record_of_every_tap():
@@ -586,7 +612,7 @@ def test_inverses():
         "prandtl_ishlinskii",
         "linear",
     }
-    assert (trained.chosen, trained.remarks) == ("linear", ("the record is short",))
+    assert (trained.recommended_kind, trained.remarks) == ("linear", ("the record is short",))
     assert provenance.trained_on[0].name == "run 7.csv"
     assert (provenance.seed, provenance.held_out[0].rows) == (3, 100)
     assert trained.residuals["linear"].share == pytest.approx(0.0001954, rel=1e-3)
@@ -596,26 +622,32 @@ def test_inverses():
 def test_tuned_gains():
     tuning = load_tuning(FILES / "tuning.toml")
     assert (tuning.axis, tuning.rate_hz, tuning.delay) == ("zn", 5000.0, 2)
-    assert (tuning.recommended, tuning.chosen, tuning.best.gains) == (0, 1, Gains())
+    assert (tuning.recommended, tuning.chosen, tuning.chosen_point.gains) == (
+        0,
+        1,
+        ControllerGains(),
+    )
     gains = tuning.points[0].gains
     assert (gains.proportional, gains.integral, gains.derivative) == (0.07, 1100.0, 1.7e-4)
     assert gains.anti_windup is AntiWindup.CONDITIONAL
     assert gains.notch.frequency_hz == 420.0
     assert tuning.points[0].figures.settling_s == 0.03
     assert tuning.provenance.against is SecondObjective.SETTLING
-    assert not tuning.provenance.whole
+    assert not tuning.provenance.is_complete
 
 
 def test_the_calibration_of_a_diagnosis():
-    found = calibration_in(json.loads((FILES / "diagnosis_calibration.json").read_text("utf-8")))
-    assert 0.0 < found.probability(0.9, 0) < 1.0
-    assert found.exponent == pytest.approx(0.0, abs=2.0)
+    calibration = calibration_in(
+        json.loads((FILES / "diagnosis_calibration.json").read_text("utf-8"))
+    )
+    assert 0.0 < calibration.probability(0.9, 0) < 1.0
+    assert calibration.exponent == pytest.approx(0.0, abs=2.0)
 
 
 @pytest.mark.parametrize("name", ["snapshot.tif", "snapshot.png", "stack.tif", "film.tif"])
 def test_pictures_can_be_shown_again(name):
-    source = ImageSequences()
-    camera = source.camera(source.addressed(str(FILES / name)))
+    source = ImageSequenceSource()
+    camera = source.camera(source.parse_address(str(FILES / name)))
     camera.open()
     try:
         assert (camera.description.width, camera.description.height) == (8, 6)
@@ -628,127 +660,123 @@ def test_pictures_can_be_shown_again(name):
     assert pages == (2 if name in ("stack.tif", "film.tif") else 1)
 
 
-# --- what scripts of others read ------------------------------------------------------------------
-
-
-def shape_of(value, path=""):
-    """Yield the keys of a document, and words among its values, each with the keys before."""
+def list_document_paths(value, path=""):
+    """Yield the paths of the keys of a document, and those values that are words."""
     if isinstance(value, dict):
-        for key, inner in value.items():
+        for key, item in value.items():
             yield f"{path}.{key}"
-            yield from shape_of(inner, f"{path}.{key}")
+            yield from list_document_paths(item, f"{path}.{key}")
     elif isinstance(value, list):
-        for inner in value:
-            yield from shape_of(inner, f"{path}[]")
+        for item in value:
+            yield from list_document_paths(item, f"{path}[]")
     elif isinstance(value, str) and re.fullmatch("[a-z_]+", value):
         yield f"{path} = {value}"
 
 
-@pytest.mark.parametrize("name", MAKER.OUTPUTS)
-def test_documents_for_others_have_the_keys_and_words_that_they_had(name):
-    kept = json.loads((OUTPUTS / name).read_text("utf-8"))
-    now = json.loads(json.dumps(MAKER.OUTPUTS[name]()))
-    assert set(shape_of(now)) == set(shape_of(kept))
-    assert set(shape_of(kept))
+@pytest.mark.parametrize("name", SAMPLE_SCRIPT.OUTPUTS)
+def test_documents_for_other_programs_keep_their_keys_and_words(name):
+    sample = json.loads((OUTPUTS / name).read_text("utf-8"))
+    new_document = json.loads(json.dumps(SAMPLE_SCRIPT.OUTPUTS[name]()))
+    assert set(list_document_paths(new_document)) == set(list_document_paths(sample))
+    assert set(list_document_paths(sample))
 
 
-def test_a_table_of_cells_has_the_columns_and_words_that_it_had(tmp_path):
-    MAKER.MAKERS["files/cells.csv"](tmp_path / "cells.csv")
+def test_a_table_of_cells_keeps_its_columns_and_words(tmp_path):
+    SAMPLE_SCRIPT.MAKERS["files/cells.csv"](tmp_path / "cells.csv")
     assert (tmp_path / "cells.csv").read_text() == (FILES / "cells.csv").read_text()
 
 
 @pytest.mark.parametrize("name", ["snapshot.tif", "stack.tif", "film.tif"])
-def test_pictures_tell_what_they_told(name, tmp_path):
+def test_pictures_keep_their_metadata(name, tmp_path):
     import tifffile
 
-    MAKER.MAKERS[f"files/{name}"](tmp_path / name)
-    told = []
+    SAMPLE_SCRIPT.MAKERS[f"files/{name}"](tmp_path / name)
+    metadata = []
     for path in (tmp_path / name, FILES / name):
         with tifffile.TiffFile(path) as file:
-            told.append([set(shape_of(json.loads(page.description))) for page in file.pages])
-    assert told[0] == told[1]
+            metadata.append(
+                [set(list_document_paths(json.loads(page.description))) for page in file.pages]
+            )
+    assert metadata[0] == metadata[1]
 
 
-# --- what is written today ------------------------------------------------------------------------
-
-
-def lost_names(before, now):
-    """Return the names that were written before and are not any more; new ones may be added."""
+def find_missing_names(before, after):
+    """Return the names that are no longer written. New names may be added."""
     if isinstance(before, set):
-        return before - now
-    each = (lost_names(names, now.get(file, set())) for file, names in before.items())
-    return set().union(*each, before.keys() - now.keys())
+        return before - after
+    missing = (find_missing_names(names, after.get(file, set())) for file, names in before.items())
+    return set().union(*missing, before.keys() - after.keys())
 
 
-def laid_out(path):
-    """Return the names in a file, or in all files of a folder: of keys, columns and choices."""
+def list_names(path):
+    """Return the names of keys, columns and choices in a file, or in all files of a folder."""
     if path.is_dir():
-        files = [each for each in sorted(path.rglob("*")) if each.is_file()]
-        return {each.relative_to(path).as_posix(): laid_out(each) for each in files}
+        files = [file for file in sorted(path.rglob("*")) if file.is_file()]
+        return {file.relative_to(path).as_posix(): list_names(file) for file in files}
     match path.suffix:
         case ".toml":
-            return set(shape_of(tomllib.loads(path.read_text("utf-8"))))
+            return set(list_document_paths(tomllib.loads(path.read_text("utf-8"))))
         case ".json":
-            return set(shape_of(json.loads(path.read_text("utf-8"))))
+            return set(list_document_paths(json.loads(path.read_text("utf-8"))))
         case ".jsonl":
             lines = path.read_text("utf-8").splitlines()
-            return {each for line in lines for each in shape_of(json.loads(line))}
+            return {name for line in lines for name in list_document_paths(json.loads(line))}
         case ".csv" | ".gz":
             data = path.read_bytes()
             lines = (gzip.decompress(data) if path.suffix == ".gz" else data).decode().splitlines()
             keys = {line.partition(":")[0] for line in lines if line.startswith("#")}
             return keys | {next(line for line in lines if not line.startswith("#"))}
         case ".arrows":
-            return set(recording_shape(Recording.open(path)))
+            return set(list_recording_names(Recording.open(path)))
         case ".sqlite3":
-            with closing(sqlite3.connect(path)) as base:
-                facts = base.execute("SELECT facts FROM records ORDER BY id").fetchall()
-            return {each for (one,) in facts for each in shape_of(json.loads(one))}
+            with closing(sqlite3.connect(path)) as database:
+                rows = database.execute("SELECT facts FROM records ORDER BY id").fetchall()
+            return {name for (facts,) in rows for name in list_document_paths(json.loads(facts))}
         case ".npz":
             with np.load(path) as arrays:
                 return set(arrays)
     raise AssertionError(path)
 
 
-def recording_shape(recording):
+def list_recording_names(recording):
     yield from recording.metadata
     for channel in recording.channels:
-        yield from (f"{channel}: {column}" for column in recording.channel(channel))
-    for event in recording.events():
-        yield from (f"{event.kind}{each}" for each in shape_of(json.loads(event.details)))
+        yield from (f"{channel}: {column}" for column in recording.read_channel(channel))
+    for event in recording.read_events():
+        yield from (
+            f"{event.kind}{name}" for name in list_document_paths(json.loads(event.details))
+        )
 
 
-SLOWLY = (
+SLOW_SAMPLES = (
     "files/inverse.json",
-    MAKER.PLAYED,
-    MAKER.RECORDED,
+    SAMPLE_SCRIPT.PLAYBACK_SAMPLE,
+    SAMPLE_SCRIPT.RECORDING_SAMPLE,
     "data/records.sqlite3",
     f"data/{BLIND}",
 )
-# A window writes the preferences, a crash leaves what is interrupted; pictures are looked at above.
-ELSEWHERE = ("config/settings.json", "outputs/", "files/cells.csv", ".tif", ".png", ".part")
-AT_ONCE = [
+# A window writes the preferences, and a crash leaves interrupted files. Other tests check pictures.
+OTHERWISE_TESTED = ("config/settings.json", "outputs/", "files/cells.csv", ".tif", ".png", ".part")
+QUICK_SAMPLES = [
     name
-    for name in MAKER.MAKERS
-    if name not in SLOWLY and not any(part in name for part in ELSEWHERE)
+    for name in SAMPLE_SCRIPT.MAKERS
+    if name not in SLOW_SAMPLES and not any(part in name for part in OTHERWISE_TESTED)
 ]
 
 
 @pytest.mark.parametrize(
-    "name", [*AT_ONCE, *(pytest.param(name, marks=pytest.mark.slow) for name in SLOWLY)]
+    "name", [*QUICK_SAMPLES, *(pytest.param(name, marks=pytest.mark.slow) for name in SLOW_SAMPLES)]
 )
-def test_what_is_written_today_is_laid_out_as_it_was(name, tmp_path):
+def test_written_files_keep_all_names_of_the_samples(name, tmp_path):
     path = tmp_path / name
     path.parent.mkdir(parents=True)
-    MAKER.MAKERS[name](path)
-    assert lost_names(laid_out(SAMPLES / name), laid_out(path)) == set()
+    SAMPLE_SCRIPT.MAKERS[name](path)
+    assert find_missing_names(list_names(SAMPLES / name), list_names(path)) == set()
 
 
-# --- nothing is left out --------------------------------------------------------------------------
-
-#: Calls by which what is in memory becomes a file, or comes from one.
+#: Calls that convert between objects in memory and files.
 CONVERSIONS = {
-    "Format",
+    "TomlFormat",
     "TypeAdapter",
     "_Document.model_validate_json",
     "asdict",
@@ -757,7 +785,7 @@ CONVERSIONS = {
     "fields",
     "json.dumps",
     "json.loads",
-    "json_text",
+    "format_json",
     "np.load",
     "np.savez",
     "pa.ipc.open_stream",
@@ -769,13 +797,13 @@ CONVERSIONS = {
     "tomli_w.dumps",
     "tomllib.loads",
 }
-WORDS = re.compile(rf"({'|'.join(map(re.escape, CONVERSIONS))})\(|settings\.(get|set)\(")
-#: By module what samples its files, or (in brackets) why there is none to sample.
-SAMPLED = {
+CONVERSION_CALL = re.compile(rf"({'|'.join(map(re.escape, CONVERSIONS))})\(|settings\.(get|set)\(")
+#: The sample of the files of each module, or (in brackets) why it needs none.
+SAMPLES_OF_MODULES = {
     "app/bench/bench_run.py": "outputs/bench.json",
-    "app/bench/machine.py": "(truth.toml is written by people alone)",
+    "app/bench/machine.py": "(only people write truth.toml)",
     "app/bench/result.py": "outputs/bench.json",
-    "app/blind/cases.py": "(labels are written by people alone)",
+    "app/blind/cases.py": "(only people write labels)",
     "app/blind/classifier.py": f"data/{BLIND}",
     "app/blind/diagnosis_process.py": "outputs/gap.json",
     "app/blind/resumable_run.py": f"data/{BLIND}",
@@ -785,52 +813,52 @@ SAMPLED = {
     "app/calibration/store.py": "config/calibrations",
     "app/cameras/snapshot.py": "files/stack.tif",
     "app/cameras/video_file.py": "files/film.tif",
-    "app/cli/calibrate.py": "outputs/calibrations.json",
-    "app/cli/compare.py": "outputs/comparison.json",
-    "app/cli/compensate_check.py": "outputs/inverses.json",
-    "app/cli/compensate_train.py": "outputs/inverses.json",
-    "app/cli/doctor.py": "outputs/doctor.json",
-    "app/cli/excite.py": "(options of a command)",
-    "app/cli/gap_diagnose.py": "outputs/gap.json",
-    "app/cli/tune.py": "outputs/tuning.json",
-    "app/files.py": "(every JSON file)",
+    "app/cli/machine/calibrate.py": "outputs/calibrations.json",
+    "app/cli/records/compare.py": "outputs/comparison.json",
+    "app/cli/control/compensate_check.py": "outputs/inverses.json",
+    "app/cli/control/compensate_train.py": "outputs/inverses.json",
+    "app/cli/machine/doctor.py": "outputs/doctor.json",
+    "app/cli/records/excite.py": "(options of a command)",
+    "app/cli/gap/gap_diagnose.py": "outputs/gap.json",
+    "app/cli/control/tune.py": "outputs/tuning.json",
+    "app/settings/files.py": "(every JSON file)",
     "app/microscope/calibration_file.py": "config/microscope",
     "app/microscope/camera_memory.py": "config/settings.json",
-    "app/motion/model_in_use.py": "(the digest in a name)",
+    "app/motion/model/model_in_use.py": "(the digest in a name)",
     "app/motion/penetration/attempt.py": "data/penetrations.jsonl",
     "app/motion/penetration/cell_list.py": "files/cells.csv",
     "app/motion/penetration/parameters.py": "config/penetration.toml",
     "app/motion/penetration/run_log.py": "data/penetrations.jsonl",
     "app/motion/penetration/sample_feed.py": "(arrays in memory)",
-    "app/motion/recording/arrow_tables.py": MAKER.RECORDED,
-    "app/motion/recording/recording_reader.py": MAKER.RECORDED,
-    "app/motion/recording/recovery.py": MAKER.RECORDED,
-    "app/motion/recording/replay.py": MAKER.RECORDED,
-    "app/motion/recording/session_recorder.py": MAKER.RECORDED,
-    "app/motion/recording/writer.py": MAKER.RECORDED,
-    "app/motion/run_labels.py": MAKER.PLAYED,
-    "app/motion/saved_positions.py": "config/positions",
-    "app/motion/teleoperation/axis_calibration.py": "config/calibrations",
-    "app/motion/teleoperation/profile.py": "config/profiles",
+    "app/motion/recording/arrow_tables.py": SAMPLE_SCRIPT.RECORDING_SAMPLE,
+    "app/motion/recording/recording_reader.py": SAMPLE_SCRIPT.RECORDING_SAMPLE,
+    "app/motion/recording/recovery.py": SAMPLE_SCRIPT.RECORDING_SAMPLE,
+    "app/motion/recording/replay.py": SAMPLE_SCRIPT.RECORDING_SAMPLE,
+    "app/motion/recording/session_recorder.py": SAMPLE_SCRIPT.RECORDING_SAMPLE,
+    "app/motion/recording/writer.py": SAMPLE_SCRIPT.RECORDING_SAMPLE,
+    "app/motion/state/playback_notes.py": SAMPLE_SCRIPT.PLAYBACK_SAMPLE,
+    "app/motion/session/saved_positions.py": "config/positions",
+    "app/motion/inputs/axis_calibration.py": "config/calibrations",
+    "app/motion/inputs/profile.py": "config/profiles",
     "app/motion/teleoperation/scales.py": "config/scales.toml",
     "app/motion/teleoperation/virtual_impedance.py": "(names in a message)",
-    "app/range_settings.py": "config/settings.json",
-    "app/recorded_events.py": MAKER.RECORDED,
+    "app/motion/session/range_settings.py": "config/settings.json",
+    "app/records/recorded_events.py": SAMPLE_SCRIPT.RECORDING_SAMPLE,
     "app/records/database.py": "data/records.sqlite3",
     "app/scene/handlers.py": "(to a browser)",
-    "app/settings.py": "config/settings.json",
-    "app/shell/layouts.py": "config/settings.json",
-    "app/shell/offscreen_run.py": "outputs/comparison.json",
-    "app/shell/panel_declarations.py": "config/settings.json",
-    "app/shell/support_bundle.py": "(for people)",
-    "app/toml_file.py": "(every TOML file)",
-    "app/watchdog/heartbeat_sender.py": "(to a process of its own)",
-    "app/watchdog/process.py": "(from the process that began it)",
-    "drivers/inputs/script.py": "(scripts are written by people alone)",
-    "drivers/mc68hc11/payload.py": "(messages to a board)",
-    "plugins/gap/answer_exports.py": "outputs/gap.json",
-    "plugins/gap/blind_figures.py": "outputs/blind.json",
-    "plugins/gap/diagnosis_process.py": "(from a process of its own)",
+    "app/settings/settings.py": "config/settings.json",
+    "app/shell/window/layouts.py": "config/settings.json",
+    "app/shell/startup/offscreen_run.py": "outputs/comparison.json",
+    "app/shell/panels/panel_declarations.py": "config/settings.json",
+    "app/shell/support/support_bundle.py": "(for people)",
+    "app/settings/toml_file.py": "(every TOML file)",
+    "app/watchdog/heartbeat_sender.py": "(to a separate process)",
+    "app/watchdog/process.py": "(from the process that started it)",
+    "drivers/inputs/script.py": "(only people write scripts)",
+    "drivers/mc68hc11/protocol/payload.py": "(messages to a board)",
+    "plugins/gap/answer/answer_exports.py": "outputs/gap.json",
+    "plugins/gap/blind/blind_figures.py": "outputs/blind.json",
+    "plugins/gap/diagnosing/diagnosis_process.py": "(from a separate process)",
     "plugins/identification/export.py": "(for people)",
     "plugins/inputs/calibration_progress.py": "config/calibrations",
     "plugins/penetration/panel.py": "data/penetrations.jsonl",
@@ -844,13 +872,13 @@ SAMPLED = {
     "sim/gap/compare/calibration.py": "files/diagnosis_calibration.json",
     "sim/gap/output/digital_twin.py": "files/twin.toml",
     "sim/gap/output/document_reader.py": "outputs/gap.json",
-    "sim/identification/paper_transfer_functions.py": "(a file of the program's own)",
-    "sim/input_files.py": "(every TOML and JSON file)",
+    "sim/identification/paper_transfer_functions.py": "(a file that belongs to the program)",
+    "sim/files/input_files.py": "(every TOML and JSON file)",
     "sim/plant/joint_loads.py": "(arrays in memory)",
-    "sim/plugin_import.py": "(a cache: what it holds can be found out again)",
-    "sim/robot/file.py": "files/robot.toml",
-    "sim/robot/schema_errors.py": "(names in a message)",
-    "sim/robot/writing.py": "files/robot.toml",
+    "sim/plugin_points/trial_import.py": "(a cache: its contents can be determined again)",
+    "sim/robot_files/reading.py": "files/robot.toml",
+    "sim/robot_files/schema_errors.py": "(names in a message)",
+    "sim/robot_files/writing.py": "files/robot.toml",
     "sim/simulation/check_catalogue.py": "(names in a message)",
     "sim/tuning/performance_figures.py": "files/tuning.toml",
     "sim/tuning/tuning_result.py": "files/tuning.toml",
@@ -858,79 +886,89 @@ SAMPLED = {
 
 
 @cache
-def source(path):
-    """Return a source of the program, whose path is that in the repository."""
+def parse_source(path):
+    """Return the syntax tree of a module, given its path in the repository."""
     return ast.parse((ROOT / path).read_text("utf-8"))
 
 
 @cache
-def calls():
-    """Return the calls in each source that may have to do with files, by name."""
-    found = {}
+def find_calls():
+    """Return the calls, with their names, of each module that may convert files."""
+    calls = {}
     for layer in ("app", "drivers", "plugins", "sim"):
         for path in sorted((ROOT / layer).rglob("*.py")):
-            if WORDS.search(path.read_text("utf-8")):
+            if CONVERSION_CALL.search(path.read_text("utf-8")):
                 name = path.relative_to(ROOT).as_posix()
-                nodes = (one for one in ast.walk(source(name)) if isinstance(one, ast.Call))
-                found[name] = [(name_of(one.func), one) for one in nodes]
-    return found
+                nodes = (
+                    node for node in ast.walk(parse_source(name)) if isinstance(node, ast.Call)
+                )
+                calls[name] = [(find_dotted_name(node.func), node) for node in nodes]
+    return calls
 
 
-def name_of(node):
-    """Return a name with dots; nothing for another expression."""
+def find_dotted_name(node):
+    """Return a name with dots, or an empty text for another expression."""
     if isinstance(node, ast.Attribute):
-        owner = name_of(node.value)
+        owner = find_dotted_name(node.value)
         return owner and f"{owner}.{node.attr}"
     return node.id if isinstance(node, ast.Name) else ""
 
 
-def test_every_module_that_writes_or_reads_data_has_its_sample_named():
-    found = {path for path, made in calls().items() if {name for name, _ in made} & CONVERSIONS}
-    assert found - set(SAMPLED) == set(), "make a sample of their files, and name it in SAMPLED"
-    assert set(SAMPLED) - found == set(), "take them out of SAMPLED"
+def test_every_module_that_writes_or_reads_data_has_a_sample():
+    modules = {
+        path for path, calls in find_calls().items() if {name for name, _ in calls} & CONVERSIONS
+    }
+    assert modules - set(SAMPLES_OF_MODULES) == set(), (
+        "make a sample of their files, and add it to SAMPLES_OF_MODULES"
+    )
+    assert set(SAMPLES_OF_MODULES) - modules == set(), "remove them from SAMPLES_OF_MODULES"
 
 
-def test_every_sample_is_there_and_named_for_a_module():
-    named = {name for name in SAMPLED.values() if not name.startswith("(")}
-    assert {name for name in named if not (SAMPLES / name).exists()} == set()
-    made = tuple(SAMPLES / name for name in MAKER.MAKERS)
+def test_every_sample_exists_and_belongs_to_a_module():
+    names = {name for name in SAMPLES_OF_MODULES.values() if not name.startswith("(")}
+    assert {name for name in names if not (SAMPLES / name).exists()} == set()
+    sample_paths = tuple(SAMPLES / name for name in SAMPLE_SCRIPT.MAKERS)
     files = (
         path for path in SAMPLES.rglob("*") if path.is_file() and path.suffix not in (".py", ".pyc")
     )
-    assert [path for path in files if not any(path.is_relative_to(each) for each in made)] == []
+    assert [
+        path for path in files if not any(path.is_relative_to(sample) for sample in sample_paths)
+    ] == []
 
 
 def test_every_format_of_a_file_has_a_sample():
     texts = [path.read_text("utf-8") for path in SAMPLES.rglob("*.toml")]
-    for path, made in calls().items():
-        if "Format" in (name for name, _ in made):
+    for path, calls in find_calls().items():
+        if "TomlFormat" in (name for name, _ in calls):
             module = importlib.import_module(f"rotemina.{path[:-3].replace('/', '.')}")
-            kinds = [one for one in vars(module).values() if isinstance(one, Format)]
-            assert kinds
-            assert all(any(can_parse(kind, text) for text in texts) for kind in kinds), path
+            formats = [value for value in vars(module).values() if isinstance(value, TomlFormat)]
+            assert formats
+            assert all(
+                any(can_parse(file_format, text) for text in texts) for file_format in formats
+            ), path
 
 
-def can_parse(kind, text):
+def can_parse(file_format, text):
     try:
-        kind.parse(text, "sample")
+        file_format.parse(text, "sample")
     except InputError:
         return False
     return True
 
 
-def values_kept(config, data):
-    """Return all that readers make of the samples."""
-    stored, _ = CalibrationStore(config, ROBOT).listed()
+def read_all_samples(config, data):
+    """Return the objects that are read from the samples."""
+    stored, _ = CalibrationStore(config, ROBOT).list_calibrations()
     return [
-        CameraMemory(Settings(config / "settings.json")).last,
-        listed_profiles(config / "profiles"),
-        CalibrationFolder(config / "calibrations").read(STICK),
-        [one.calibration for one in stored],
+        CameraMemory(UserSettings(config / "settings.json")).last_camera,
+        list_profiles(config / "profiles"),
+        InputCalibrationFolder(config / "calibrations").read(STICK),
+        [entry.calibration for entry in stored],
         load_microscope(config / MICROSCOPE, "opencv:0", "20x/0.4"),
-        Scales.load(config / SCALES),
-        PenetrationParameters.load(config / PENETRATION),
+        ModeScales.load(config / SCALES_FILE),
+        PenetrationParameters.load(config / PENETRATION_FILE),
         RunLog(data / "penetrations.jsonl").read(),
-        RecordStore(data).all(),
+        RecordStore(data).read_all(),
         load_robot(FILES / "robot.toml"),
         load_robot(FILES / "effects.toml"),
         read_trained(FILES / "inverse.json"),
@@ -939,19 +977,19 @@ def values_kept(config, data):
     ]
 
 
-#: Fields that can have one value only, or are no part of a file.
-FIXED = {
+#: Fields that can have only one value, or are not part of a file.
+FIXED_FIELDS = {
     "CalibrationFile.version",
     "MicroscopeCalibration.version",
-    "Tuning.format",
+    "TuningResult.format",
     "ListedProfile.problem",
-    "Entry.missing",
+    "LibraryEntry.missing",
 }
 
 
-def test_every_field_that_is_kept_has_a_value_of_its_own_in_a_sample(config, data):
-    seen = {}
-    pending = values_kept(config, data)
+def test_every_stored_field_differs_from_its_default_in_some_sample(config, data):
+    has_other_value = {}
+    pending = read_all_samples(config, data)
     while pending:
         value = pending.pop()
         if isinstance(value, Mapping):
@@ -960,31 +998,38 @@ def test_every_field_that_is_kept_has_a_value_of_its_own_in_a_sample(config, dat
             pending += value
         elif dataclasses.is_dataclass(value):
             for field in dataclasses.fields(value):
-                inner, name = getattr(value, field.name), f"{owner_of(field, value)}.{field.name}"
-                seen[name] = seen.get(name, False) or not is_default(field, inner)
-                pending.append(inner)
-    assert {name for name, told in seen.items() if not told} - FIXED == set()
+                field_value, name = (
+                    getattr(value, field.name),
+                    f"{find_owner(field, value)}.{field.name}",
+                )
+                has_other_value[name] = has_other_value.get(name, False) or not is_default(
+                    field, field_value
+                )
+                pending.append(field_value)
+    assert {
+        name for name, differs in has_other_value.items() if not differs
+    } - FIXED_FIELDS == set()
 
 
-def owner_of(field, value):
+def find_owner(field, value):
     """Return the class that declares a field."""
     owners = [
-        one for one in type(value).mro() if field.name in vars(one).get("__annotations__", {})
+        base for base in type(value).mro() if field.name in vars(base).get("__annotations__", {})
     ]
     return owners[-1].__name__
 
 
 def is_default(field, value):
-    made = field.default_factory
-    default = field.default if made is dataclasses.MISSING else made()
+    factory = field.default_factory
+    default = field.default if factory is dataclasses.MISSING else factory()
     if isinstance(value, np.ndarray) or isinstance(default, np.ndarray):
         return np.array_equal(value, default)
     return value == default
 
 
-def patterns(node, path):
-    """Return regular expressions of the texts that an expression may be."""
-    tree = source(path)
+def find_patterns(node, path):
+    """Return regular expressions that match the possible texts of an expression."""
+    tree = parse_source(path)
     if isinstance(node, ast.Constant):
         return {re.escape(node.value)} if isinstance(node.value, str) else set()
     if isinstance(node, ast.JoinedStr):
@@ -992,86 +1037,114 @@ def patterns(node, path):
         return {"".join(parts)}
     if isinstance(node, ast.Call):
         (function,) = (
-            one
-            for one in ast.walk(tree)
-            if isinstance(one, ast.FunctionDef) and one.name == ast.unparse(node.func)
+            item
+            for item in ast.walk(tree)
+            if isinstance(item, ast.FunctionDef) and item.name == ast.unparse(node.func)
         )
-        ends = (one.value for one in ast.walk(function) if isinstance(one, ast.Return))
-        return set().union(*(patterns(one, path) for one in ends))
+        return_values = (item.value for item in ast.walk(function) if isinstance(item, ast.Return))
+        return set().union(*(find_patterns(item, path) for item in return_values))
     if isinstance(node, ast.Attribute):
-        _, module = imported(tree, ast.unparse(node.value))
-        return bound_to(node.attr, module)
+        _, module = find_import(tree, ast.unparse(node.value))
+        return find_bound_patterns(node.attr, module)
     if isinstance(node, ast.Tuple | ast.List):
-        return set().union(*(patterns(one, path) for one in node.elts))
+        return set().union(*(find_patterns(item, path) for item in node.elts))
     if isinstance(node, ast.Dict):
-        return set().union(*(patterns(one, path) for one in node.keys))
+        return set().union(*(find_patterns(item, path) for item in node.keys))
     if isinstance(node, ast.Name):
-        return bound_to(node.id, path)
+        return find_bound_patterns(node.id, path)
     return set()
 
 
-def bound_to(name, path):
-    """Return the same of a name, wherever in a module it is bound."""
-    found = set()
-    for node in ast.walk(source(path)):
+def find_bound_patterns(name, path):
+    """Return the patterns of all values that a module binds to a name."""
+    patterns = set()
+    for node in ast.walk(parse_source(path)):
         if isinstance(node, ast.Assign):
             for target in node.targets:
                 if isinstance(target, ast.Tuple) and isinstance(node.value, ast.Tuple):
-                    for each, value in zip(target.elts, node.value.elts, strict=True):
-                        found |= patterns(value, path) if ast.unparse(each) == name else set()
+                    for element, value in zip(target.elts, node.value.elts, strict=True):
+                        patterns |= (
+                            find_patterns(value, path) if ast.unparse(element) == name else set()
+                        )
                 elif ast.unparse(target) == name:
-                    found |= patterns(node.value, path)
+                    patterns |= find_patterns(node.value, path)
         elif isinstance(node, ast.For | ast.comprehension):
             first = node.target.elts[0] if isinstance(node.target, ast.Tuple) else node.target
             if ast.unparse(first) == name:
-                over = node.iter
-                if isinstance(over, ast.Call) and ast.unparse(over.func).endswith(".items"):
-                    over = over.func.value
-                found |= patterns(over, path)
-    return found or bound_to(*imported(source(path), name))
+                iterable = node.iter
+                if isinstance(iterable, ast.Call) and ast.unparse(iterable.func).endswith(".items"):
+                    iterable = iterable.func.value
+                patterns |= find_patterns(iterable, path)
+    return patterns or find_bound_patterns(*find_import(parse_source(path), name))
 
 
-def imported(tree, name):
-    """Return the name that a name has where it comes from, and the path of that module."""
+def find_import(tree, name):
+    """Return the original name of an imported name, and the path of its module."""
     for node in ast.walk(tree):
         if isinstance(node, ast.ImportFrom):
             module = node.module.removeprefix("rotemina.")
             for alias in node.names:
                 if (alias.asname or alias.name) == name:
-                    places = (f"{module}.{alias.name}".replace(".", "/"), module.replace(".", "/"))
-                    place = next(f"{one}.py" for one in places if (ROOT / f"{one}.py").exists())
-                    return alias.name, place
-    raise AssertionError(f"{name}: what key of the preferences is that?")
+                    candidates = (
+                        f"{module}.{alias.name}".replace(".", "/"),
+                        module.replace(".", "/"),
+                        find_exporting_module(module.replace(".", "/"), alias.name),
+                    )
+                    module_path = next(
+                        f"{candidate}.py"
+                        for candidate in candidates
+                        if (ROOT / f"{candidate}.py").exists()
+                    )
+                    return alias.name, module_path
+    raise AssertionError(f"{name}: unknown key of the preferences")
 
 
-def test_every_preference_is_in_the_sample_and_every_one_there_is_still_read(settings):
-    code = {}
-    for path, made in calls().items():
-        for name, call in made:
+def find_exporting_module(folder, name):
+    """Return the module from which a folder exports a name, or "" if it does not export it."""
+    stub = ROOT / folder / "__init__.pyi"
+    for node in ast.parse(stub.read_text("utf-8")).body if stub.exists() else ():
+        if isinstance(node, ast.ImportFrom) and name in {alias.name for alias in node.names}:
+            module = node.module.replace(".", "/") if node.module else name
+            return f"{folder}/{module}"
+    return ""
+
+
+def test_the_sample_has_every_preference_and_no_unused_one(settings):
+    paths_by_pattern = {}
+    for path, calls in find_calls().items():
+        for name, call in calls:
             owner, _, verb = name.rpartition(".")
             if verb in ("get", "set") and owner.rpartition(".")[2] in ("settings", "_settings"):
-                found = patterns(call.args[0], path)
-                assert found, f"{path}, line {call.lineno}: of which preference?"
-                code |= dict.fromkeys(found, path)
-    kept = settings.values
-    lost = {key: path for key, path in code.items() if not any(re.fullmatch(key, k) for k in kept)}
-    assert lost == {}, "add them to the sample of preferences"
-    assert [key for key in kept if not any(re.fullmatch(pattern, key) for pattern in code)] == []
+                patterns = find_patterns(call.args[0], path)
+                assert patterns, f"{path}, line {call.lineno}: no key of a preference found"
+                paths_by_pattern |= dict.fromkeys(patterns, path)
+    stored = settings.values
+    missing = {
+        key: path
+        for key, path in paths_by_pattern.items()
+        if not any(re.fullmatch(key, stored_key) for stored_key in stored)
+    }
+    assert missing == {}, "add them to the sample of preferences"
+    assert [
+        key for key in stored if not any(re.fullmatch(pattern, key) for pattern in paths_by_pattern)
+    ] == []
 
 
 def test_every_setting_of_every_driver_is_in_the_sample(settings):
     for name in ("gcode", "mc68hc11", "simulator"):
-        defaults = driver_named(name).default_settings
-        kept = {key for key in settings.values if key.startswith(f"driver.{name}.")}
-        assert kept == {f"driver.{name}.{key}" for key in defaults}
+        defaults = find_driver(name).default_settings
+        stored_keys = {key for key in settings.values if key.startswith(f"driver.{name}.")}
+        assert stored_keys == {f"driver.{name}.{key}" for key in defaults}
 
 
-def test_samples_are_small_and_tell_nothing_of_the_machine_that_made_them():
+def test_samples_are_small_and_contain_no_paths_of_a_machine():
     files = [
         path for path in SAMPLES.rglob("*") if path.is_file() and "__pycache__" not in path.parts
     ]
     assert sum(path.stat().st_size for path in files) < 300_000
-    made = (path for path in files if path.suffix != ".py")
+    sample_files = (path for path in files if path.suffix != ".py")
     assert [
-        path for path in made if re.search(rb"/(home|root|tmp|work|Users)/", path.read_bytes())
+        path
+        for path in sample_files
+        if re.search(rb"/(home|root|tmp|work|Users)/", path.read_bytes())
     ] == []

@@ -1,4 +1,4 @@
-"""The bench run by the command line: one machine after another, each diagnosis in a process."""
+"""Run of ``rotemina gap bench``, which diagnoses each machine in a separate process."""
 
 import json
 import subprocess
@@ -11,93 +11,112 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from rotemina.app.bench.machine import Machine, machines
-from rotemina.app.bench.residual import residual_of
-from rotemina.app.bench.result import NamedCause, Result
-from rotemina.app.bench.words import line, page
-from rotemina.app.files import json_text
+from rotemina.app.bench.machine import BenchMachine, find_machines
+from rotemina.app.bench.residual import compute_model_residual
+from rotemina.app.bench.result import BenchResult, NamedCause
+from rotemina.app.bench.words import format_line, format_page
+from rotemina.app.settings import format_json
 from rotemina.sim.errors import InputError
-from rotemina.sim.gap.output.document_reader import read_document
-from rotemina.sim.records.reading import read_record
-from rotemina.sim.records.record import Tap
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.whole_files import replaced
+from rotemina.sim.files import replace_file
+from rotemina.sim.gap.output import read_document
+from rotemina.sim.records import Tap, read_record
+from rotemina.sim.robot_files import load_robot
 
-FORMAT = "rotemina-bench 1"
+BENCH_FORMAT = "rotemina-bench 1"
 _PROGRAM = (sys.executable, "-m", "rotemina.app.cli.main")
 
 
 def run_bench(options: Namespace) -> None:
-    """Diagnose every machine, print one line each, and write the requested files."""
-    found = machines(options.folders)
+    """Diagnose all machines, print a line for each, and write the requested files."""
+    bench_machines = find_machines(options.folders)
     results = []
-    for machine in found:
-        results.append(result_of(machine, options.jobs, options.longest))
+    for machine in bench_machines:
+        results.append(diagnose_machine(machine, options.jobs, options.longest))
         if options.json != "-":
-            print(line(results[-1]), flush=True)
-    text = json_text({"format": FORMAT, "machines": [one.as_json() for one in results]})
-    with ExitStack() as files:  # all files appear together or none
+            print(format_line(results[-1]), flush=True)
+    text = format_json(
+        {"format": BENCH_FORMAT, "machines": [result.as_json() for result in results]}
+    )
+    # All files are replaced together, or none.
+    with ExitStack() as files:
         if options.report is not None:
-            files.enter_context(replaced(options.report)).write(page(results).encode("utf-8"))
+            files.enter_context(replace_file(options.report)).write(
+                format_page(results).encode("utf-8")
+            )
         if options.json not in (None, "-"):
-            files.enter_context(replaced(options.json)).write(text.encode("utf-8"))
+            files.enter_context(replace_file(options.json)).write(text.encode("utf-8"))
     if options.json == "-":
         print(text)
 
 
-def result_of(
-    machine: Machine,
+def diagnose_machine(
+    machine: BenchMachine,
     jobs: int | None = None,
-    longest_s: float = 1800.0,
+    timeout_s: float = 1800.0,
     program: Sequence[str] = _PROGRAM,
-) -> Result:
-    """Diagnose a machine by its train records, and try the corrected model on its test records."""
+) -> BenchResult:
+    """Diagnose a machine from its train records, and test the corrected model.
+
+    The test records give the residual of the model before and after the correction.
+    """
     title = load_robot(machine.robot).name
     if machine.is_inverse:
-        return Result(machine, title, not_run="inverse mode")
+        return BenchResult(machine, title, not_run="inverse mode")
     with TemporaryDirectory(prefix="rotemina-") as folder:
-        written = Path(folder) / "answer.json"
-        begin_s = time.monotonic()
-        fault = _diagnosed(machine, written, jobs, longest_s, program)
-        seconds = time.monotonic() - begin_s
+        document_path = Path(folder) / "answer.json"
+        start_s = time.monotonic()
+        fault = _run_diagnosis(machine, document_path, jobs, timeout_s, program)
+        seconds = time.monotonic() - start_s
         if fault is not None:
-            return Result(machine, title, seconds=seconds, not_run=fault)
-        return _tried(machine, title, written, seconds)
+            return BenchResult(machine, title, seconds=seconds, not_run=fault)
+        return _evaluate_diagnosis(machine, title, document_path, seconds)
 
 
-def _diagnosed(
-    machine: Machine, written: Path, jobs: int | None, longest_s: float, program: Sequence[str]
+def _run_diagnosis(
+    machine: BenchMachine,
+    document_path: Path,
+    jobs: int | None,
+    timeout_s: float,
+    program: Sequence[str],
 ) -> str | None:
-    """Run the diagnosis; return None, or why there is none."""
+    """Run the diagnosis; return the reason if it fails, otherwise None."""
     command = [*program, "gap", "diagnose", *map(str, machine.train), "--robot", str(machine.robot)]
-    command += ["--json", str(written)] + ([] if jobs is None else ["--jobs", str(jobs)])
+    command += ["--json", str(document_path)] + ([] if jobs is None else ["--jobs", str(jobs)])
     try:
-        done = subprocess.run(command, capture_output=True, timeout=longest_s, check=False)
+        process = subprocess.run(command, capture_output=True, timeout=timeout_s, check=False)
     except subprocess.TimeoutExpired:
-        return f"it took longer than {longest_s:g} s"
-    if done.returncode == 0:
+        return f"it took longer than {timeout_s:g} s"
+    if process.returncode == 0:
         return None
-    said = done.stderr.decode("utf-8", "replace").strip().splitlines() or [""]
-    return said[-1].removeprefix("rotemina: ") or f"exit status {done.returncode}"
+    error_lines = process.stderr.decode("utf-8", "replace").strip().splitlines() or [""]
+    return error_lines[-1].removeprefix("rotemina: ") or f"exit status {process.returncode}"
 
 
-def _tried(machine: Machine, title: str, written: Path, seconds: float) -> Result:
-    document = read_document(written)
-    causes = tuple(_causes(json.loads(written.read_bytes())))
+def _evaluate_diagnosis(
+    machine: BenchMachine, title: str, document_path: Path, seconds: float
+) -> BenchResult:
+    document = read_document(document_path)
+    causes = tuple(_read_causes(json.loads(document_path.read_bytes())))
     verdict = str(document.verdict)
     tap = machine.truth.tap if machine.truth is not None else Tap.MEAS
     records = [read_record(path, robot=document.robot) for path in machine.test]
     units = {unit for record in records for unit in record.units.values()}
     if len(units) > 1:
-        raise InputError(f"{machine.name}: its axes are in {', '.join(sorted(units))}; one is told")
+        raise InputError(
+            f"{machine.name}: its axes have the units {', '.join(sorted(units))}; the benchmark "
+            "needs axes of the same unit"
+        )
     unit = "V" if tap is Tap.U else next(iter(units), "m")
     if not records:
-        return Result(machine, title, verdict, causes, seconds=seconds, unit=unit)
-    before, after = (residual_of(one, records, tap) for one in (document.robot, document.corrected))
-    return Result(machine, title, verdict, causes, before, after, seconds, unit)
+        return BenchResult(machine, title, verdict, causes, seconds=seconds, unit=unit)
+    before, after = (
+        compute_model_residual(robot, records, tap)
+        for robot in (document.robot, document.corrected)
+    )
+    return BenchResult(machine, title, verdict, causes, before, after, seconds, unit)
 
 
-def _causes(document: dict[str, Any]) -> Iterator[NamedCause]:
+def _read_causes(document: dict[str, Any]) -> Iterator[NamedCause]:
     for cause in document["causes"]:
         yield NamedCause(
             cause["axis"],

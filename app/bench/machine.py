@@ -1,119 +1,118 @@
-"""A machine in a folder: its robot file, its records, and its known causes."""
+"""A machine of the benchmark: a folder with its robot file, records and known causes."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from rotemina.sim.errors import InputError
-from rotemina.sim.input_files import parse_toml, read_text
-from rotemina.sim.records.file_blocks import LIMITS, open_blocks
-from rotemina.sim.records.metadata import parse_comment
-from rotemina.sim.records.record import Tap
+from rotemina.app.errors import BenchError
+from rotemina.sim.files import parse_toml, read_text
+from rotemina.sim.records import DEFAULT_LIMITS, Tap, open_blocks, parse_comment
 
-_ROBOT = "robot.toml"
-_MOST_BYTES = 1_000_000
-_TRUTH = "truth.toml"
-_ENDINGS = (".csv", ".csv.gz", ".txt", ".txt.gz")
-
-
-class BenchError(InputError):
-    """A folder that is no machine's."""
+_ROBOT_FILE = "robot.toml"
+_MAX_FILE_BYTES = 1_000_000
+_TRUTH_FILE = "truth.toml"
+_RECORD_SUFFIXES = (".csv", ".csv.gz", ".txt", ".txt.gz")
 
 
 @dataclass(frozen=True, slots=True)
-class Truth:
+class KnownCauses:
     """Known causes of a machine.
 
     Attributes
     ----------
     causes : tuple of tuple of str
-        Sets of effects that stand for each other in these records.
-    also : tuple of str
-        Effects that are right wherever they stand, and are not demanded.
+        One set of effects for each cause. The records cannot distinguish the effects of a set.
+    optional_effects : tuple of str
+        Effects that a correct diagnosis may name, but need not.
     tap : Tap
-        Where the machine is compared.
-    relative : bool
-        Whether ``to_beat`` is a relative error, and no rms in SI.
+        The signal at which model and machine are compared.
+    is_relative : bool
+        Whether ``to_beat`` is a relative error; otherwise it is an rms in SI units.
     to_beat : float, optional
-        What a plain fit leaves of the test records.
+        The error of a plain fit on the test records.
     """
 
     causes: tuple[tuple[str, ...], ...] = ()
-    also: tuple[str, ...] = ()
+    optional_effects: tuple[str, ...] = ()
     tap: Tap = Tap.MEAS
-    relative: bool = False
+    is_relative: bool = False
     to_beat: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
-class Machine:
+class BenchMachine:
     """A folder with ``robot.toml``, ``train_*`` and ``test_*`` records, and ``truth.toml``."""
 
     name: str
     robot: Path
     train: tuple[Path, ...]
     test: tuple[Path, ...]
-    truth: Truth | None
+    truth: KnownCauses | None
 
     @classmethod
-    def of(cls, folder: Path) -> "Machine":
-        """Look into a folder.
+    def from_folder(cls, folder: Path) -> "BenchMachine":
+        """Read the contents of a machine's folder.
 
         Raises
         ------
         BenchError
-            If something is missing in it, or its ``truth.toml`` cannot be understood.
+            If it has no train records, or its ``truth.toml`` is invalid.
         """
-        train, test = (_records(folder, part) for part in ("train", "test"))
+        train, test = (_find_records(folder, prefix) for prefix in ("train", "test"))
         if not train:
-            raise BenchError(f"{folder}: no record train_*.csv or train_*.csv.gz is in it; add one")
-        truth = folder / _TRUTH
-        known = _truth(truth) if truth.is_file() else None
-        return cls(folder.resolve().name, folder / _ROBOT, train, test, known)
+            raise BenchError(f"{folder}: has no record train_*.csv or train_*.csv.gz; add one")
+        truth_path = folder / _TRUTH_FILE
+        truth = _read_truth(truth_path) if truth_path.is_file() else None
+        return cls(folder.resolve().name, folder / _ROBOT_FILE, train, test, truth)
 
     @property
     def is_inverse(self) -> bool:
         """Whether a record was driven by an unknown controller (``# mode: inverse``)."""
-        return any(_mode(path) == "inverse" for path in (*self.train, *self.test))
+        return any(_read_mode(path) == "inverse" for path in (*self.train, *self.test))
 
 
-def machines(folders: Iterable[Path]) -> list[Machine]:
-    """Return the machines in folders: each is one, or holds one in each of its own folders.
+def find_machines(folders: Iterable[Path]) -> list[BenchMachine]:
+    """Find the machines in folders.
+
+    Each folder is the folder of one machine, or has a subfolder for each machine.
 
     Raises
     ------
     BenchError
-        If a folder neither is nor holds a machine's.
+        If there is no machine in a folder or its subfolders.
     """
-    found = []
+    result = []
     for folder in folders:
-        own = [folder] if _is_machine(folder) else sorted(filter(_is_machine, _folders(folder)))
-        if not own:
+        machine_folders = (
+            [folder]
+            if _is_machine(folder)
+            else sorted(filter(_is_machine, _list_subfolders(folder)))
+        )
+        if not machine_folders:
             raise BenchError(
-                f"{folder}: neither it nor a folder in it holds {_ROBOT}; name a machine's folder, "
-                "with robot.toml, train_*.csv and test_*.csv"
+                f"{folder}: no {_ROBOT_FILE} in it or in its subfolders; name the folder of a "
+                "machine, with robot.toml, train_*.csv and test_*.csv"
             )
-        found += map(Machine.of, own)
-    return found
+        result += map(BenchMachine.from_folder, machine_folders)
+    return result
 
 
-def _folders(folder: Path) -> list[Path]:
-    return [each for each in folder.iterdir() if each.is_dir()] if folder.is_dir() else []
+def _list_subfolders(folder: Path) -> list[Path]:
+    return [path for path in folder.iterdir() if path.is_dir()] if folder.is_dir() else []
 
 
 def _is_machine(folder: Path) -> bool:
-    return (folder / _ROBOT).is_file()
+    return (folder / _ROBOT_FILE).is_file()
 
 
-def _records(folder: Path, part: str) -> tuple[Path, ...]:
-    paths = folder.glob(f"{part}_*")
-    return tuple(sorted(path for path in paths if path.name.endswith(_ENDINGS)))
+def _find_records(folder: Path, prefix: str) -> tuple[Path, ...]:
+    paths = folder.glob(f"{prefix}_*")
+    return tuple(sorted(path for path in paths if path.name.endswith(_RECORD_SUFFIXES)))
 
 
-def _mode(path: Path) -> str | None:
-    """Return the mode that a record's first lines name."""
-    with open_blocks(path, LIMITS) as blocks:
+def _read_mode(path: Path) -> str | None:
+    with open_blocks(path, DEFAULT_LIMITS) as blocks:
         lines = next(iter(blocks)).data.splitlines()
     for line in lines:
         if not line.lstrip().startswith(b"#"):
@@ -124,28 +123,32 @@ def _mode(path: Path) -> str | None:
     return None
 
 
-def _truth(path: Path) -> Truth:
-    read = parse_toml(read_text(path, BenchError, _MOST_BYTES), str(path), BenchError)
-    for key, value in read.items():
-        allowed, advice = _KEYS.get(key, (lambda _: False, f"use {', '.join(_KEYS)}"))
-        if not allowed(value):
+def _read_truth(path: Path) -> KnownCauses:
+    table = parse_toml(read_text(path, BenchError, _MAX_FILE_BYTES), str(path), BenchError)
+    for key, value in table.items():
+        is_allowed, advice = _TRUTH_KEYS.get(
+            key, (lambda _: False, f"use {', '.join(_TRUTH_KEYS)}")
+        )
+        if not is_allowed(value):
             raise BenchError(f"{path}: {key} = {value!r}: {advice}")
-    return Truth(
-        causes=tuple(map(tuple, read.get("causes", []))),
-        also=tuple(read.get("also", [])),
-        tap=Tap(read.get("tap", "meas")),
-        relative=read.get("relative", False),
-        to_beat=read.get("to_beat"),
+    return KnownCauses(
+        causes=tuple(map(tuple, table.get("causes", []))),
+        optional_effects=tuple(table.get("also", [])),
+        tap=Tap(table.get("tap", "meas")),
+        is_relative=table.get("relative", False),
+        to_beat=table.get("to_beat"),
     )
 
 
 def _are_names(value: Any) -> bool:
-    return isinstance(value, list) and all(isinstance(one, str) for one in value)
+    return isinstance(value, list) and all(isinstance(name, str) for name in value)
 
 
-_KEYS: Mapping[str, Any] = {
+_TRUTH_KEYS: Mapping[str, Any] = {
     "causes": (
-        lambda value: isinstance(value, list) and all(one and _are_names(one) for one in value),
+        lambda value: (
+            isinstance(value, list) and all(names and _are_names(names) for names in value)
+        ),
         "must be a list of sets, such as [['friction', 'backlash']]",
     ),
     "also": (_are_names, "must be a list of effects, such as ['gain_error']"),

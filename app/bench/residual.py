@@ -1,4 +1,4 @@
-"""The residual of a model on records that no fit used."""
+"""The residual of a model on records that were not used for fitting."""
 
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
@@ -6,16 +6,16 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.gap.errors import GapError
-from rotemina.sim.gap.fit.evidence import Evidence
-from rotemina.sim.gap.intake.time_leaps import pieces
-from rotemina.sim.plant.response import nominal_response
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.model import Robot
+from rotemina.sim.errors import GapError
+from rotemina.sim.gap.fit import Evidence
+from rotemina.sim.gap.intake import split_at_leaps
+from rotemina.sim.plant import simulate_nominal_response
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot import Robot
 
 
-class Residual(NamedTuple):
-    """Rms of gap, of signal and of the noise floor at a tap, over all axes and records; SI."""
+class ModelResidual(NamedTuple):
+    """Rms of gap, signal and noise floor at a tap, over all axes and records, in SI units."""
 
     gap: float
     signal: float
@@ -23,15 +23,15 @@ class Residual(NamedTuple):
 
     @property
     def relative(self) -> float:
-        """The gap over the signal."""
+        """Rms of the gap divided by that of the signal."""
         return self.gap / self.signal
 
 
-def residual_of(robot: Robot, records: Sequence[Record], tap: Tap) -> Residual:
-    """Return what a model leaves of records.
+def compute_model_residual(robot: Robot, records: Sequence[Record], tap: Tap) -> ModelResidual:
+    """Compute the residual of a model on records.
 
-    Of positions the mean is taken off, and what each record remembers from before its first row is
-    its own. Of what a controller puts out nothing is taken off.
+    For positions, the mean is subtracted, and each record has its own fitted initial state, because
+    the motion before its first row is unknown. From a controller output, nothing is subtracted.
 
     Raises
     ------
@@ -40,33 +40,36 @@ def residual_of(robot: Robot, records: Sequence[Record], tap: Tap) -> Residual:
     PlantError, EffectError
         If the model cannot be simulated.
     """
-    squares = np.array(list(_squares(robot, [one.record for one in pieces(records)], tap)))
+    squares = np.array(
+        list(_sum_squares_by_axis(robot, [piece.record for piece in split_at_leaps(records)], tap))
+    )
     if len(squares) == 0:
         raise GapError(f"no test record measures {tap}; name another tap in truth.toml")
-    gap, signal, floor, rows = squares.sum(axis=0)
-    return Residual(*np.sqrt(np.array([gap, signal, floor]) / rows).tolist())
+    gap, signal, floor, row_count = squares.sum(axis=0)
+    return ModelResidual(*np.sqrt(np.array([gap, signal, floor]) / row_count).tolist())
 
 
-def _squares(
+def _sum_squares_by_axis(
     robot: Robot, records: Sequence[Record], tap: Tap
 ) -> Iterator[tuple[float, float, float, int]]:
-    """Give sums of squares of gap, signal and floor, and rows, by record and axis."""
+    """Yield the sums of squares of gap, signal and floor, and the row count, by record and axis."""
     for record in records:
         for axis in record.axes:
             if not record.has(axis, tap):
                 continue
-            real = record.signal(axis, tap)
+            measured = record.signal(axis, tap)
             evidence = Evidence.of(robot, axis, [record])
-            rows = len(real)
+            row_count = len(measured)
             if tap is Tap.U:
-                gap = real - nominal_response(robot, record).signal(axis, tap)
-                yield _sum(gap), _sum(real), 0.0, rows
+                gap = measured - simulate_nominal_response(robot, record).signal(axis, tap)
+                yield _sum_squares(gap), _sum_squares(measured), 0.0, row_count
                 continue
             floor = evidence.floor(tap)
-            (own,) = (part.rows for part in evidence.parts if part.tap == tap)
-            gap = floor * evidence.residual()[own]
-            yield _sum(gap), _sum(real - real.mean()), rows * floor**2, rows
+            (tap_rows,) = (part.rows for part in evidence.parts if part.tap == tap)
+            gap = floor * evidence.residual()[tap_rows]
+            signal_squares = _sum_squares(measured - measured.mean())
+            yield _sum_squares(gap), signal_squares, row_count * floor**2, row_count
 
 
-def _sum(signal: FloatArray) -> float:
+def _sum_squares(signal: FloatArray) -> float:
     return float(np.sum(signal**2))

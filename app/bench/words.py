@@ -1,9 +1,16 @@
-"""Text of the bench: one line per machine, and a page."""
+"""Texts of the benchmark: one line per machine, and a page in Markdown."""
 
 from collections.abc import Sequence
 
-from rotemina.app.bench.result import LARGEST_SET, LONGEST_S, MOST_OVER, NamedCause, Result
-from rotemina.sim.quantities import NOTHING, amount, percent
+from rotemina.app.bench.result import (
+    MAX_AMBIGUITY_SET_SIZE,
+    MAX_DIAGNOSIS_S,
+    MAX_RATIO_TO_BEST_FIT,
+    BenchResult,
+    NamedCause,
+)
+from rotemina.sim.messages import NO_VALUE
+from rotemina.sim.units import format_percent, format_quantity
 
 _HEADER = (
     "machine",
@@ -17,134 +24,138 @@ _HEADER = (
 )
 
 
-def line(result: Result) -> str:
-    """Return one line about a machine."""
+def format_line(result: BenchResult) -> str:
+    """Return the result of a machine on one line."""
     name = result.machine.name
     if result.not_run:
         return f"{name}: not run: {result.not_run}"
-    _, first, sets, closed, left, to_beat, seconds, verdict = _cells(result)
-    beside = f" (to beat: {to_beat})" if to_beat != "–" else ""
+    _, first, sets, closed, remaining, to_beat, seconds, verdict = _format_cells(result)
+    reference = f" (to beat: {to_beat})" if to_beat != "–" else ""
     return (
-        f"{name}: {first}; {sets}; closed {closed} on the test record; left {left}{beside}; "
-        f"{seconds}; {verdict}"
+        f"{name}: {first}; {sets}; closed {closed} on the test records; "
+        f"left {remaining}{reference}; {seconds}; {verdict}"
     )
 
 
-def page(results: Sequence[Result]) -> str:
-    """Return the page on machines, in Markdown."""
+def format_page(results: Sequence[BenchResult]) -> str:
+    """Return the report page for all machines, in Markdown."""
     rows = ["| " + " | ".join(_HEADER) + " |", "|" + "---|" * len(_HEADER)]
-    rows += ["| " + " | ".join(_cells(result)) + " |" for result in results]
-    missing = [
-        f"- `{result.machine.name}`: {'; '.join(result.not_reached)}."
+    rows += ["| " + " | ".join(_format_cells(result)) + " |" for result in results]
+    unmet = [
+        f"- `{result.machine.name}`: {'; '.join(result.unmet_requirements)}."
         for result in results
-        if result.not_reached
+        if result.unmet_requirements
     ]
-    titles = [f"- `{one.machine.name}`: {one.title}." for one in results if one.title]
+    titles = [f"- `{result.machine.name}`: {result.title}." for result in results if result.title]
     known = [
-        f"- `{one.machine.name}`: "
-        + ", ".join(" or ".join(f"`{effect}`" for effect in each) for each in truth.causes)
+        f"- `{result.machine.name}`: "
+        + ", ".join(" or ".join(f"`{effect}`" for effect in effects) for effects in truth.causes)
         + "."
-        for one in results
-        if (truth := one.machine.truth) is not None and truth.causes
+        for result in results
+        if (truth := result.machine.truth) is not None and truth.causes
     ]
-    return _PAGE.format(
+    return _PAGE_TEMPLATE.format(
         table="\n".join(rows),
-        missing="\n".join(missing) or "Nothing: every level is reached on every machine.",
+        unmet="\n".join(unmet) or "Nothing: every level is reached on every machine.",
         titles="\n".join(titles),
         known="\n".join(known),
-        over=MOST_OVER,
-        largest=LARGEST_SET,
-        longest=f"{LONGEST_S:.0f}",
-        reached=sum(not one.not_reached for one in results),
-        number=len(results),
-        below=sum(
-            one.left is not None and one.to_beat is not None and one.left < one.to_beat
-            for one in results
+        max_ratio=MAX_RATIO_TO_BEST_FIT,
+        max_set_size=MAX_AMBIGUITY_SET_SIZE,
+        max_duration_s=f"{MAX_DIAGNOSIS_S:.0f}",
+        met=sum(not result.unmet_requirements for result in results),
+        total=len(results),
+        better=sum(
+            result.corrected_error is not None
+            and result.to_beat is not None
+            and result.corrected_error < result.to_beat
+            for result in results
         ),
     )
 
 
-def _cells(result: Result) -> tuple[str, ...]:
+def _format_cells(result: BenchResult) -> tuple[str, ...]:
     name = f"`{result.machine.name}`"
     if result.not_run:
         return (name, "–", "–", "–", "–", "–", "–", f"not run: {result.not_run}")
-    first = _effect(result.causes[0]) if result.causes else "none"
-    sets = ", ".join(map(_set, result.causes)) or "no cause"
-    closed = percent(result.closed)
+    first = _format_cause(result.causes[0]) if result.causes else "none"
+    sets = ", ".join(map(_format_ambiguity_set, result.causes)) or "no cause"
+    closed = format_percent(result.closed_share)
     return (
         name,
         first,
         sets,
         closed,
-        _figure(result, result.left),
-        _figure(result, result.to_beat),
+        _format_error(result, result.corrected_error),
+        _format_error(result, result.to_beat),
         f"{result.seconds:.0f} s",
         result.verdict,
     )
 
 
-def _effect(cause: NamedCause) -> str:
+def _format_cause(cause: NamedCause) -> str:
     return f"{cause.effect} on {cause.axis} ({100.0 * cause.probability:.0f} %)"
 
 
-def _set(cause: NamedCause) -> str:
+def _format_ambiguity_set(cause: NamedCause) -> str:
     return "{" + " ".join((cause.effect, *cause.ambiguous_with)) + "}"
 
 
-def _figure(result: Result, value: float | None) -> str:
+def _format_error(result: BenchResult, value: float | None) -> str:
     if value is None:
-        return NOTHING
+        return NO_VALUE
     if result.is_relative:
-        return percent(value, 2)
-    return amount(value, result.unit)
+        return format_percent(value, 2)
+    return format_quantity(value, result.unit)
 
 
-_PAGE = """\
+_PAGE_TEMPLATE = """\
 # Real machines
 
 See what `rotemina gap diagnose` finds on machines that others built and measured. This command
-makes the page:
+writes the page:
 
-<!-- not run: needs the records of the machines, which are no part of the program -->
+<!-- not run: needs the records of the machines, which are not part of the program -->
 
 ```sh
 rotemina gap bench machines/* --report docs/real-machines.md
 ```
 
-Each machine is a folder with `robot.toml`, records `train_*.csv` that are diagnosed and
-`test_*.csv` that no fit sees, and `truth.toml`: what is known of it. You can run the command on
-your own folders:
+Each machine is a folder with `robot.toml`, with records `train_*.csv`, which are diagnosed, and
+`test_*.csv`, which are not used for any fit, and with `truth.toml`, which lists the known causes.
+You can run the command on your own folders:
 
 ```toml
-causes = [["friction", "backlash"]]  # in each set, effects that these records do not distinguish
-also = ["gain_error"]                # effects that are right if named, but not required
-tap = "meas"                         # the tap that is compared
-relative = false                     # whether to_beat is a relative error
-to_beat = 1.45e-3                    # what a plain fit leaves on the test records, SI
+causes = [["friction", "backlash"]]  # each set: effects that these records cannot distinguish
+also = ["gain_error"]                # effects that may be named, but need not be
+tap = "meas"                         # the signal that is compared
+relative = false                     # true if to_beat is a relative error
+to_beat = 1.45e-3                    # error of a plain fit on the test records, SI
 ```
 
 {table}
 
-*Sets*: each cause with the effects not distinguishable from it. *Closed*: share of the gap's
-power above the noise floor, on the test records. *Left*: rms remainder of the corrected model on
-the test records, or the relative error; for positions without the mean, and with the memory of
-earlier motion free in each record. *To beat*: the same figure of a plain output-error or
-least-squares fit. *Time*: of the diagnosis.
+*Sets*: each cause together with the effects that cannot be distinguished from it. *Closed on
+test*: the share of the gap's power above the noise floor that the corrected model explains on the
+test records. *Left*: the rms error of the corrected model on the test records, or its relative
+error. For positions the mean is removed, and the memory of earlier motion is fitted in each
+record. *To beat*: the same error for a plain output-error or least-squares fit. *Time*: duration
+of the diagnosis.
 
 ## What is not reached
 
-A diagnosis meets the requirements if its first cause is a known one, every known cause is named or
-in a set of at most {largest} (or of effects known to be indistinguishable), at most {over} × the
-figure to beat is left, and it takes at most {longest} s. That holds for {reached} of {number};
-{below} of {number} are below the figure to beat.
+A diagnosis meets the requirements if all of these hold: its first cause is a known one; every
+known cause is named, or is in a set of at most {max_set_size} effects or of effects known to be
+indistinguishable; the error left is at most {max_ratio} × the figure to beat; and it takes at most
+{max_duration_s} s. {met} of {total} diagnoses meet them. {better} of {total} leave less than the
+figure to beat.
 
-{missing}
+{unmet}
 
 ## The machines
 
 {titles}
 
-Known of them:
+Known causes:
 
 {known}
 """

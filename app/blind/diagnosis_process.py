@@ -1,4 +1,4 @@
-"""The diagnosis as a separate process, in a folder that contains only records."""
+"""Run the diagnosis as a separate process in a folder that contains only records."""
 
 import json
 import shutil
@@ -12,18 +12,19 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from rotemina.app.blind.cases import SealedCase
-from rotemina.sim.blind.sealing import digest
+from rotemina.sim.blind import compute_digest
 
 _PROGRAM = (sys.executable, "-m", "rotemina.app.cli.main")
-_LONGEST_S = 1800.0
-_SEED = "0"  # of the diagnosis: the cases' own would tell
+_TIMEOUT_S = 1800.0
+# The diagnosis must not receive the seed of the cases, from which it could reconstruct them.
+_DIAGNOSIS_SEED = "0"
 
 
 @dataclass(frozen=True, slots=True)
-class Answer:
-    """What the diagnosis wrote, its hash, how long it took, and what it predicts (a file's text).
+class BlindAnswer:
+    """The document of a diagnosis, its hash and duration, and its predicted record as CSV text.
 
-    Where it failed, ``document`` has the verdict ``failed`` and says why.
+    If the diagnosis failed, the verdict of ``document`` is ``failed``, and ``why`` is the reason.
     """
 
     document: dict[str, Any]
@@ -32,37 +33,41 @@ class Answer:
     predicted: bytes | None
 
 
-def diagnose(
+def diagnose_case(
     case: SealedCase, jobs: int | None = None, program: Sequence[str] = _PROGRAM
-) -> Answer:
+) -> BlindAnswer:
     """Run ``gap diagnose`` on a case's records, then ``gap predict`` on its withheld commands."""
-    with TemporaryDirectory(prefix="records-") as records, TemporaryDirectory() as out:
-        names = _copied(case, Path(records))
-        written = Path(out) / "answer.json"
-        arguments = ["gap", "diagnose", *names, "--robot", case.robot, "--seed", _SEED]
-        arguments += ["--json", str(written)]
+    with TemporaryDirectory(prefix="records-") as records, TemporaryDirectory() as output:
+        names = _copy_records(case, Path(records))
+        path = Path(output) / "answer.json"
+        arguments = ["gap", "diagnose", *names, "--robot", case.robot, "--seed", _DIAGNOSIS_SEED]
+        arguments += ["--json", str(path)]
         arguments += [] if jobs is None else ["--jobs", str(jobs)]
-        begin_s = time.monotonic()
+        start_s = time.monotonic()
         fault = _run([*program, *arguments], Path(records))
-        seconds = time.monotonic() - begin_s
+        seconds = time.monotonic() - start_s
         if fault is not None:
-            text = json.dumps({"verdict": "failed", "why": fault}).encode()
-            return Answer(json.loads(text), digest(text), seconds, None)
-        text = written.read_bytes()
-        return Answer(json.loads(text), digest(text), seconds, _predicted(case, written, program))
+            content = json.dumps({"verdict": "failed", "why": fault}).encode()
+            return BlindAnswer(json.loads(content), compute_digest(content), seconds, None)
+        content = path.read_bytes()
+        return BlindAnswer(
+            json.loads(content),
+            compute_digest(content),
+            seconds,
+            _predict_record(case, path, program),
+        )
 
 
-def _copied(case: SealedCase, folder: Path) -> list[str]:
-    """Copy the records under names that tell nothing."""
+def _copy_records(case: SealedCase, folder: Path) -> list[str]:
     names = []
     for number, path in enumerate(case.records, start=1):
-        ending = ".csv.gz" if path.name.endswith(".gz") else ".csv"
-        shutil.copyfile(path, folder / f"record_{number}{ending}")
-        names.append(f"record_{number}{ending}")
+        suffix = ".csv.gz" if path.name.endswith(".gz") else ".csv"
+        shutil.copyfile(path, folder / f"record_{number}{suffix}")
+        names.append(f"record_{number}{suffix}")
     return names
 
 
-def _predicted(case: SealedCase, answer: Path, program: Sequence[str]) -> bytes | None:
+def _predict_record(case: SealedCase, answer: Path, program: Sequence[str]) -> bytes | None:
     if case.commands is None:
         return None
     predicted = answer.with_name("predicted.csv")
@@ -72,14 +77,14 @@ def _predicted(case: SealedCase, answer: Path, program: Sequence[str]) -> bytes 
 
 
 def _run(command: Sequence[str], folder: Path) -> str | None:
-    """Run a program; return None, or what it said in the end where it failed."""
+    """Run a program; return the end of its messages if it fails, otherwise None."""
     try:
-        done = subprocess.run(
-            command, cwd=folder, capture_output=True, timeout=_LONGEST_S, check=False
+        process = subprocess.run(
+            command, cwd=folder, capture_output=True, timeout=_TIMEOUT_S, check=False
         )
     except subprocess.TimeoutExpired:
-        return f"it took longer than {_LONGEST_S:g} s"
-    if done.returncode == 0:
+        return f"it took longer than {_TIMEOUT_S:g} s"
+    if process.returncode == 0:
         return None
-    said = done.stderr.decode("utf-8", "replace").strip()
-    return f"exit status {done.returncode}: {said[-400:]}"
+    messages = process.stderr.decode("utf-8", "replace").strip()
+    return f"exit status {process.returncode}: {messages[-400:]}"

@@ -1,4 +1,4 @@
-"""A hidden machine: the blind generator's equations behind the simulator's contract."""
+"""A simulator whose plant has hidden effects, computed by the equations of the blind generator."""
 
 from collections.abc import Collection
 from dataclasses import dataclass
@@ -6,98 +6,100 @@ from typing import Any, cast
 
 import numpy as np
 
-from rotemina.app.blind.stepped_machine import STEPPED, SteppedPlant, can_go_on
-from rotemina.drivers.errors import StateError
-from rotemina.drivers.gate import Permit
-from rotemina.drivers.simulator.device import SimulatedDevice
-from rotemina.drivers.simulator.driver import Simulator
+from rotemina.app.blind.stepped_machine import STEPPED_EFFECTS, SteppedPlant, can_step_case
+from rotemina.app.errors import HiddenMachineError
+from rotemina.drivers.contract import Permit, StateError
+from rotemina.drivers.simulator import SimulatedDevice, Simulator
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.blind.case import Case, draw_case
-from rotemina.sim.errors import InputError
-from rotemina.sim.plant.plant import Plant
-from rotemina.sim.plant.state import PlantState
-from rotemina.sim.robot.model import AxisEffect, Robot
+from rotemina.sim.blind import BlindCase, draw_case
+from rotemina.sim.plant import Plant, PlantState
+from rotemina.sim.robot import AxisEffect, Robot
 
-_HEALTHY = 0.2  # of all hidden machines have nothing
-_TWO = 0.3  # of those with something have two effects
-_LEAST_FLOORS = 10.0  # of an effect, below which it is no fair question
+_HEALTHY_PROBABILITY = 0.2
+# Probability that a machine with effects has two.
+_TWO_EFFECTS_PROBABILITY = 0.3
+# Smallest effect that is drawn, in multiples of the noise floor. Users could hardly find a smaller
+# one.
+_MIN_EFFECT_IN_FLOORS = 10.0
 
-Cause = tuple[str, str]  # axis and effect
-
-
-class HiddenMachineError(InputError):
-    """A robot of which no hidden machine can be made."""
+#: Axis and effect.
+HiddenCause = tuple[str, str]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Secret:
-    """The effects of a hidden machine; ``case`` is None if it has none."""
+class HiddenEffects:
+    """The effects of a hidden machine; ``case`` is None if the machine is healthy."""
 
     seed: int
-    case: Case | None
+    case: BlindCase | None
 
     @property
-    def causes(self) -> frozenset[Cause]:
-        """Axis and effect of each."""
+    def causes(self) -> frozenset[HiddenCause]:
+        """Axis and effect of each cause."""
         if self.case is None:
             return frozenset()
-        return frozenset((one["axis"], one["effect"]) for one in self.case.label()["effects"])
+        return frozenset(
+            (effect["axis"], effect["effect"]) for effect in self.case.label()["effects"]
+        )
 
 
-def draw_secret(robot: Robot, seed: int) -> Secret:
-    """Draw one or two effects, sometimes none; takes a second or more.
+def draw_hidden_effects(robot: Robot, seed: int) -> HiddenEffects:
+    """Draw one or two effects, or sometimes none; this takes a second or more.
 
     Raises
     ------
     HiddenMachineError
-        If the generator knows no such robot.
+        If the robot has no stages.
     """
     rng = np.random.default_rng(seed)
     if not robot.stages:
         raise HiddenMachineError(
-            f"robot {robot.name!r} has no stages: a hidden machine is made of a RoTeMiNa"
+            f"robot {robot.name!r} has no stages; a hidden machine needs a robot with stages, "
+            "such as rotemina"
         )
-    if rng.uniform() < _HEALTHY:
-        return Secret(seed, None)
-    kind = "double" if rng.uniform() < _TWO else "single"
+    if rng.uniform() < _HEALTHY_PROBABILITY:
+        return HiddenEffects(seed, None)
+    kind = "double" if rng.uniform() < _TWO_EFFECTS_PROBABILITY else "single"
     while True:
-        case = draw_case(robot, kind, int(rng.integers(1 << 30)), str(rng.choice(STEPPED)))
-        told: list[dict[str, Any]] = case.label()["effects"]
-        if can_go_on(case) and all(one["floors"] >= _LEAST_FLOORS for one in told):
-            return Secret(seed, case)
+        case = draw_case(robot, kind, int(rng.integers(1 << 30)), str(rng.choice(STEPPED_EFFECTS)))
+        effects: list[dict[str, Any]] = case.label()["effects"]
+        if can_step_case(case) and all(
+            effect["floors"] >= _MIN_EFFECT_IN_FLOORS for effect in effects
+        ):
+            return HiddenEffects(seed, case)
 
 
-class HiddenMachine(Simulator):
-    """The simulator with a hidden plant; nothing reveals its effects."""
+class HiddenMachineSimulator(Simulator):
+    """A simulator with a hidden plant, whose effects its interface does not reveal."""
 
     name = "hidden machine"
 
-    def __init__(self, robot: Robot, secret: Secret, **options: Any) -> None:
+    def __init__(self, robot: Robot, hidden_effects: HiddenEffects, **options: Any) -> None:
         super().__init__(robot, **options)
-        self._secret = secret
+        self._hidden_effects = hidden_effects
 
     @property
     def effects(self) -> tuple[AxisEffect, ...]:
-        """None: the effects are hidden."""
+        """An empty tuple, because the effects are hidden."""
         return ()
 
     @property
     def effects_text(self) -> str:
-        """The text about effects in records."""
+        """What records say about the effects."""
         return "hidden"
 
     def _set_effects(self, effects: tuple[AxisEffect, ...], permit: Permit) -> None:
-        raise StateError("the machine is hidden, and stays as it is: reveal it first")
+        raise StateError("the effects of a hidden machine cannot be changed; reveal it first")
 
-    def _made(self, position: FloatArray, time_s: float) -> SimulatedDevice:
-        device = super()._made(position, time_s)
-        plant = SteppedPlant(self.robot, self._secret.case)
-        state = plant.at_rest(0.0, position)
-        # It answers to all that a device asks of a plant.
-        device.use(cast("Plant", plant), cast("PlantState", state))
+    def _make_device(self, position: FloatArray, time_s: float) -> SimulatedDevice:
+        device = super()._make_device(position, time_s)
+        plant = SteppedPlant(self.robot, self._hidden_effects.case)
+        state = plant.find_rest_state(0.0, position)
+        # SteppedPlant has all methods of Plant that the device calls.
+        device.set_plant(cast("Plant", plant), cast("PlantState", state))
         return device
 
 
-def is_right(secret: Secret, named: Collection[Cause]) -> bool:
-    """Whether a diagnosis names all effects of the machine and no others."""
-    return secret.causes == frozenset(named)
+def is_diagnosis_right(hidden_effects: HiddenEffects, named: Collection[HiddenCause]) -> bool:
+    """Whether a diagnosis names exactly the effects of the machine."""
+    return hidden_effects.causes == frozenset(named)

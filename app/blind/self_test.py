@@ -1,4 +1,7 @@
-"""The sealed self-test run by the command line: unfinished cases first, then the score."""
+"""Blind self-test of the gap diagnosis, run by ``rotemina gap blind``.
+
+It diagnoses the unfinished cases without access to their labels, then scores all cases.
+"""
 
 import sys
 from argparse import Namespace
@@ -8,86 +11,107 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from rotemina.app.blind.cases import BlindError, Cases, FolderCases, GeneratedCases, check_robot
-from rotemina.app.blind.classifier import classifier_for
-from rotemina.app.blind.diagnosis_process import diagnose
-from rotemina.app.blind.naive_methods import CONTESTANTS, contest
-from rotemina.app.blind.resumable_run import BlindRun, Contest, finished
-from rotemina.app.blind.weight_calibration import calibrated
-from rotemina.app.files import json_text
-from rotemina.sim.blind.figures_table import HALVES, page, plain_table
-from rotemina.sim.blind.intervals import Figure
-from rotemina.sim.blind.picture import draw_confusion
-from rotemina.sim.blind.scoring import Outcome, confusion, halves, score
+from rotemina.app.blind.cases import CaseSource, FolderCaseSource, GeneratedCaseSource, check_robot
+from rotemina.app.blind.classifier import load_or_train_classifier
+from rotemina.app.blind.diagnosis_process import diagnose_case
+from rotemina.app.blind.naive_methods import CONTESTANTS, answer_case
+from rotemina.app.blind.resumable_run import AskNaiveMethods, ResumableBlindRun, read_finished_run
+from rotemina.app.blind.weight_calibration import fit_calibration
+from rotemina.app.errors import BlindError
+from rotemina.app.settings import format_json
+from rotemina.sim.blind import (
+    REMAINDER_GROUP_TITLES,
+    CaseOutcome,
+    IntervalEstimate,
+    count_confusion,
+    draw_confusion,
+    format_page,
+    format_plain_table,
+    score,
+    split_by_remainder,
+)
 from rotemina.sim.errors import InputError
-from rotemina.sim.gap.compare.calibration import FORMAT as CALIBRATION_FORMAT
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.whole_files import replaced
+from rotemina.sim.files import replace_file
+from rotemina.sim.gap.compare import FORMAT as CALIBRATION_FORMAT
+from rotemina.sim.robot_files import load_robot
 
-FORMAT = "rotemina-blind 1"
-REPORTED_FROM = 1000  # seeds below are for development: what is calibrated or tuned on them
-_NOT_REPORTED = f"seeds from {REPORTED_FROM} on are for reports"
-_BELOW = f"calibrate on one below {REPORTED_FROM}"
-_CASES = 300
+FIGURES_FORMAT = "rotemina-blind 1"
+# Smaller seeds are for development, that is, for calibration and tuning.
+MIN_REPORTED_SEED = 1000
+_SEED_RULE = f"seeds from {MIN_REPORTED_SEED} on are for reports"
+_SEED_ADVICE = f"calibrate with a seed below {MIN_REPORTED_SEED}"
+_DEFAULT_CASE_COUNT = 300
 
-Beside = list[tuple[dict[str, Any], list[Outcome]]]
+#: For each run, the key that identifies its cases, and their outcomes.
+FinishedRuns = list[tuple[dict[str, Any], list[CaseOutcome]]]
 
 
-def run_test(options: Namespace) -> None:
-    """Run the unfinished cases, then score all."""
+def run_self_test(options: Namespace) -> None:
+    """Diagnose the unfinished cases, unless ``--score`` is given, then score all cases."""
     _check_seed(options)
-    beside = _finished_beside(options)
-    cases, folder = _cases(options)
+    additional_runs = _read_additional_runs(options)
+    cases, folder = _make_case_source(options)
     if any(other.resolve() == folder.resolve() for other in options.beside):
-        raise InputError(f"--beside {folder}: it is the folder of this run; leave it out")
-    blind = BlindRun(folder, cases)
-    ask = partial(diagnose, jobs=options.jobs)
-    pending = [] if options.score else blind.pending(options.shard)
-    others_too = _contest(options, folder) if options.naive and pending else None
+        raise InputError(f"--beside {folder}: this is the folder of the run itself; leave it out")
+    blind_run = ResumableBlindRun(folder, cases)
+    diagnose = partial(diagnose_case, jobs=options.jobs)
+    pending = [] if options.score else blind_run.list_pending(options.shard)
+    naive_methods = _make_naive_methods(options, folder) if options.naive and pending else None
     for number, name in enumerate(pending, start=1):
-        blind.do(name, ask, others_too)
+        blind_run.run_case(name, diagnose, naive_methods)
         print(f"{name}: done ({number} of {len(pending)})", file=sys.stderr)
-    blind.open_labels()
-    outcomes = blind.outcomes()
+    # Labels that share a file have stayed sealed until here.
+    blind_run.open_labels()
+    outcomes = blind_run.read_outcomes()
     if not outcomes:
-        raise BlindError(f"{folder}: no case is done, so there is nothing to score")
-    others = {title: blind.outcomes_of(name) for name, title in CONTESTANTS.items()}
-    _write(options, cases, outcomes, {title: o for title, o in others.items() if o}, beside)
+        raise BlindError(
+            f"{folder}: no case is finished, so there is nothing to score; run it without --score"
+        )
+    naive_outcomes = {
+        title: blind_run.read_outcomes_of(name) for name, title in CONTESTANTS.items()
+    }
+    _write_results(
+        options,
+        cases,
+        outcomes,
+        {title: answered for title, answered in naive_outcomes.items() if answered},
+        additional_runs,
+    )
 
 
 def _check_seed(options: Namespace) -> None:
-    """Keep seeds for development and seeds that are reported apart."""
+    """Refuse to report results with development seeds, and to calibrate with report seeds."""
     if options.source is not None:
         return
-    if options.report is not None and options.seed < REPORTED_FROM:
+    if options.report is not None and options.seed < MIN_REPORTED_SEED:
         raise InputError(
-            f"--report with --seed {options.seed}: seeds below {REPORTED_FROM} are for "
-            f"development; report cases of a seed from {REPORTED_FROM} on"
+            f"--report with --seed {options.seed}: seeds below {MIN_REPORTED_SEED} are for "
+            f"development; use a seed from {MIN_REPORTED_SEED} on"
         )
-    if options.calibrate is not None and options.seed >= REPORTED_FROM:
-        raise InputError(f"--calibrate with --seed {options.seed}: {_NOT_REPORTED}; {_BELOW}")
+    if options.calibrate is not None and options.seed >= MIN_REPORTED_SEED:
+        raise InputError(f"--calibrate with --seed {options.seed}: {_SEED_RULE}; {_SEED_ADVICE}")
 
 
-def _finished_beside(options: Namespace) -> Beside:
-    """Return what is done in the folders that count in the calibration as well."""
+def _read_additional_runs(options: Namespace) -> FinishedRuns:
     if options.beside and options.calibrate is None:
         raise InputError("--beside goes with --calibrate; give both, or leave it out")
-    found = [finished(folder) for folder in options.beside]
-    for folder, (key, _) in zip(options.beside, found, strict=True):
+    runs = [read_finished_run(folder) for folder in options.beside]
+    for folder, (key, _) in zip(options.beside, runs, strict=True):
         seed = key.get("seed", 0)
-        if not isinstance(seed, int) or seed >= REPORTED_FROM:
-            raise InputError(f"--beside {folder}: its seed is {seed}; {_NOT_REPORTED}; {_BELOW}")
-    return found
+        if not isinstance(seed, int) or seed >= MIN_REPORTED_SEED:
+            raise InputError(f"--beside {folder}: its seed is {seed}; {_SEED_RULE}; {_SEED_ADVICE}")
+    return runs
 
 
-def _contest(options: Namespace, folder: Path) -> Contest:
-    """Return the naive contestants; the one that learns does so on cases of its own."""
+def _make_naive_methods(options: Namespace, folder: Path) -> AskNaiveMethods:
     robot = load_robot(options.robot)
     check_robot(robot, options.robot)
-    return partial(contest, classifier=classifier_for(robot, folder / "classifier.npz"))
+    return partial(
+        answer_case, classifier=load_or_train_classifier(robot, folder / "classifier.npz")
+    )
 
 
-def _cases(options: Namespace) -> tuple[Cases, Path]:
+def _make_case_source(options: Namespace) -> tuple[CaseSource, Path]:
     if (options.source is None) != (options.labels is None):
         raise InputError("--from DIR and --labels FILE belong together; give both or neither")
     if options.source is not None:
@@ -95,114 +119,136 @@ def _cases(options: Namespace) -> tuple[Cases, Path]:
             raise InputError(
                 "--cases: with --from, all cases of the folder are scored; leave it out"
             )
-        robot = _robot(options)
+        robot = _resolve_robot(options)
         name = f"rotemina-blind-{options.source.resolve().name}"
-        return FolderCases(options.source, options.labels, robot), options.folder or Path(name)
-    number = _CASES if options.cases is None else options.cases
+        return FolderCaseSource(options.source, options.labels, robot), options.folder or Path(name)
+    number = _DEFAULT_CASE_COUNT if options.cases is None else options.cases
     if number < 1 or options.seed < 0:
         raise InputError(
             f"--cases {number} --seed {options.seed}: at least 1 case, no seed below 0"
         )
-    second = options.generator == "second"
-    name = f"rotemina-blind-{options.seed}{'-second' if second else ''}"
-    cases = GeneratedCases(_robot(options), number, options.seed, second=second)
+    # The equations of the second generator differ from those of the first.
+    uses_second_generator = options.generator == "second"
+    name = f"rotemina-blind-{options.seed}{'-second' if uses_second_generator else ''}"
+    cases = GeneratedCaseSource(
+        _resolve_robot(options), number, options.seed, second=uses_second_generator
+    )
     return cases, options.folder or Path(name)
 
 
-def _robot(options: Namespace) -> str:
-    """Return what ``--robot`` takes, good in any folder."""
+def _resolve_robot(options: Namespace) -> str:
+    """Return the value of ``--robot``, as an absolute path if it is a file."""
     name = str(options.robot)
     return str(Path(name).resolve()) if Path(name).is_file() else name
 
 
-def _write(
+def _write_results(
     options: Namespace,
-    cases: Cases,
-    outcomes: list[Outcome],
-    others: dict[str, list[Outcome]],
-    beside: Beside,
+    cases: CaseSource,
+    outcomes: list[CaseOutcome],
+    naive_outcomes: dict[str, list[CaseOutcome]],
+    additional_runs: FinishedRuns,
 ) -> None:
     figures = score(outcomes)
-    rivals = {title: _names(score(theirs)) for title, theirs in others.items()}
-    counts = confusion(outcomes)
-    parts = {name: score(each) for name, each in halves(outcomes).items() if each}
-    text = json_text(_document(cases, outcomes, figures, rivals, parts))
-    # All files appear together or none.
+    naive_figures = {
+        title: _keep_cause_figures(score(answered)) for title, answered in naive_outcomes.items()
+    }
+    counts = count_confusion(outcomes)
+    group_figures = {
+        name: score(group) for name, group in split_by_remainder(outcomes).items() if group
+    }
+    text = format_json(_make_document(cases, outcomes, figures, naive_figures, group_figures))
+    # All files are replaced together, or none.
     with ExitStack() as files:
         if options.report is not None:
             picture = options.report.with_suffix(".svg")
-            files.enter_context(replaced(options.report)).write(
-                page(
+            files.enter_context(replace_file(options.report)).write(
+                format_page(
                     figures,
                     outcomes,
                     picture.name,
-                    _origin(cases, len(outcomes)),
-                    {**{HALVES[name]: each for name, each in parts.items()}, **rivals},
+                    _describe_cases(cases, len(outcomes)),
+                    {
+                        **{
+                            REMAINDER_GROUP_TITLES[name]: figures_of_group
+                            for name, figures_of_group in group_figures.items()
+                        },
+                        **naive_figures,
+                    },
                 ).encode("utf-8")
             )
-            draw_confusion(counts, files.enter_context(replaced(picture)))
+            draw_confusion(counts, files.enter_context(replace_file(picture)))
         if options.calibrate is not None:
-            made = json_text(_calibration(cases, outcomes, beside))
-            files.enter_context(replaced(options.calibrate)).write(made.encode("utf-8"))
+            calibration = format_json(_make_calibration_document(cases, outcomes, additional_runs))
+            files.enter_context(replace_file(options.calibrate)).write(calibration.encode("utf-8"))
         if options.json not in (None, "-"):
-            files.enter_context(replaced(options.json)).write(text.encode("utf-8"))
+            files.enter_context(replace_file(options.json)).write(text.encode("utf-8"))
     if options.json == "-":
         print(text)
         return
-    print(plain_table(figures))
-    for name, each in parts.items():
-        print(f"\n{HALVES[name]}\n{plain_table(each)}")
+    print(format_plain_table(figures))
+    for name, figures_of_group in group_figures.items():
+        print(f"\n{REMAINDER_GROUP_TITLES[name]}\n{format_plain_table(figures_of_group)}")
 
 
-def _calibration(cases: Cases, outcomes: Sequence[Outcome], beside: Beside) -> dict[str, Any]:
-    """Return the calibration on these outcomes, and on those of the folders beside."""
-    every = [*outcomes, *(one for _, found in beside for one in found)]
+def _make_calibration_document(
+    cases: CaseSource, outcomes: Sequence[CaseOutcome], additional_runs: FinishedRuns
+) -> dict[str, Any]:
+    all_outcomes = [
+        *outcomes,
+        *(outcome for _, run_outcomes in additional_runs for outcome in run_outcomes),
+    ]
     return {
         "format": CALIBRATION_FORMAT,
-        "cases": [dict(cases.key), *(key for key, _ in beside)],
-        "done": len(every),
-        **calibrated(every).as_json(),
+        "cases": [dict(cases.key), *(key for key, _ in additional_runs)],
+        "done": len(all_outcomes),
+        **fit_calibration(all_outcomes).as_json(),
     }
 
 
-def _document(
-    cases: Cases,
-    outcomes: list[Outcome],
-    figures: dict[str, Figure],
-    rivals: dict[str, dict[str, Figure]],
-    parts: dict[str, dict[str, Figure]],
+def _make_document(
+    cases: CaseSource,
+    outcomes: list[CaseOutcome],
+    figures: dict[str, IntervalEstimate],
+    naive_figures: dict[str, dict[str, IntervalEstimate]],
+    group_figures: dict[str, dict[str, IntervalEstimate]],
 ) -> dict[str, Any]:
     return {
-        "format": FORMAT,
+        "format": FIGURES_FORMAT,
         "cases": dict(cases.key),
         "asked": len(cases.names),
         "done": len(outcomes),
-        "figures": _shown(figures),
-        "halves": {name: _shown(each) for name, each in parts.items()},
-        "naive": {title: _shown(theirs) for title, theirs in rivals.items()},
+        "figures": _figures_to_json(figures),
+        "halves": {name: _figures_to_json(group) for name, group in group_figures.items()},
+        "naive": {title: _figures_to_json(naive) for title, naive in naive_figures.items()},
         "confusion": [
-            {"truth": truth, "named": told, "number": number}
-            for (truth, told), number in sorted(confusion(outcomes).items())
+            {"truth": truth, "named": diagnosed, "number": number}
+            for (truth, diagnosed), number in sorted(count_confusion(outcomes).items())
         ],
         "wrong": [
             {"case": o.name, "label": dict(o.label), "answer": dict(o.answer)}
             for o in outcomes
-            if not o.right
+            if not o.is_correct
         ],
     }
 
 
-def _origin(cases: Cases, done: int) -> str:
-    told = ", ".join(f"{key} `{value}`" for key, value in cases.key.items())
-    asked = len(cases.names)
-    share = f"{asked}" if done == asked else f"{done} of {asked}"
-    return f"{share} cases of {told}"
+def _describe_cases(cases: CaseSource, finished_count: int) -> str:
+    description = ", ".join(f"{key} `{value}`" for key, value in cases.key.items())
+    total = len(cases.names)
+    count = f"{total}" if finished_count == total else f"{finished_count} of {total}"
+    return f"{count} cases of {description}"
 
 
-def _names(figures: dict[str, Figure]) -> dict[str, Figure]:
-    """Keep what tells how causes are named: naive methods predict nothing, and are not timed."""
-    return {k: f for k, f in figures.items() if not k.startswith(("closure", "seconds"))}
+def _keep_cause_figures(figures: dict[str, IntervalEstimate]) -> dict[str, IntervalEstimate]:
+    """Keep the figures about causes.
+
+    Naive methods predict no records, so there is no closure of the gap, and they are not timed.
+    """
+    return {
+        key: figure for key, figure in figures.items() if not key.startswith(("closure", "seconds"))
+    }
 
 
-def _shown(figures: dict[str, Figure]) -> dict[str, Any]:
+def _figures_to_json(figures: dict[str, IntervalEstimate]) -> dict[str, Any]:
     return {key: figure.as_json() for key, figure in figures.items()}

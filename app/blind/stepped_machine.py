@@ -1,8 +1,8 @@
-"""A running machine of the blind generator, stepped sample by sample like a simulator's plant.
+"""A machine of the blind generator that is stepped sample by sample, like a simulator's plant.
 
-The generator runs a machine over whole motions. Some of its parts can go on from where they were:
-forces, whose memory the generator keeps by load, and hysteresis without creep, which remembers
-nothing but the turns of its input that no wider swing has wiped out.
+The generator itself computes whole motions. Two kinds of its parts can be continued from a saved
+state: loads, for each of which the generator keeps a memory, and hysteresis without creep. Such
+hysteresis remembers only the turning points of its input that no larger swing has erased.
 """
 
 from collections.abc import Sequence
@@ -13,25 +13,30 @@ import numba
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray, IntArray
-from rotemina.sim.blind import mechanics
-from rotemina.sim.blind.case import Case
-from rotemina.sim.blind.machine import Machine, machine_of
-from rotemina.sim.blind.part import SimulationRun, Stage
-from rotemina.sim.plant.random_draws import Chance
-from rotemina.sim.robot.model import Robot
+from rotemina.sim.blind import (
+    BlindCase,
+    BlindMachine,
+    SignalStage,
+    SimulationRun,
+    build_machine,
+    mechanics,
+)
+from rotemina.sim.plant import RandomStreams
+from rotemina.sim.robot import Robot
 
-#: Effects whose parts can go on.
-STEPPED = ("hysteresis", "contact", "stiffness_nonlinearity")
-_FINE_S = 5e-5
-_MEMORY = 12  # numbers of a load
+#: Effects whose parts can be continued from a saved state.
+STEPPED_EFFECTS = ("hysteresis", "contact", "stiffness_nonlinearity")
+_TICK_S = 5e-5
+# Length of the memory that the generator keeps for each load.
+_LOAD_MEMORY_SIZE = 12
 
 
 @numba.njit(cache=True)  # type: ignore[untyped-decorator]
-def _go_on(free, forced, drive, targets, loads, state, memory, first, step_s):  # type: ignore[no-untyped-def]
-    """As ``mechanics.move``, from a state and a memory that continue."""
+def _step_mechanics(free, forced, drive, targets, loads, state, memory, first_step, step_s):  # type: ignore[no-untyped-def]
+    """Compute the motion like ``mechanics.simulate_motion``; update state and memory in place."""
     n, m = targets.shape
     d = len(state) // 2
-    after, force, out = state.copy(), np.zeros(d), np.empty((n, m))
+    next_state, force, out = state.copy(), np.zeros(d), np.empty((n, m))
     for k in range(n):
         force[:] = 0.0
         for i in range(m):
@@ -39,8 +44,8 @@ def _go_on(free, forced, drive, targets, loads, state, memory, first, step_s):  
             force[i] = drive[i] * targets[k, i]
         for j in range(len(loads)):
             i = int(loads[j, 1])
-            force[i] += mechanics.load_force(
-                loads[j], memory[j], state[i], state[d + i], first + k, step_s
+            force[i] += mechanics.compute_load_force(
+                loads[j], memory[j], state[i], state[d + i], first_step + k, step_s
             )
         for i in range(2 * d):
             total = 0.0
@@ -48,116 +53,131 @@ def _go_on(free, forced, drive, targets, loads, state, memory, first, step_s):  
                 total += free[i, j] * state[j]
             for j in range(d):
                 total += forced[i, j] * force[j]
-            after[i] = total
-        state[:] = after
+            next_state[i] = total
+        state[:] = next_state
     return out
 
 
-def turned(points: Sequence[float], values: FloatArray) -> list[float]:
-    """Return the turns that a rate-independent part remembers, after more of the signal."""
+def update_turning_points(points: Sequence[float], values: FloatArray) -> list[float]:
+    """Return the turning points that a rate-independent part remembers after ``values``."""
     signal = np.concatenate([points[-1:], values])
-    way = np.sign(np.diff(signal))
-    moves = np.flatnonzero(way)
-    turning = moves[1:][way[moves[1:]] != way[moves[:-1]]]
-    kept = list(points)
-    for point in (*signal[turning].tolist(), float(signal[-1])):
-        if len(kept) > 1 and (kept[-1] - kept[-2]) * (point - kept[-1]) >= 0.0:
-            kept[-1] = point
+    direction = np.sign(np.diff(signal))
+    moving_rows = np.flatnonzero(direction)
+    has_turned = direction[moving_rows[1:]] != direction[moving_rows[:-1]]
+    turning_rows = moving_rows[1:][has_turned]
+    turning_points = list(points)
+    for point in (*signal[turning_rows].tolist(), float(signal[-1])):
+        if (
+            len(turning_points) > 1
+            and (turning_points[-1] - turning_points[-2]) * (point - turning_points[-1]) >= 0.0
+        ):
+            turning_points[-1] = point
         else:
-            kept.append(point)
-        while len(kept) > 3:
-            a, b, c, d = kept[-4:]
+            turning_points.append(point)
+        while len(turning_points) > 3:
+            a, b, c, d = turning_points[-4:]
             if abs(c - b) > min(abs(b - a), abs(d - c)):
                 break
-            del kept[-3:-1]
-    return kept
+            del turning_points[-3:-1]
+    return turning_points
 
 
-class Memory(NamedTuple):
-    """What the axes of one stage remember: positions and speeds, forces, turns, and ticks."""
+class StageMemory(NamedTuple):
+    """Memory of the axes of a stage.
+
+    It holds positions and speeds (``state``), the memory of each load (``forces``), the turning
+    points of each axis, and the number of ticks so far.
+    """
 
     state: FloatArray
     forces: FloatArray
-    turns: tuple[list[float], ...]
+    turning_points: tuple[list[float], ...]
     ticks: int
 
 
-class Going:
-    """The axes of one stage; it remembers nothing itself."""
+class SteppedStage:
+    """The axes of one stage; it has no state, but receives and returns the memory of the axes."""
 
-    def __init__(self, machine: Machine, tick_s: float) -> None:
+    def __init__(self, machine: BlindMachine, tick_s: float) -> None:
         self.axes = machine.axes
-        self._every = max(round(tick_s / _FINE_S), 1)
-        self._step_s = tick_s / self._every
-        run = SimulationRun(self._step_s, self._every, 0, 0)
-        forces = [part for part in machine.parts if part.stage is Stage.LOAD]
-        self._bent = [part for part in machine.parts if part.stage is Stage.ACTUATOR]
-        assert len(forces) + len(self._bent) == len(machine.parts), "a part that cannot go on"
-        rows = [part.act(np.zeros(0), run, part.size) for part in forces]
-        self._loads = np.array(rows).reshape(-1, mechanics.ROW)
+        self._steps_per_tick = max(round(tick_s / _TICK_S), 1)
+        self._step_s = tick_s / self._steps_per_tick
+        run = SimulationRun(self._step_s, self._steps_per_tick, 0, 0)
+        load_parts = [part for part in machine.parts if part.stage is SignalStage.LOAD]
+        self._actuator_parts = [
+            part for part in machine.parts if part.stage is SignalStage.ACTUATOR
+        ]
+        assert len(load_parts) + len(self._actuator_parts) == len(machine.parts), (
+            "a part cannot be continued"
+        )
+        load_rows = [part.act(np.zeros(0), run, part.size) for part in load_parts]
+        self._loads = np.array(load_rows).reshape(-1, mechanics.LOAD_ROW_LENGTH)
         self._run, self._structure = run, machine.structure
-        self._steps = mechanics.propagator(machine.structure, self._step_s)
+        self._propagators = mechanics.compute_propagator(machine.structure, self._step_s)
 
-    def at_rest(self, position: FloatArray) -> Memory:
-        """Return the memory of axes that have risen from the low end to ``position`` (m,)."""
-        turns: tuple[list[float], ...] = tuple(
-            [float(axis.low), float(at)] for axis, at in zip(self.axes, position, strict=True)
+    def make_memory_at_rest(self, position: FloatArray) -> StageMemory:
+        """Return the memory of axes that have moved from the low end up to ``position`` (m,)."""
+        turning_points: tuple[list[float], ...] = tuple(
+            [float(axis.low), float(coordinate)]
+            for axis, coordinate in zip(self.axes, position, strict=True)
         )
         structure = self._structure
         force = np.zeros(len(structure.mass))
-        target, turns = self._target(np.asarray(position)[None], turns)
+        target, turning_points = self._compute_targets(np.asarray(position)[None], turning_points)
         force[: len(position)] = structure.drive * target[0]
         state = np.zeros(2 * len(force))
         state[: len(force)] = np.linalg.solve(structure.stiffness, force)
-        return Memory(state, np.zeros((len(self._loads), _MEMORY)), turns, 0)
+        return StageMemory(
+            state, np.zeros((len(self._loads), _LOAD_MEMORY_SIZE)), turning_points, 0
+        )
 
     def advance(
-        self, memory: Memory, commands: FloatArray, ticks: IntArray | int = 1
-    ) -> tuple[FloatArray, Memory]:
-        """Return positions (ticks, m) for the next commands (n, m), and the memory then.
+        self, memory: StageMemory, commands: FloatArray, ticks: IntArray | int = 1
+    ) -> tuple[FloatArray, StageMemory]:
+        """Return the positions (ticks, m) for the next commands (n, m), and the memory after them.
 
-        ``ticks`` (n,) is for how long each of them holds.
+        ``ticks`` (n,) is the number of ticks for which each command holds.
         """
-        target, turns = self._target(commands, memory.turns)
+        target, turning_points = self._compute_targets(commands, memory.turning_points)
         target = np.repeat(target, ticks, axis=0)
         state, forces = memory.state.copy(), memory.forces.copy()
-        motion = _go_on(
-            *self._steps,
+        motion = _step_mechanics(
+            *self._propagators,
             self._structure.drive,
-            np.repeat(target, self._every, axis=0),
+            np.repeat(target, self._steps_per_tick, axis=0),
             self._loads,
             state,
             forces,
-            memory.ticks * self._every,
+            memory.ticks * self._steps_per_tick,
             self._step_s,
         )
-        after = Memory(state, forces, turns, memory.ticks + len(target))
-        return motion[:: self._every], after
+        next_memory = StageMemory(state, forces, turning_points, memory.ticks + len(target))
+        return motion[:: self._steps_per_tick], next_memory
 
-    def _target(
-        self, commands: FloatArray, turns: tuple[list[float], ...]
+    def _compute_targets(
+        self, commands: FloatArray, turning_points: tuple[list[float], ...]
     ) -> tuple[FloatArray, tuple[list[float], ...]]:
-        targets, kept = commands.copy(), list(turns)
-        for part in self._bent:
+        targets, new_turning_points = commands.copy(), list(turning_points)
+        for part in self._actuator_parts:
             i = part.axis.index
-            signal = np.concatenate([kept[i], commands[:, i]])
-            targets[:, i] = part.act(signal, self._run, part.size)[len(kept[i]) :]
-            kept[i] = turned(kept[i], commands[:, i])
-        return targets, tuple(kept)
+            signal = np.concatenate([new_turning_points[i], commands[:, i]])
+            targets[:, i] = part.act(signal, self._run, part.size)[len(new_turning_points[i]) :]
+            new_turning_points[i] = update_turning_points(new_turning_points[i], commands[:, i])
+        return targets, tuple(new_turning_points)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SteppedState:
-    """What a whole machine remembers; the rest is as of any plant's state."""
+    """State of the whole machine: the memory of each stage, time, position and command."""
 
-    memories: tuple[Memory, ...]
+    memories: tuple[StageMemory, ...]
     time_s: FloatArray
     position: FloatArray
     command: FloatArray
 
 
 class SteppedMotion(NamedTuple):
-    """Positions, readings, and hidden inputs, each (n, axes)."""
+    """Positions, readings and hidden inputs, each (n, axes)."""
 
     position: FloatArray
     reading: FloatArray
@@ -165,53 +185,62 @@ class SteppedMotion(NamedTuple):
 
 
 class SteppedPlant:
-    """All axes of a robot, those of one stage with a case, in the place of a simulator's plant."""
+    """All axes of a robot, with the effects of a case in one stage, as the plant of a simulator."""
 
-    loops: tuple[None, ...] = ()  # of controllers: none is closed
+    # A plant lists the control loops that it closes; this one closes none.
+    loops: tuple[None, ...] = ()
 
-    def __init__(self, robot: Robot, case: Case | None) -> None:
+    def __init__(self, robot: Robot, case: BlindCase | None) -> None:
         self.axes = tuple(robot.axes)
-        self._stages: list[tuple[list[int], Going]] = []
+        self._stages: list[tuple[list[int], SteppedStage]] = []
         for names in robot.stages.values():
             columns = [self.axes.index(name) for name in names]
             travels = {name: np.array(robot.axes[name].range) for name in names}
-            mine = case is not None and tuple(names) == tuple(case.names)
-            machine = case.machine if mine and case else machine_of(robot, names, travels)
-            self._stages.append((columns, Going(machine, _FINE_S)))
+            has_case = case is not None and tuple(names) == tuple(case.axis_names)
+            machine = case.machine if has_case and case else build_machine(robot, names, travels)
+            self._stages.append((columns, SteppedStage(machine, _TICK_S)))
 
-    def at_rest(self, time_s: float, position: FloatArray) -> SteppedState:
+    def find_rest_state(self, time_s: float, position: FloatArray) -> SteppedState:
         """Return the state at rest at ``position`` (axes,)."""
         position = np.asarray(position, dtype=np.float64)
-        memories = tuple(going.at_rest(position[columns]) for columns, going in self._stages)
+        memories = tuple(
+            stage.make_memory_at_rest(position[columns]) for columns, stage in self._stages
+        )
         return SteppedState(memories, np.array([time_s]), position[None], position)
 
     def advance(
-        self, state: SteppedState, time_s: FloatArray, command: FloatArray, *, chance: Chance
+        self,
+        state: SteppedState,
+        time_s: FloatArray,
+        command: FloatArray,
+        *,
+        random_streams: RandomStreams,
     ) -> tuple[SteppedMotion, SteppedState]:
-        """Sample the response to commands (n, axes) at times (n,); each holds until the next."""
-        since_s = np.concatenate([state.time_s[-1:], time_s]) - state.time_s[-1]
-        ticks = np.maximum(np.diff(np.rint(since_s / _FINE_S).astype(np.int64)), 1)
-        held = np.vstack([state.command[None], command])
-        rows = np.cumsum(ticks) - 1
-        # Each acts from its own sample on: so far, the latest one for a tick.
+        """Compute the response to commands (n, axes) at times (n,); each holds until the next."""
+        elapsed_s = np.concatenate([state.time_s[-1:], time_s]) - state.time_s[-1]
+        ticks = np.maximum(np.diff(np.rint(elapsed_s / _TICK_S).astype(np.int64)), 1)
+        held_commands = np.vstack([state.command[None], command])
+        sample_rows = np.cumsum(ticks) - 1
+        # Each command acts from its own sample on. The previous one has already held for one tick
+        # in the last call, and the newest one holds for one tick in this call.
         durations = np.concatenate([[ticks[0] - 1], ticks[1:], [1]])
         motion, reading = np.empty_like(command), np.empty_like(command)
-        noise = chance.draw(len(command), len(self.axes), 0)
+        noise = random_streams.draw(len(command), len(self.axes), 0)
         memories = []
-        for (columns, going), memory in zip(self._stages, state.memories, strict=True):
-            told, after = going.advance(memory, held[:, columns], durations)
-            motion[:, columns] = told[rows]
-            memories.append(after)
-            rms = np.array([axis.noise for axis in going.axes])
-            step = np.array([axis.resolution for axis in going.axes])
+        for (columns, stage), memory in zip(self._stages, state.memories, strict=True):
+            stage_motion, next_memory = stage.advance(memory, held_commands[:, columns], durations)
+            motion[:, columns] = stage_motion[sample_rows]
+            memories.append(next_memory)
+            rms = np.array([axis.noise for axis in stage.axes])
+            step = np.array([axis.resolution for axis in stage.axes])
             noisy = motion[:, columns] + rms * noise[:, columns]
             reading[:, columns] = np.round(noisy / step) * step
-        unknown = np.full(command.shape, np.nan)
-        latest = SteppedState(tuple(memories), time_s[-1:], motion[-1:], command[-1].copy())
-        return SteppedMotion(motion, reading, unknown), latest
+        unknown_inputs = np.full(command.shape, np.nan)
+        latest_state = SteppedState(tuple(memories), time_s[-1:], motion[-1:], command[-1].copy())
+        return SteppedMotion(motion, reading, unknown_inputs), latest_state
 
 
-def can_go_on(case: Case) -> bool:
-    """Whether every part of a case can continue from where it was."""
+def can_step_case(case: BlindCase) -> bool:
+    """Whether every part of a case can be continued from a saved state."""
     effects: list[Any] = case.label()["effects"]
-    return case.remainder is None and all(one["effect"] in STEPPED for one in effects)
+    return case.remainder is None and all(effect["effect"] in STEPPED_EFFECTS for effect in effects)

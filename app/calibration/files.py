@@ -1,4 +1,7 @@
-"""The TOML file of a sensor's calibration: strict, dated, with its origin."""
+"""The TOML file of a sensor calibration, with the date and the records that it was fitted to.
+
+The format is strict: unknown keys are rejected.
+"""
 
 import hashlib
 from dataclasses import asdict
@@ -9,76 +12,106 @@ import numpy as np
 from pydantic import Field
 from pydantic.dataclasses import dataclass
 
-from rotemina.app.motion.sensor_corrections import AppliedCalibration
-from rotemina.app.toml_file import STRICT, Format, Text
-from rotemina.sim.calibration.errors import CalibrationError
-from rotemina.sim.calibration.iso230 import Positioning
-from rotemina.sim.calibration.sensor import BENDS, SHARES, SensorModel
-from rotemina.sim.calibration.sensor_calibration import Calibration
-from rotemina.sim.calibration.sensor_lag import MOST_S, Lag
-from rotemina.sim.records.record import Record
+from rotemina.app.motion.device import AppliedCalibration
+from rotemina.app.settings import (
+    FORBID_EXTRA_KEYS,
+    NonEmptyText,
+    TomlFormat,
+)
+from rotemina.sim.calibration import (
+    MAX_BEND_COEFFICIENTS,
+    MAX_LAG_S,
+    STOP_RADIUS_SHARES,
+    PositioningFigures,
+    SensorCalibration,
+    SensorLag,
+    SensorModel,
+)
+from rotemina.sim.errors import SensorCalibrationError
+from rotemina.sim.records import Record
 
 VERSION = 1
-_PER_BYTES = 8
+_DIGEST_BYTES = 8
 
 Finite = Annotated[float, Field(strict=False, allow_inf_nan=False)]
 Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
 NotNegative = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
 Count = Annotated[int, Field(strict=True, ge=1)]
 Digest = Annotated[str, Field(strict=True, pattern="^[0-9a-f]{16}$")]
-Line = Annotated[str, Field(strict=True, max_length=400)]
+NoteLine = Annotated[str, Field(strict=True, max_length=400)]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
-class Source:
+@dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_EXTRA_KEYS)
+class SourceRecord:
     """A source record of a calibration, with the digest of its content."""
 
-    name: Text
+    name: NonEmptyText
     digest: Digest
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
-class Sensor:
-    """The sensor's model, SI, as :class:`rotemina.sim.calibration.sensor.SensorModel`."""
+@dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_EXTRA_KEYS)
+class StoredSensorModel:
+    """Parameters of a :class:`rotemina.sim.calibration.SensorModel`, in SI units.
+
+    Attributes
+    ----------
+    low, high : float
+        Ends of the range over which the sensor was calibrated, m or rad.
+    offset, gain_error : float
+        Error of the line through both ends of the range.
+    bend : tuple of float
+        Coefficients of the nonlinearity, m or rad.
+    radii, weights : tuple of float
+        Radius, m or rad, and weight of each stop operator of the hysteresis.
+    lag, lag_s : str, float
+        Kind of the sensor's lag, and its time.
+    period : float
+        Period of an encoder's interpolation error, m or rad; 0 for none.
+    harmonics : tuple of float
+        Sine and cosine amplitudes of the first and of the second harmonic of the interpolation
+        error, m or rad.
+    """
 
     low: Finite
     high: Finite
     offset: Finite
     gain_error: Annotated[float, Field(gt=-0.9, lt=10.0)]
-    bend: Annotated[tuple[Finite, ...], Field(max_length=BENDS)] = ()
-    radii: Annotated[tuple[Positive, ...], Field(max_length=len(SHARES))] = ()
-    weights: Annotated[tuple[Finite, ...], Field(max_length=len(SHARES))] = ()
+    bend: Annotated[tuple[Finite, ...], Field(max_length=MAX_BEND_COEFFICIENTS)] = ()
+    radii: Annotated[tuple[Positive, ...], Field(max_length=len(STOP_RADIUS_SHARES))] = ()
+    weights: Annotated[tuple[Finite, ...], Field(max_length=len(STOP_RADIUS_SHARES))] = ()
     lag: Literal["none", "first_order", "delay"] = "none"
-    lag_s: Annotated[float, Field(ge=0.0, le=MOST_S)] = 0.0
+    lag_s: Annotated[float, Field(ge=0.0, le=MAX_LAG_S)] = 0.0
     period: NotNegative = 0.0
     harmonics: Annotated[tuple[Finite, ...], Field(max_length=4)] = ()
 
     def __post_init__(self) -> None:
         if not self.low < self.high:
-            raise ValueError(f"low must be less than high, {self.high!r}")
+            raise ValueError(
+                f"low must be less than high; low = {self.low!r}, high = {self.high!r}"
+            )
         if len(self.radii) != len(self.weights):
-            raise ValueError(f"{len(self.radii)} radii need as many weights")
+            raise ValueError(f"there are {len(self.radii)} radii, but {len(self.weights)} weights")
         if len(self.harmonics) != (4 if self.period else 0):
-            raise ValueError("a period needs 4 harmonics, and they a period")
+            raise ValueError("harmonics must have 4 values with a period, and none without one")
 
     @property
     def model(self) -> SensorModel:
-        """The model that computes."""
-        return SensorModel(**(asdict(self) | {"lag": Lag(self.lag)}))
+        """The model that corrects readings."""
+        return SensorModel(**(asdict(self) | {"lag": SensorLag(self.lag)}))
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
-class KeptFigure:
-    """A figure with the half width of its 95 % interval, where it has one."""
+@dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_EXTRA_KEYS)
+class StoredFigure:
+    """A figure with the half-width of its 95 % confidence interval, if it has one."""
 
-    name: Text
+    name: NonEmptyText
     value: Finite
     half_width: NotNegative | None = None
-    unit: Text
+    unit: NonEmptyText
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
-class Iso:
+@dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_EXTRA_KEYS)
+class IsoFigures:
     """Figures of ISO 230-2:2014, m or rad."""
 
     accuracy: NotNegative
@@ -91,35 +124,49 @@ class Iso:
     mean_bidirectional: NotNegative
 
     @property
-    def figures(self) -> Positioning:
-        """As they were computed."""
-        return Positioning(*(getattr(self, name) for name in Positioning._fields))
+    def positioning(self) -> PositioningFigures:
+        """The figures as a :class:`PositioningFigures`."""
+        return PositioningFigures(*(getattr(self, name) for name in PositioningFigures._fields))
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
+@dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_EXTRA_KEYS)
 class CalibrationFile:
-    """All that is kept of one axis' calibration."""
+    """Everything stored for the calibration of one axis.
+
+    Attributes
+    ----------
+    travel : (float, float)
+        Ends of the calibrated travel, in ``unit``.
+    runs : int
+        Number of calibration runs.
+    before_rms, after_rms : float
+        rms error of the reading in the validation runs, without and with the calibration.
+    iso_reading_before, iso_reading_after : IsoFigures or None
+        Figures of the reading, without and with the calibration.
+    iso_reached : IsoFigures or None
+        Figures of the positions that the axis reached.
+    """
 
     version: Annotated[int, Field(strict=True, ge=VERSION, le=VERSION)] = VERSION
-    robot: Text
-    axis: Text
+    robot: NonEmptyText
+    axis: NonEmptyText
     unit: Literal["m", "rad"]
-    date: Text
+    date: NonEmptyText
     travel: tuple[Finite, Finite]
     runs: Count
     before_rms: NotNegative
     after_rms: NotNegative
-    sensor: Sensor
-    figures: tuple[KeptFigure, ...]
-    sources: Annotated[tuple[Source, ...], Field(min_length=1)]
-    notes: tuple[Line, ...] = ()
-    iso_reading_before: Iso | None = None
-    iso_reading_after: Iso | None = None
-    iso_reached: Iso | None = None
+    sensor: StoredSensorModel
+    figures: tuple[StoredFigure, ...]
+    sources: Annotated[tuple[SourceRecord, ...], Field(min_length=1)]
+    notes: tuple[NoteLine, ...] = ()
+    iso_reading_before: IsoFigures | None = None
+    iso_reading_after: IsoFigures | None = None
+    iso_reached: IsoFigures | None = None
 
     def __post_init__(self) -> None:
         if not self.travel[0] < self.travel[1]:
-            raise ValueError(f"travel must rise, {self.travel!r}")
+            raise ValueError(f"travel must increase, not {self.travel!r}")
         try:
             datetime.fromisoformat(self.date)
         except ValueError:
@@ -127,41 +174,41 @@ class CalibrationFile:
 
     @property
     def name(self) -> str:
-        """Date and digest: what records and screens call it."""
-        return f"{self.date} {_digest(FORMAT.text(self).encode())[:8]}"
+        """Date and digest, the label of the calibration in records and on screens."""
+        return f"{self.date} {_digest(CALIBRATION_FORMAT.to_toml(self).encode())[:8]}"
 
     @property
-    def applied(self) -> AppliedCalibration:
-        """As a session applies it."""
+    def applied_calibration(self) -> AppliedCalibration:
+        """The calibration in the form that a session applies."""
         return AppliedCalibration(self.name, self.sensor.model, self.travel)
 
 
-FORMAT = Format(
+CALIBRATION_FORMAT = TomlFormat(
     CalibrationFile,
     {
-        "sensor": Sensor,
-        "figures": KeptFigure,
-        "sources": Source,
-        "iso_reading_before": Iso,
-        "iso_reading_after": Iso,
-        "iso_reached": Iso,
+        "sensor": StoredSensorModel,
+        "figures": StoredFigure,
+        "sources": SourceRecord,
+        "iso_reading_before": IsoFigures,
+        "iso_reading_after": IsoFigures,
+        "iso_reached": IsoFigures,
     },
-    CalibrationError,
+    SensorCalibrationError,
 )
 
 
-def kept(
-    calibration: Calibration, robot: str, sources: tuple[Source, ...], date: datetime
+def make_calibration_file(
+    calibration: SensorCalibration, robot: str, sources: tuple[SourceRecord, ...], date: datetime
 ) -> CalibrationFile:
-    """Return the stored form of a calibration.
+    """Return a calibration in the form of its file.
 
     Raises
     ------
-    CalibrationError
-        If it is none that may be used.
+    SensorCalibrationError
+        If the calibration must not be used.
     """
     if calibration.refusal is not None:
-        raise CalibrationError(calibration.refusal)
+        raise SensorCalibrationError(calibration.refusal)
     return CalibrationFile(
         robot=robot,
         axis=calibration.axis,
@@ -171,38 +218,40 @@ def kept(
         runs=calibration.runs,
         before_rms=calibration.before_rms,
         after_rms=calibration.after_rms,
-        sensor=Sensor(**(asdict(calibration.model) | {"lag": calibration.model.lag.value})),
+        sensor=StoredSensorModel(
+            **(asdict(calibration.model) | {"lag": calibration.model.lag.value})
+        ),
         figures=tuple(
-            KeptFigure(
-                name=each.name,
-                value=each.value,
-                half_width=each.half_width if np.isfinite(each.half_width) else None,
-                unit=each.unit,
+            StoredFigure(
+                name=figure.name,
+                value=figure.value,
+                half_width=figure.half_width if np.isfinite(figure.half_width) else None,
+                unit=figure.unit,
             )
-            for each in calibration.figures
+            for figure in calibration.figures
         ),
         sources=sources,
         notes=tuple(note[:400] for note in calibration.notes),
-        iso_reading_before=_iso(calibration.reading_before),
-        iso_reading_after=_iso(calibration.reading_after),
-        iso_reached=_iso(calibration.reached),
+        iso_reading_before=_to_iso_figures(calibration.reading_before),
+        iso_reading_after=_to_iso_figures(calibration.reading_after),
+        iso_reached=_to_iso_figures(calibration.reached),
     )
 
 
-def source_of(record: Record, name: str) -> Source:
-    """Return a record's name in a calibration, derived from its content."""
+def make_source_record(record: Record, name: str) -> SourceRecord:
+    """Return a record as a source of a calibration, with a digest of its content."""
     parts = [np.ascontiguousarray(record.time_s).tobytes()]
     for channel in record.columns:
         parts += [str(channel).encode(), np.ascontiguousarray(record.signal(*channel)).tobytes()]
-    return Source(name=name[:200] or "record", digest=_digest(*parts))
+    return SourceRecord(name=name[:200] or "record", digest=_digest(*parts))
 
 
 def _digest(*parts: bytes) -> str:
-    digest = hashlib.blake2b(digest_size=_PER_BYTES)
+    digest = hashlib.blake2b(digest_size=_DIGEST_BYTES)
     for part in parts:
         digest.update(part)
     return digest.hexdigest()
 
 
-def _iso(figures: Positioning | None) -> Iso | None:
-    return Iso(**figures._asdict()) if figures is not None else None
+def _to_iso_figures(figures: PositioningFigures | None) -> IsoFigures | None:
+    return IsoFigures(**figures._asdict()) if figures is not None else None

@@ -1,6 +1,6 @@
-"""An axis' health card: figures from a record, beside those of the previous card.
+"""The health card of an axis: figures computed from a record, compared with an earlier card.
 
-A figure counts as changed where both 95 % intervals lie apart.
+A figure counts as changed if its 95 % confidence intervals on the two cards do not overlap.
 """
 
 from collections.abc import Callable
@@ -10,160 +10,201 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.calibration.approaches import find_holds
-from rotemina.sim.calibration.sensor_calibration import Figure
-from rotemina.sim.errors import InputError
-from rotemina.sim.identification.errors import IdentificationError
-from rotemina.sim.identification.experiment_signals import signals_of
-from rotemina.sim.identification.loop_figures import loops
-from rotemina.sim.identification.model import Orders
-from rotemina.sim.identification.natural_modes import natural_modes
-from rotemina.sim.identification.output_error import identify_oe
-from rotemina.sim.messages import joined, message
-from rotemina.sim.quantities import fixed
-from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.calibration import SensorFigureEstimate, find_holds
+from rotemina.sim.errors import IdentificationError, InputError
+from rotemina.sim.identification import (
+    ModelOrders,
+    find_natural_modes,
+    identify_oe,
+    measure_loops,
+    signals_from_record,
+)
+from rotemina.sim.messages import format_fixed, join_messages
+from rotemina.sim.records import Record, Tap
 
-PROBABILITY = 0.95
-_NORMAL = 1.96
-_MOST_ROWS = 60_000
-_GOOD_FIT = 80.0  # %: a model below tells nothing of the machine
-_LAG_ROWS = 1  # a command is held from its row on, and the sensor is read just before
-_NOISES = 4.0  # times the noise: a reading that has settled
+# Confidence level of every interval, and the two-sided quantile of the normal distribution for it.
+CONFIDENCE_LEVEL = 0.95
+_NORMAL_QUANTILE = 1.96
+# The model is fitted to this many rows at most, which limits the computing time.
+_MAX_ROWS = 60_000
+# A model with a poorer fit says nothing about the machine.
+_MIN_FIT_PERCENT = 80.0
+# In each row the sensor is read just before the command is output, so the reading lags by one row.
+_SENSOR_LAG_ROWS = 1
+# A reading has settled once it stays within this multiple of its rms noise.
+_SETTLING_BAND_NOISE_RATIO = 4.0
 
 
-class Compared(NamedTuple):
-    """A figure, that of the last time, and whether both intervals lie apart."""
+class FigureComparison(NamedTuple):
+    """A figure, the earlier figure, and whether their intervals are disjoint."""
 
-    now: Figure
-    before: Figure | None
+    now: SensorFigureEstimate
+    before: SensorFigureEstimate | None
     changed: bool
 
 
-def card_of(record: Record, axis: str) -> tuple[Figure, ...]:
-    """Return the health figures of an axis that a record excites.
+def compute_health_figures(record: Record, axis: str) -> tuple[SensorFigureEstimate, ...]:
+    """Return the health figures of an axis from a record that excites it.
 
-    From ``cmd`` to ``meas``: static gain, resonance and damping of a fitted model of second order;
-    the width of the loop over its stroke. Of rests after a move: how long the reading takes to stay
-    within four times its noise, that noise, and the spread of where a set-point led to when it was
-    reached from one side (repeatability).
+    From ``cmd`` to ``meas``:
+
+    - static gain, resonance and damping of a fitted second-order model
+    - width of the hysteresis loop relative to its stroke
+
+    From the holds after each move:
+
+    - settling time, until the reading stays within four times its noise
+    - rms noise of the settled reading
+    - repeatability: the spread of the positions at which the axis comes to rest when a set-point is
+      approached repeatedly from the same side
 
     Raises
     ------
     IdentificationError
-        If the record lacks the pair, or excites none of them.
+        If the record lacks one of these signals, or no figure can be computed from it.
     """
     for tap in (Tap.CMD, Tap.MEAS):
         if not record.has(axis, tap):
             raise IdentificationError(
-                message("engine", "health card: the record has no {axis}.{tap}").fill(
-                    axis=axis, tap=tap
-                )
+                "health card: the record has no {axis}.{tap}", axis=axis, tap=tap
             )
-    looks: tuple[Callable[[Record, str], list[Figure]], ...] = (_model, _loop, _holds)
-    found: list[Figure] = []
+    methods: tuple[Callable[[Record, str], list[SensorFigureEstimate]], ...] = (
+        _compute_model_figures,
+        _compute_hysteresis_figures,
+        _compute_hold_figures,
+    )
+    figures: list[SensorFigureEstimate] = []
     reasons = []
-    for look in looks:
+    for method in methods:
         try:
-            found += look(record, axis)
+            figures += method(record, axis)
         except InputError as error:
             reasons.append(str(error))
-    if not found:
+    if not figures:
         raise IdentificationError(
-            message("engine", "health card: the record gives no figure of {axis}: {names}").fill(
-                axis=axis, names=joined(reasons, "; ")
-            )
+            "health card: the record gives no figure of {axis}: {names}",
+            axis=axis,
+            names=join_messages(reasons, "; "),
         )
-    return tuple(found)
+    return tuple(figures)
 
 
-def compared_cards(now: tuple[Figure, ...], before: tuple[Figure, ...]) -> tuple[Compared, ...]:
-    """Compare a card with an earlier one, figure by figure."""
-    known = {(each.name, each.unit): each for each in before}
-    found = []
-    for new in now:
-        old = known.get((new.name, new.unit))
-        apart = False
-        if old is not None:
-            apart = abs(new.value - old.value) > new.half_width + old.half_width
-        found.append(Compared(new, old, apart))
-    return tuple(found)
-
-
-def _model(record: Record, axis: str) -> list[Figure]:
-    part = record.part(slice(0, _MOST_ROWS))
-    signals = signals_of(part, [(axis, Tap.CMD)], [(axis, Tap.MEAS)])
-    model = identify_oe(signals, Orders(2, 2, _LAG_ROWS))
-    if model.fit_percent < _GOOD_FIT:
-        raise IdentificationError(
-            message("engine", "a second-order model fits only {fit_percent} %").fill(
-                fit_percent=fixed(model.fit_percent, 0)
+def compare_cards(
+    now: tuple[SensorFigureEstimate, ...], before: tuple[SensorFigureEstimate, ...]
+) -> tuple[FigureComparison, ...]:
+    """Compare each figure with the one of the same name and unit on an earlier card."""
+    earlier_figures = {(figure.name, figure.unit): figure for figure in before}
+    comparisons = []
+    for figure_now in now:
+        figure_before = earlier_figures.get((figure_now.name, figure_now.unit))
+        has_changed = False
+        if figure_before is not None:
+            has_changed = (
+                abs(figure_now.value - figure_before.value)
+                > figure_now.half_width + figure_before.half_width
             )
+        comparisons.append(FigureComparison(figure_now, figure_before, has_changed))
+    return tuple(comparisons)
+
+
+def _compute_model_figures(record: Record, axis: str) -> list[SensorFigureEstimate]:
+    section = record.select_rows(slice(0, _MAX_ROWS))
+    signals = signals_from_record(section, [(axis, Tap.CMD)], [(axis, Tap.MEAS)])
+    model = identify_oe(signals, ModelOrders(2, 2, _SENSOR_LAG_ROWS))
+    if model.fit_percent < _MIN_FIT_PERCENT:
+        raise IdentificationError(
+            "the fit of a second-order model is only {fit_percent} %",
+            fit_percent=format_fixed(model.fit_percent, 0),
         )
     gain = model.transfer_function.static_gain
-    figures = [Figure("gain", gain, _NORMAL * model.static_gain_deviation, "1")]
-    for mode in natural_modes(model)[:1]:
+    figures = [
+        SensorFigureEstimate("gain", gain, _NORMAL_QUANTILE * model.static_gain_deviation, "1")
+    ]
+    for mode in find_natural_modes(model)[:1]:
         if mode.oscillates:
             figures += [
-                Figure("resonance", mode.frequency_hz, _NORMAL * mode.frequency_deviation, "Hz"),
-                Figure("damping", mode.damping_ratio, _NORMAL * mode.damping_deviation, "1"),
+                SensorFigureEstimate(
+                    "resonance",
+                    mode.frequency_hz,
+                    _NORMAL_QUANTILE * mode.frequency_deviation,
+                    "Hz",
+                ),
+                SensorFigureEstimate(
+                    "damping", mode.damping_ratio, _NORMAL_QUANTILE * mode.damping_deviation, "1"
+                ),
             ]
-    return [each for each in figures if isfinite(each.value) and isfinite(each.half_width)]
+    return [figure for figure in figures if isfinite(figure.value) and isfinite(figure.half_width)]
 
 
-def _loop(record: Record, axis: str) -> list[Figure]:
+def _compute_hysteresis_figures(record: Record, axis: str) -> list[SensorFigureEstimate]:
     command, reading = record.signal(axis, Tap.CMD), record.signal(axis, Tap.MEAS)
-    widths = [each.width_percent for each in loops(command, reading, lag_samples=_LAG_ROWS)]
-    return _mean("hysteresis width", 0.01 * np.array(widths), "1")
+    widths = [
+        loop.width_percent for loop in measure_loops(command, reading, lag_samples=_SENSOR_LAG_ROWS)
+    ]
+    return _compute_mean_figure("hysteresis width", 0.01 * np.array(widths), "1")
 
 
-def _holds(record: Record, axis: str) -> list[Figure]:
+def _compute_hold_figures(record: Record, axis: str) -> list[SensorFigureEstimate]:
     command, reading = record.signal(axis, Tap.CMD), record.signal(axis, Tap.MEAS)
     holds = find_holds(record.time_s, command)
     if not len(holds):
-        raise IdentificationError(
-            message("engine", "{axis}.cmd never rests after a move").fill(axis=axis)
-        )
+        raise IdentificationError("{axis}.cmd is never held after a move", axis=axis)
     unit = record.units[axis]
-    ends: dict[tuple[float, bool], list[float]] = {}
-    noises, settled = [], []
-    for begin, end in holds.tolist():
-        later = reading[(begin + end) // 2 : end]
-        level, way = float(later.mean()), float(command[begin] - command[begin - 1])
-        noises.append(float(later.std()))
-        ends.setdefault((float(command[begin]), way > 0.0), []).append(level)
-        settled.append(_settling_s(record.time_s[begin:end], reading[begin:end], level))
-    figures = _mean("settling", np.array(settled), "s")
-    figures += _mean("noise rms", np.array(noises), unit)
-    return figures + _repeated(ends, unit)
+    # The keys are the set-point, and whether it was approached from below.
+    rest_positions: dict[tuple[float, bool], list[float]] = {}
+    noises, settling_times = [], []
+    for start, end in holds.tolist():
+        # The second half of a hold counts as settled.
+        settled_reading = reading[(start + end) // 2 : end]
+        rest_position = float(settled_reading.mean())
+        step = float(command[start] - command[start - 1])
+        noises.append(float(settled_reading.std()))
+        rest_positions.setdefault((float(command[start]), step > 0.0), []).append(rest_position)
+        settling_times.append(
+            _compute_settling_s(record.time_s[start:end], reading[start:end], rest_position)
+        )
+    figures = _compute_mean_figure("settling", np.array(settling_times), "s")
+    figures += _compute_mean_figure("noise rms", np.array(noises), unit)
+    return figures + _compute_repeatability(rest_positions, unit)
 
 
-def _settling_s(time_s: FloatArray, reading: FloatArray, level: float) -> float:
-    """Return after what time a reading stays within four times its final noise."""
+def _compute_settling_s(time_s: FloatArray, reading: FloatArray, rest_position: float) -> float:
+    """Return the time after which the reading stays within four times its final noise."""
     half = len(reading) // 2
-    band = _NOISES * float(reading[half:].std())
-    outside = np.flatnonzero(np.abs(reading[:half] - level) > band)
-    return float(time_s[outside[-1] + 1] - time_s[0]) if len(outside) else 0.0
+    band = _SETTLING_BAND_NOISE_RATIO * float(reading[half:].std())
+    rows_outside = np.flatnonzero(np.abs(reading[:half] - rest_position) > band)
+    return float(time_s[rows_outside[-1] + 1] - time_s[0]) if len(rows_outside) else 0.0
 
 
-def _mean(name: str, values: FloatArray, unit: str) -> list[Figure]:
-    """Return the mean of two values or more, with Student's interval."""
+def _compute_mean_figure(name: str, values: FloatArray, unit: str) -> list[SensorFigureEstimate]:
+    """Return the mean of the values, with its interval by Student's t.
+
+    The list is empty if there are fewer than two values.
+    """
     if len(values) < 2:
         return []
-    from scipy.stats import t as student  # only here: it takes a third of a second
+    # Imported only here, because it takes a third of a second.
+    from scipy.stats import t as student
 
-    quantile = float(student.ppf(0.5 + PROBABILITY / 2.0, len(values) - 1))
-    half = quantile * float(values.std(ddof=1)) / sqrt(len(values))
-    return [Figure(name, float(values.mean()), half, unit)]
+    quantile = float(student.ppf(0.5 + CONFIDENCE_LEVEL / 2.0, len(values) - 1))
+    half_width = quantile * float(values.std(ddof=1)) / sqrt(len(values))
+    return [SensorFigureEstimate(name, float(values.mean()), half_width, unit)]
 
 
-def _repeated(ends: dict[tuple[float, bool], list[float]], unit: str) -> list[Figure]:
-    """Return the pooled spread of where a set-point led to from one side, with its interval."""
-    often = [np.array(values) for values in ends.values() if len(values) > 1]
-    freedom = sum(len(values) - 1 for values in often)
-    if freedom < 2:
+def _compute_repeatability(
+    rest_positions: dict[tuple[float, bool], list[float]], unit: str
+) -> list[SensorFigureEstimate]:
+    """Return the pooled spread of the rest positions at each set-point and approach direction."""
+    groups = [np.array(values) for values in rest_positions.values() if len(values) > 1]
+    degrees_of_freedom = sum(len(values) - 1 for values in groups)
+    if degrees_of_freedom < 2:
         return []
-    from scipy.stats import chi2  # as above
+    # Imported only here, because it takes a third of a second.
+    from scipy.stats import chi2
 
-    spread = sqrt(sum(float(((values - values.mean()) ** 2).sum()) for values in often) / freedom)
-    highest = spread * sqrt(freedom / float(chi2.ppf(0.5 - PROBABILITY / 2.0, freedom)))
-    return [Figure("repeatability", spread, highest - spread, unit)]
+    square_sum = sum(float(((values - values.mean()) ** 2).sum()) for values in groups)
+    spread = sqrt(square_sum / degrees_of_freedom)
+    quantile = float(chi2.ppf(0.5 - CONFIDENCE_LEVEL / 2.0, degrees_of_freedom))
+    upper_bound = spread * sqrt(degrees_of_freedom / quantile)
+    # The interval is asymmetric; its wider side, above the spread, is used for both sides.
+    return [SensorFigureEstimate("repeatability", spread, upper_bound - spread, unit)]

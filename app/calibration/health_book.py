@@ -1,4 +1,4 @@
-"""Health cards over time: one append-only file per axis, one line per card."""
+"""Health cards over time: one append-only file per axis, with one line per card."""
 
 import json
 from datetime import datetime
@@ -6,79 +6,81 @@ from math import isfinite
 from pathlib import Path
 from typing import NamedTuple
 
-from rotemina.app.files import plain_name
-from rotemina.sim.calibration.sensor_calibration import Figure
-from rotemina.sim.errors import InputError
-from rotemina.sim.input_files import parse_json, read_bytes
-from rotemina.sim.messages import message
-from rotemina.sim.whole_files import FileWriteError
+from rotemina.app.errors import HealthBookError
+from rotemina.app.settings import make_plain_name
+from rotemina.sim.calibration import SensorFigureEstimate
+from rotemina.sim.errors import (
+    FileWriteError,
+)
+from rotemina.sim.files import (
+    parse_json,
+    read_bytes,
+)
 
 FOLDER = "health"
 VERSION = 1
-_MOST_BYTES = 4_000_000
+_MAX_BYTES = 4_000_000
 
 
-class HealthBookError(InputError):
-    """A file of health cards that cannot be read."""
-
-
-class Card(NamedTuple):
-    """The figures of one day, and their source record."""
+class HealthCard(NamedTuple):
+    """The health figures of an axis on one day, and the name of their source record."""
 
     date: str
     record: str
-    figures: tuple[Figure, ...]
+    figures: tuple[SensorFigureEstimate, ...]
 
 
 class HealthBook:
-    """The cards of one robot's axes.
+    """The health cards of all axes of one robot.
 
     Parameters
     ----------
     folder : Path
-        The user's.
+        The user's folder.
     robot : str
-        Its name.
+        Name of the robot.
     """
 
     def __init__(self, folder: Path, robot: str) -> None:
         self._folder = folder / FOLDER
         self._robot = robot
 
-    def path(self, axis: str) -> Path:
-        """Return where the cards of an axis are."""
-        return self._folder / f"{plain_name(self._robot)}--{plain_name(axis)}.jsonl"
+    def make_path(self, axis: str) -> Path:
+        """Return the path of the file with the cards of an axis."""
+        return self._folder / f"{make_plain_name(self._robot)}--{make_plain_name(axis)}.jsonl"
 
-    def cards(self, axis: str) -> tuple[Card, ...]:
-        """Return the cards of an axis, the oldest first; a line that is none is passed over.
+    def read_cards(self, axis: str) -> tuple[HealthCard, ...]:
+        """Return the cards of an axis, oldest first; unreadable lines are skipped.
 
         Raises
         ------
         HealthBookError
             If the file cannot be read.
         """
-        path = self.path(axis)
+        path = self.make_path(axis)
         if not path.exists():
             return ()
-        data = read_bytes(path, HealthBookError, _MOST_BYTES, advice="move it away")
+        data = read_bytes(path, HealthBookError, _MAX_BYTES, advice="move it away")
         lines = data.decode("utf-8", errors="replace").splitlines()
-        return tuple(card for line in lines if (card := _card(line)) is not None)
+        return tuple(card for line in lines if (card := _parse_card(line)) is not None)
 
-    def add(self, axis: str, figures: tuple[Figure, ...], record: str, date: datetime) -> None:
-        """Write a card behind the others.
+    def add(
+        self, axis: str, figures: tuple[SensorFigureEstimate, ...], record: str, date: datetime
+    ) -> None:
+        """Append a card to the file of an axis.
 
         Raises
         ------
         FileWriteError
             If it cannot be written.
         """
-        path = self.path(axis)
+        path = self.make_path(axis)
         line = json.dumps(
             {
                 "version": VERSION,
                 "date": date.isoformat(timespec="seconds"),
                 "record": record,
-                "figures": [list(each) for each in figures],
+                "figures": [list(figure) for figure in figures],
             },
             ensure_ascii=False,
             allow_nan=False,
@@ -89,24 +91,24 @@ class HealthBook:
                 file.write(line + "\n")
         except OSError as error:
             raise FileWriteError(
-                message(
-                    "engine", "{path}: the card cannot be stored ({strerror}); free disk space"
-                ).fill(path=path, strerror=str(error.strerror))
+                "{path}: the card cannot be stored ({strerror}); free disk space",
+                path=path,
+                strerror=str(error.strerror),
             ) from error
 
 
-def _card(line: str) -> Card | None:
-    """Return the card of a line; None where it is cut off, or of a later program."""
+def _parse_card(line: str) -> HealthCard | None:
+    """Return the card of a line; None if the line is cut off, or written by a newer program."""
     try:
-        value = parse_json(line, "card", HealthBookError)
-        if value["version"] != VERSION:
+        entry = parse_json(line, "card", HealthBookError)
+        if entry["version"] != VERSION:
             return None
         figures = tuple(
-            Figure(str(name), float(number), float(half), str(unit))
-            for name, number, half, unit in value["figures"]
+            SensorFigureEstimate(str(name), float(number), float(half_width), str(unit))
+            for name, number, half_width, unit in entry["figures"]
         )
-        if not all(isfinite(each.value) and each.half_width >= 0.0 for each in figures):
+        if not all(isfinite(figure.value) and figure.half_width >= 0.0 for figure in figures):
             return None
-        return Card(str(value["date"]), str(value["record"]), figures)
+        return HealthCard(str(entry["date"]), str(entry["record"]), figures)
     except (ValueError, KeyError, TypeError):
         return None

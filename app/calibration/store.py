@@ -1,4 +1,4 @@
-"""The calibrations in a user's folder: one file per axis and date, and which are in use."""
+"""The calibrations in the user's folder: one file per axis and date, and a list of those in use."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -7,29 +7,34 @@ from typing import Annotated, NamedTuple
 from pydantic import Field
 from pydantic.dataclasses import dataclass
 
-from rotemina.app.calibration.files import FORMAT, CalibrationFile
-from rotemina.app.files import plain_name
-from rotemina.app.motion.sensor_corrections import SensorCorrections
-from rotemina.app.toml_file import STRICT, Format, Text
-from rotemina.sim.calibration.errors import CalibrationError
-from rotemina.sim.messages import message
-from rotemina.sim.robot.model import Robot
+from rotemina.app.calibration.files import CALIBRATION_FORMAT, CalibrationFile
+from rotemina.app.motion.device import SensorCorrections
+from rotemina.app.settings import (
+    FORBID_EXTRA_KEYS,
+    NonEmptyText,
+    TomlFormat,
+    make_plain_name,
+)
+from rotemina.sim.errors import SensorCalibrationError
+from rotemina.sim.robot import Robot
 
-FOLDER, IN_USE = "calibrations", "in-use.toml"
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
-class InUse:
-    """Which file is on, by axis."""
-
-    axes: Annotated[dict[Text, Text], Field(max_length=200)] = Field(default_factory=dict)
+CALIBRATIONS_FOLDER, IN_USE_FILE = "calibrations", "in-use.toml"
 
 
-_IN_USE = Format(InUse, {}, CalibrationError)
+@dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_EXTRA_KEYS)
+class CalibrationsInUse:
+    """The name of the calibration file in use, by axis."""
+
+    axes: Annotated[dict[NonEmptyText, NonEmptyText], Field(max_length=200)] = Field(
+        default_factory=dict
+    )
 
 
-class Stored(NamedTuple):
-    """A calibration in the folder, and whether it is on."""
+_IN_USE_FORMAT = TomlFormat(CalibrationsInUse, {}, SensorCalibrationError)
+
+
+class StoredCalibration(NamedTuple):
+    """A calibration in the folder, and whether it is in use."""
 
     path: Path
     calibration: CalibrationFile
@@ -42,97 +47,101 @@ class CalibrationStore:
     Parameters
     ----------
     folder : Path
-        The user's.
+        The user's folder.
     robot : Robot
     """
 
     def __init__(self, folder: Path, robot: Robot) -> None:
         self._robot = robot
-        self.folder = folder / FOLDER / plain_name(robot.name)
+        self.folder = folder / CALIBRATIONS_FOLDER / make_plain_name(robot.name)
 
-    def listed(self) -> tuple[tuple[Stored, ...], tuple[str, ...]]:
+    def list_calibrations(self) -> tuple[tuple[StoredCalibration, ...], tuple[str, ...]]:
         """Return the stored calibrations, newest first, and the problems of invalid files."""
         try:
-            in_use, problems = self._in_use(), []
-        except CalibrationError as error:
+            in_use, problems = self._read_in_use(), []
+        except SensorCalibrationError as error:
             in_use, problems = {}, [str(error)]
-        found = []
+        stored = []
         for path in sorted(self.folder.glob("*.toml")):
-            if path.name == IN_USE:
+            if path.name == IN_USE_FILE:
                 continue
             try:
                 calibration = self.load(path)
-            except CalibrationError as error:
+            except SensorCalibrationError as error:
                 problems.append(str(error))
                 continue
-            found.append(Stored(path, calibration, in_use.get(calibration.axis) == path.name))
-        found.sort(key=lambda one: one.calibration.date, reverse=True)
-        return tuple(found), tuple(problems)
+            stored.append(
+                StoredCalibration(path, calibration, in_use.get(calibration.axis) == path.name)
+            )
+        stored.sort(key=lambda entry: entry.calibration.date, reverse=True)
+        return tuple(stored), tuple(problems)
 
     def load(self, path: Path) -> CalibrationFile:
         """Read a calibration.
 
         Raises
         ------
-        CalibrationError
-            If it cannot be used, or is of another robot or axis.
+        SensorCalibrationError
+            If it cannot be used, or belongs to another robot or axis.
         """
-        found = FORMAT.load(path)
-        axis = self._robot.axes.get(found.axis)
-        if found.robot != self._robot.name or axis is None:
-            raise CalibrationError(
-                message(
-                    "engine",
-                    "{path}: the calibration belongs to axis {axis} of robot {robot}, not of "
-                    "{name}; calibrate this one",
-                ).fill(
-                    path=path, axis=found.axis, robot=repr(found.robot), name=repr(self._robot.name)
-                )
+        calibration = CALIBRATION_FORMAT.load(path)
+        axis = self._robot.axes.get(calibration.axis)
+        if calibration.robot != self._robot.name or axis is None:
+            raise SensorCalibrationError(
+                "{path}: the calibration belongs to axis {axis} of robot {robot}, not of "
+                "{name}; calibrate this one",
+                path=path,
+                axis=calibration.axis,
+                robot=repr(calibration.robot),
+                name=repr(self._robot.name),
             )
-        if found.unit != (self._robot.unit(found.axis) or "m"):
-            raise CalibrationError(
-                message("engine", "{path}: unit = {unit}: axis {axis} has another unit").fill(
-                    path=path, unit=repr(found.unit), axis=found.axis
-                )
+        if calibration.unit != (self._robot.unit(calibration.axis) or "m"):
+            raise SensorCalibrationError(
+                "{path}: unit = {unit}: axis {axis} has another unit",
+                path=path,
+                unit=repr(calibration.unit),
+                axis=calibration.axis,
             )
-        return found
+        return calibration
 
     def save(self, calibration: CalibrationFile) -> Path:
-        """Keep a calibration beside the earlier ones; return where. It is not on yet.
+        """Save a calibration next to earlier ones, and return its path; it is not in use yet.
 
         Raises
         ------
         FileWriteError
             If it cannot be written.
         """
-        name = f"{plain_name(calibration.axis)}--{plain_name(calibration.date)}"
+        name = f"{make_plain_name(calibration.axis)}--{make_plain_name(calibration.date)}"
         path = self.folder / f"{name}.toml"
-        FORMAT.save(path, calibration)
+        CALIBRATION_FORMAT.save(path, calibration)
         return path
 
-    def switch(self, axis: str, path: Path | None) -> None:
-        """Keep which calibration of an axis is on from now on; None: none.
+    def select(self, axis: str, path: Path | None) -> None:
+        """Set which calibration of an axis is in use from now on; None means none.
 
         Raises
         ------
-        CalibrationError, FileWriteError
-            If the file cannot be read, or the choice not be kept.
+        SensorCalibrationError, FileWriteError
+            If the file cannot be read, or the choice cannot be saved.
         """
-        kept = {name: file for name, file in self._in_use().items() if name != axis}
+        in_use = {name: file for name, file in self._read_in_use().items() if name != axis}
         if path is not None:
             self.load(path)
-            kept[axis] = path.name
-        _IN_USE.save(self.folder / IN_USE, replace(InUse(), axes=kept))
+            in_use[axis] = path.name
+        _IN_USE_FORMAT.save(self.folder / IN_USE_FILE, replace(CalibrationsInUse(), axes=in_use))
 
     def apply(self, corrections: SensorCorrections) -> tuple[str, ...]:
-        """Apply the calibrations in use to a session, and no others; return problems of files."""
-        stored, problems = self.listed()
-        on = {one.calibration.axis: one.calibration for one in stored if one.on}
+        """Apply only the calibrations in use to a session; return the problems of invalid files."""
+        stored, problems = self.list_calibrations()
+        in_use = {entry.calibration.axis: entry.calibration for entry in stored if entry.on}
         for axis in self._robot.axes:
-            found = on.get(axis)
-            corrections.use(axis, found.applied if found is not None else None)
+            calibration = in_use.get(axis)
+            corrections.set_calibration(
+                axis, calibration.applied_calibration if calibration is not None else None
+            )
         return problems
 
-    def _in_use(self) -> dict[str, str]:
-        path = self.folder / IN_USE
-        return dict(_IN_USE.load(path).axes) if path.exists() else {}
+    def _read_in_use(self) -> dict[str, str]:
+        path = self.folder / IN_USE_FILE
+        return dict(_IN_USE_FORMAT.load(path).axes) if path.exists() else {}

@@ -7,22 +7,26 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
-from rotemina.app.cameras.frame_check import FROZEN_S, FrameCheck, PictureState
-from rotemina.drivers.cameras.camera import Camera
-from rotemina.drivers.cameras.errors import CameraSettingError
-from rotemina.drivers.cameras.frame import Frame
-from rotemina.drivers.cameras.settings import CameraDescription, CameraSettings, Trigger
-from rotemina.drivers.clock import Clock
-from rotemina.drivers.errors import DriverError, StateError
-from rotemina.sim.messages import marked, message
-from rotemina.sim.quantities import fixed, rounded
+from rotemina.app.cameras.frame_check import MIN_FROZEN_S, FrameCheck, PictureState
+from rotemina.drivers.cameras import (
+    Camera,
+    CameraDescription,
+    CameraFrame,
+    CameraSettings,
+    CameraTrigger,
+)
+from rotemina.drivers.contract import CameraSettingError, Clock, DriverError, StateError
+from rotemina.sim.messages import format_fixed, format_rounded, marked, message
 
 _LOG = logging.getLogger(__name__)
 
-STALLED_S = 1.0
-_GRAB_S = 0.1  # how long a request may wait for a picture
-_SMOOTHING = 0.1  # of the rate, per picture
-_AS_IT_IS = CameraSettings()
+# A free-running camera counts as stalled if no picture has arrived for this long.
+STALL_TIMEOUT_S = 1.0
+# Longest time that a grab may block, and so delay a request.
+_GRAB_TIMEOUT_S = 0.1
+# Weight of the latest interval in the exponentially smoothed rate.
+_RATE_SMOOTHING_RATIO = 0.1
+_UNCHANGED_SETTINGS = CameraSettings()
 
 
 class FeedState(StrEnum):
@@ -43,34 +47,34 @@ _FREE_RUNNING = (FeedState.LIVE, FeedState.FROZEN, FeedState.BLACK)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FeedView:
-    """One moment of it.
+    """The state of a camera feed at one moment.
 
     Attributes
     ----------
     state : FeedState
     reason : str
-        What is wrong and what to do; empty while nothing is.
-    frame : Frame or None
-        The newest picture, also of a camera that was lost. One that a frozen camera gives again is
-        not new.
+        What is wrong and what to do; empty if nothing is wrong.
+    frame : CameraFrame or None
+        The newest picture; kept after the camera is lost. Pictures that a frozen camera repeats do
+        not count as new.
     age_s : float or None
-        Since that came in.
+        Age of ``frame``.
     rate_hz : float
-        Of new pictures that came in lately; 0 before there are two.
+        Smoothed rate of new pictures; 0 until the second one.
     settings : CameraSettings
-        In force.
+        Settings in force.
     description : CameraDescription or None
-        None while it is not open.
+        None unless the camera is open.
     problem : str
         Why the latest settings were refused; empty if they were not.
     """
 
     state: FeedState = FeedState.CLOSED
     reason: str = ""
-    frame: Frame | None = None
+    frame: CameraFrame | None = None
     age_s: float | None = None
     rate_hz: float = 0.0
-    settings: CameraSettings = _AS_IT_IS
+    settings: CameraSettings = _UNCHANGED_SETTINGS
     description: CameraDescription | None = None
     problem: str = ""
 
@@ -81,66 +85,69 @@ class CameraFeed:
     Parameters
     ----------
     camera : Camera
-        Nobody else uses it from now on.
+        Nothing else may use it from now on.
     clock : callable
-        The host's time, s: the camera's own clock.
+        Returns the host's time, s. The camera uses the same clock.
     """
 
     def __init__(self, camera: Camera, *, clock: Clock = time.monotonic) -> None:
         self.camera = camera
         self._clock = clock
-        self._latest = FeedView()  # exchanged as a whole, by the thread alone
-        self._arrived_s = 0.0  # when the latest picture came, also one that is not new
-        self._wanted: CameraSettings | None = None
-        self._triggers = 0
-        self._listeners: tuple[Callable[[Frame], None], ...] = ()
-        self._lock = threading.Lock()  # guards the three above; never held while anybody waits
-        self._ending = threading.Event()
+        # Replaced as a whole, only by the camera's thread.
+        self._latest = FeedView()
+        # Host time of the latest picture, even if it repeats an earlier one.
+        self._latest_arrival_s = 0.0
+        self._requested_settings: CameraSettings | None = None
+        self._pending_triggers = 0
+        self._listeners: tuple[Callable[[CameraFrame], None], ...] = ()
+        # Guards the requested settings, the pending triggers and the listeners. Held only briefly.
+        self._lock = threading.Lock()
+        self._stop_event = threading.Event()
         self._thread: threading.Thread | None = None
 
     @property
     def view(self) -> FeedView:
-        """The present state, by the age of the newest picture; never waits."""
+        """The present state, including the age of the newest picture; never waits."""
         latest = self._latest
         if latest.frame is None:
             return latest
         age_s = max(self._clock() - latest.frame.host_time_s, 0.0)
-        if latest.state not in _FREE_RUNNING or latest.settings.trigger is Trigger.SOFTWARE:
+        if latest.state not in _FREE_RUNNING or latest.settings.trigger is CameraTrigger.SOFTWARE:
             return replace(latest, age_s=age_s)
-        longest_s = max(STALLED_S, 3.0 * (latest.settings.exposure_s or 0.0))
+        # Slow cameras and long exposures have longer intervals between pictures.
+        max_interval_s = max(STALL_TIMEOUT_S, 3.0 * (latest.settings.exposure_s or 0.0))
         if latest.rate_hz:
-            longest_s = max(longest_s, 3.0 / latest.rate_hz)
-        silent_s = self._clock() - self._arrived_s
-        if silent_s <= longest_s:
+            max_interval_s = max(max_interval_s, 3.0 / latest.rate_hz)
+        silent_s = self._clock() - self._latest_arrival_s
+        if silent_s <= max_interval_s:
             return replace(latest, age_s=age_s)
         reason = message(
             "engine", "no picture for {seconds} s; check the camera and its cable, or open it again"
-        ).fill(seconds=fixed(silent_s, 1))
+        ).fill(seconds=format_fixed(silent_s, 1))
         return replace(latest, age_s=age_s, state=FeedState.STALLED, reason=reason)
 
     @property
-    def newest(self) -> Frame | None:
-        """The newest picture."""
+    def newest(self) -> CameraFrame | None:
+        """The newest picture, or None before the first picture."""
         return self._latest.frame
 
     def start(self, settings: CameraSettings | None = None) -> None:
-        """Open the camera and continue until :meth:`close`; also after it was lost.
+        """Open the camera, or reopen a lost one, and grab pictures until :meth:`close`.
 
         Raises
         ------
         StateError
-            If it runs already, or its thread still waits for a camera that does not answer.
+            If the feed is running already, or its thread still waits for a camera that does not
+            answer.
         """
         if self._thread is not None and self._thread.is_alive():
             raise StateError(
-                message("engine", "{name}: its thread is still running; close it first").fill(
-                    name=self.camera.name
-                )
+                "{name}: its thread is still running; close it first", name=self.camera.name
             )
         with self._lock:
-            self._wanted = settings
-            self._triggers = 0
-        self._ending.clear()
+            self._requested_settings = settings
+            self._pending_triggers = 0
+        self._stop_event.clear()
         self._latest = FeedView(FeedState.OPENING)
         name = f"camera {self.camera.identity.key}"
         self._thread = threading.Thread(target=self._run, name=name, daemon=True)
@@ -149,9 +156,9 @@ class CameraFeed:
     def close(self, timeout_s: float = 2.0) -> bool:
         """Release the camera; return whether its thread has ended in time.
 
-        One that hangs in its camera is left behind and hinders nobody.
+        A thread that hangs in its camera is abandoned and disturbs nothing else.
         """
-        self._ending.set()
+        self._stop_event.set()
         thread = self._thread
         if thread is None or thread is threading.current_thread():
             return True
@@ -159,32 +166,32 @@ class CameraFeed:
         return not thread.is_alive()
 
     def configure(self, settings: CameraSettings) -> None:
-        """Request settings; the latest request counts, and ``view`` shows the outcome."""
+        """Request settings; only the latest request counts, and :attr:`view` shows the outcome."""
         with self._lock:
-            self._wanted = settings
+            self._requested_settings = settings
 
     def trigger(self) -> None:
-        """Have one picture taken, if it waits for a trigger."""
+        """Trigger one picture, if the camera waits for triggers."""
         with self._lock:
-            self._triggers += 1
+            self._pending_triggers += 1
 
-    def listen(self, tell: Callable[[Frame], None]) -> Callable[[], None]:
-        """Call ``listener`` with every picture, on the camera's thread; return how to end that.
+    def listen(self, listener: Callable[[CameraFrame], None]) -> Callable[[], None]:
+        """Call ``listener`` with every new picture; return a function that ends this.
 
-        ``tell`` must not wait: a recorder puts the frame into a bounded queue.
+        ``listener`` is called on the camera's thread and must not wait. A recorder, for example,
+        puts the frame into a bounded queue.
         """
         with self._lock:
-            self._listeners = (*self._listeners, tell)
+            self._listeners = (*self._listeners, listener)
 
-        def leave() -> None:
+        def unsubscribe() -> None:
             with self._lock:
-                self._listeners = tuple(one for one in self._listeners if one is not tell)
+                self._listeners = tuple(other for other in self._listeners if other is not listener)
 
-        return leave
-
-    # --- on the camera's thread -------------------------------------------------------------------
+        return unsubscribe
 
     def _run(self) -> None:
+        # This method and all private ones below run on the camera's thread.
         check = FrameCheck()
         try:
             self.camera.open()
@@ -193,16 +200,17 @@ class CameraFeed:
                 description=self.camera.description,
                 settings=self.camera.settings,
             )
-            while not self._ending.is_set():
-                self._obey()
-                frame = self.camera.grab(_GRAB_S)
+            while not self._stop_event.is_set():
+                self._apply_requests()
+                frame = self.camera.grab(_GRAB_TIMEOUT_S)
                 if frame is not None:
-                    self._take(frame, check)
+                    self._handle_frame(frame, check)
         except DriverError as error:
-            self._lose(str(error))
-        except Exception:  # a plugin may raise anything
+            self._mark_lost(str(error))
+        except Exception:
+            # The camera may be a plugin, which may raise anything.
             _LOG.exception("%s failed", self.camera.name)
-            self._lose(
+            self._mark_lost(
                 message(
                     "engine",
                     "{name} failed; the log has the cause. Check the camera and its cable, and "
@@ -212,59 +220,62 @@ class CameraFeed:
         else:
             self._publish(state=FeedState.CLOSED, reason="", description=None)
         finally:
-            self._let_go()
+            self._close_camera()
 
-    def _let_go(self) -> None:
+    def _close_camera(self) -> None:
         try:
             self.camera.close()
-        except Exception:  # it has gone, or is a bad plugin: nothing is left to do about it
+        except Exception:
+            # The camera was removed, or its plugin is faulty; nothing more can be done.
             _LOG.exception("%s could not be closed", self.camera.name)
 
-    def _lose(self, reason: str) -> None:
+    def _mark_lost(self, reason: str) -> None:
         self._publish(state=FeedState.LOST, reason=reason, description=None)
 
-    def _obey(self) -> None:
-        """Set what was requested, and pass on a trigger."""
+    def _apply_requests(self) -> None:
         with self._lock:
-            wanted, self._wanted = self._wanted, None
-        if wanted is not None:
+            requested, self._requested_settings = self._requested_settings, None
+        if requested is not None:
             problem = ""
             try:
-                self.camera.configure(wanted)
+                self.camera.configure(requested)
             except CameraSettingError as error:
                 problem = str(error)
             settings = self.camera.settings
-            waiting = settings.trigger is Trigger.SOFTWARE
-            state = FeedState.WAITING if waiting else FeedState.LIVE
+            is_triggered = settings.trigger is CameraTrigger.SOFTWARE
+            state = FeedState.WAITING if is_triggered else FeedState.LIVE
             self._publish(settings=settings, problem=problem, state=state, reason="")
-        if self.camera.settings.trigger is Trigger.SOFTWARE:
+        if self.camera.settings.trigger is CameraTrigger.SOFTWARE:
             with self._lock:
-                due = self._triggers > 0
-                self._triggers = max(self._triggers - 1, 0)
-            if due:
+                has_trigger = self._pending_triggers > 0
+                self._pending_triggers = max(self._pending_triggers - 1, 0)
+            if has_trigger:
                 self.camera.trigger()
 
-    def _take(self, frame: Frame, check: FrameCheck) -> None:
-        """Show a new picture; of one that is not new, only what it says about the camera."""
-        shown = check.judge(frame)
-        self._arrived_s = frame.host_time_s
-        if shown is PictureState.FROZEN:
-            frozen = message(
+    def _handle_frame(self, frame: CameraFrame, check: FrameCheck) -> None:
+        """Publish a new picture. A repeated picture only updates the state of the camera."""
+        verdict = check.classify(frame)
+        self._latest_arrival_s = frame.host_time_s
+        if verdict is PictureState.FROZEN:
+            frozen_reason = message(
                 "engine",
                 "the camera has only repeated earlier pictures for more than {seconds} s; do not "
                 "trust them, and open the camera again",
-            ).fill(seconds=rounded(FROZEN_S, 6))
-            self._publish(state=FeedState.FROZEN, reason=frozen)
+            ).fill(seconds=format_rounded(MIN_FROZEN_S, 6))
+            self._publish(state=FeedState.FROZEN, reason=frozen_reason)
         if check.is_repeated:
             return
-        rate_hz, before = self._latest.rate_hz, self._latest.frame
-        if before is not None and frame.host_time_s > before.host_time_s:
-            now_hz = 1.0 / (frame.host_time_s - before.host_time_s)
-            rate_hz = now_hz if not rate_hz else rate_hz + _SMOOTHING * (now_hz - rate_hz)
+        rate_hz, previous = self._latest.rate_hz, self._latest.frame
+        if previous is not None and frame.host_time_s > previous.host_time_s:
+            latest_rate_hz = 1.0 / (frame.host_time_s - previous.host_time_s)
+            if rate_hz:
+                rate_hz += _RATE_SMOOTHING_RATIO * (latest_rate_hz - rate_hz)
+            else:
+                rate_hz = latest_rate_hz
         state, reason = FeedState.LIVE, ""
-        if self.camera.settings.trigger is Trigger.SOFTWARE:
+        if self.camera.settings.trigger is CameraTrigger.SOFTWARE:
             state = FeedState.WAITING
-        if shown is PictureState.BLACK:
+        if verdict is PictureState.BLACK:
             state = FeedState.BLACK
             reason = message(
                 "engine", "the picture is black; check lamp, shutter, lens cap and exposure"
@@ -272,10 +283,11 @@ class CameraFeed:
         self._publish(frame=frame, rate_hz=rate_hz, state=state, reason=reason)
         with self._lock:
             listeners = self._listeners
-        for tell in listeners:
+        for listener in listeners:
             try:
-                tell(frame)
-            except Exception:  # one bad listener must not end the picture for all
+                listener(frame)
+            except Exception:
+                # A listener that fails must not end the feed for the others.
                 _LOG.exception("%s: a listener failed", self.camera.name)
 
     def _publish(self, **changes: object) -> None:

@@ -1,23 +1,29 @@
-"""Detection of useless pictures: frozen or black."""
+"""Detection of frozen and black pictures."""
 
 from collections import deque
 from enum import StrEnum
 
 import numpy as np
 
-from rotemina.drivers.cameras.frame import Frame
+from rotemina.drivers.cameras import CameraFrame
 
-FROZEN_S = 1.0
-_FROZEN_FRAMES = 4
-_BLACK_SHARE = 0.03  # of the largest number: above a camera's black level, below any picture
-_SHARE_OF_FEW = 0.001  # of the pixels: no more than this may be otherwise
-_STRIDE = 8  # rows and columns between the pixels that are looked at
-_ROWS = 4
-_REMEMBERED = 64  # pictures: more than the buffers through which any driver cycles
+# A camera counts as frozen once it has only repeated pictures for this long and this often.
+MIN_FROZEN_S = 1.0
+_MIN_FROZEN_COUNT = 4
+# Fraction of the largest pixel value: above the black level of a camera, below any real picture.
+_BLACK_LEVEL_RATIO = 0.03
+# A condition on all pixels counts as met if at most this fraction of them violates it.
+_MAX_OUTLIER_RATIO = 0.001
+# Brightness and noise are checked in one of this many rows and columns.
+_PIXEL_STRIDE = 8
+# Pictures are compared in one of this many rows.
+_ROW_STRIDE = 4
+# Must exceed the number of buffers through which a driver cycles.
+_REMEMBERED_FRAME_COUNT = 64
 
 
 class PictureState(StrEnum):
-    """The verdict on the pictures."""
+    """Verdict on the latest pictures of a camera."""
 
     LIVE = "live"
     FROZEN = "frozen"
@@ -27,49 +33,49 @@ class PictureState(StrEnum):
 class FrameCheck:
     """Checks every picture of a camera.
 
-    The noise of a sensor never gives a picture twice. A picture that is equal to an earlier one is
-    therefore not new: it comes from a buffer that is no longer filled. It does not matter how many
-    such buffers the driver cycles through. Equal pictures prove nothing where there is no noise:
-    in pictures that are drawn or come from files (:attr:`Frame.noise_free`), and where every pixel
-    is at an end of its range.
+    Because of the sensor's noise, a camera never produces the same picture twice. A picture that
+    equals an earlier one is therefore not new: it comes from a buffer that is no longer filled. The
+    driver may cycle through many such buffers. Equal pictures prove nothing if they have no noise:
+    if they were computed or come from files (:attr:`CameraFrame.noise_free`), or if every pixel is
+    at an end of its range.
     """
 
     def __init__(self) -> None:
-        self._known: deque[int] = deque(maxlen=_REMEMBERED)
-        self._repeated = 0
-        self._since_s = 0.0
+        self._earlier_hashes: deque[int] = deque(maxlen=_REMEMBERED_FRAME_COUNT)
+        self._repeat_count = 0
+        self._last_new_s = 0.0
 
     @property
     def is_repeated(self) -> bool:
-        """Whether the latest picture is an earlier one, and not new."""
-        return self._repeated > 0
+        """Whether the latest picture repeats an earlier one, and so is not new."""
+        return self._repeat_count > 0
 
-    def judge(self, frame: Frame) -> PictureState:
-        """Return what the pictures up to this one show."""
-        # Whole rows: an image that is still alive differs somewhere in a quarter of its pixels.
-        picture = hash((frame.pixels.shape, frame.pixels[::_ROWS].tobytes()))
-        if picture in self._known and _has_noise(frame):
-            self._repeated += 1
+    def classify(self, frame: CameraFrame) -> PictureState:
+        """Return the verdict on the pictures up to this one."""
+        # A quarter of the rows is enough, because noise changes every part of a live picture.
+        digest = hash((frame.pixels.shape, frame.pixels[::_ROW_STRIDE].tobytes()))
+        if digest in self._earlier_hashes and _has_noise(frame):
+            self._repeat_count += 1
         else:
-            self._known.append(picture)
-            self._repeated, self._since_s = 0, frame.host_time_s
+            self._earlier_hashes.append(digest)
+            self._repeat_count, self._last_new_s = 0, frame.host_time_s
         if _is_black(frame):
             return PictureState.BLACK
-        lasts_s = frame.host_time_s - self._since_s
-        if self._repeated >= _FROZEN_FRAMES and lasts_s >= FROZEN_S:
+        repeated_s = frame.host_time_s - self._last_new_s
+        if self._repeat_count >= _MIN_FROZEN_COUNT and repeated_s >= MIN_FROZEN_S:
             return PictureState.FROZEN
         return PictureState.LIVE
 
 
-def _has_noise(frame: Frame) -> bool:
+def _has_noise(frame: CameraFrame) -> bool:
     if frame.noise_free:
         return False
-    some = frame.pixels[::_STRIDE, ::_STRIDE]
-    free = np.count_nonzero((some > 0) & (some < frame.largest))
-    return bool(free > _SHARE_OF_FEW * some.size)
+    pixels = frame.pixels[::_PIXEL_STRIDE, ::_PIXEL_STRIDE]
+    unclipped_pixel_count = np.count_nonzero((pixels > 0) & (pixels < frame.saturation_value))
+    return bool(unclipped_pixel_count > _MAX_OUTLIER_RATIO * pixels.size)
 
 
-def _is_black(frame: Frame) -> bool:
-    some = frame.pixels[::_STRIDE, ::_STRIDE]
-    brighter = np.count_nonzero(some >= _BLACK_SHARE * frame.largest)
-    return bool(brighter <= _SHARE_OF_FEW * some.size)
+def _is_black(frame: CameraFrame) -> bool:
+    pixels = frame.pixels[::_PIXEL_STRIDE, ::_PIXEL_STRIDE]
+    bright_pixel_count = np.count_nonzero(pixels >= _BLACK_LEVEL_RATIO * frame.saturation_value)
+    return bool(bright_pixel_count <= _MAX_OUTLIER_RATIO * pixels.size)

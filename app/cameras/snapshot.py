@@ -1,4 +1,4 @@
-"""A picture, or a z-stack of them, saved with its data."""
+"""Saves a picture or a z-stack with its metadata."""
 
 import json
 from collections.abc import Mapping, Sequence
@@ -11,26 +11,26 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rotemina.drivers.cameras.frame import Frame
-from rotemina.sim.whole_files import replaced
+from rotemina.drivers.cameras import CameraFrame
+from rotemina.sim.files import replace_file
 
 
 @dataclass(frozen=True, slots=True)
-class Circumstances:
-    """The circumstances of a picture.
+class SnapshotMetadata:
+    """Metadata of a picture.
 
     Attributes
     ----------
     taken : str
-        Date and time, ISO 8601, for people; ``host_time_s`` of the frame is what is computed with.
+        Date and time, ISO 8601, for display. Computations use ``host_time_s`` of the frame.
     camera, objective : str
     gain : float or None
     pixel_m : float or None
-        Size of a pixel in the specimen, m; None: not calibrated.
+        Size of a pixel in the specimen, m; None if it is not calibrated.
     command, measured : mapping axis -> float
         Joint positions, m or rad.
     recording : str
-        The recording of the session that it belongs to; empty: none.
+        Name of the session's recording in which the picture was taken; empty if there was none.
     """
 
     taken: str = ""
@@ -43,32 +43,32 @@ class Circumstances:
     recording: str = ""
 
 
-def program() -> str:
-    """Return name and version of the program."""
+def format_program_version() -> str:
+    """Return the name and the version of the program."""
     return f"RoTeMiNa {version('rotemina')}"
 
 
-def description(frame: Frame, about: Circumstances) -> str:
-    """Return the data of a picture as plain ASCII JSON, as TIFF demands."""
-    facts = {
-        "program": program(),
-        "taken": about.taken,
-        "camera": about.camera,
-        "objective": about.objective,
-        "pixel_m": about.pixel_m,
-        "gain": about.gain,
-        **frame_facts(frame),
+def format_description(frame: CameraFrame, snapshot_metadata: SnapshotMetadata) -> str:
+    """Return the metadata of a picture as plain ASCII JSON, as TIFF requires."""
+    metadata = {
+        "program": format_program_version(),
+        "taken": snapshot_metadata.taken,
+        "camera": snapshot_metadata.camera,
+        "objective": snapshot_metadata.objective,
+        "pixel_m": snapshot_metadata.pixel_m,
+        "gain": snapshot_metadata.gain,
+        **make_frame_metadata(frame),
         "region_px": [frame.region.left, frame.region.top, frame.region.width, frame.region.height],
-        "command": dict(about.command),
-        "measured": dict(about.measured),
-        "recording": about.recording,
+        "command": dict(snapshot_metadata.command),
+        "measured": dict(snapshot_metadata.measured),
+        "recording": snapshot_metadata.recording,
         "camera_says": dict(frame.metadata),
     }
-    return json.dumps(facts, default=str)
+    return json.dumps(metadata, default=str)
 
 
-def frame_facts(frame: Frame) -> dict[str, object]:
-    """Return what differs from picture to picture of one camera."""
+def make_frame_metadata(frame: CameraFrame) -> dict[str, object]:
+    """Return the metadata that change from one picture of a camera to the next."""
     return {
         "host_time_s": frame.host_time_s,
         "number": frame.number,
@@ -77,92 +77,116 @@ def frame_facts(frame: Frame) -> dict[str, object]:
     }
 
 
-def tiff_tags(frame: Frame, about: Circumstances) -> dict[str, Any]:
-    """Return what tifffile is told of a picture beside its description."""
-    per_cm = 0.01 / about.pixel_m if about.pixel_m else None
+def make_tiff_arguments(frame: CameraFrame, snapshot_metadata: SnapshotMetadata) -> dict[str, Any]:
+    """Return the keyword arguments for tifffile, except the description."""
+    pixels_per_cm = 0.01 / snapshot_metadata.pixel_m if snapshot_metadata.pixel_m else None
     return {
-        "photometric": "rgb" if frame.colour else "minisblack",
+        "photometric": "rgb" if frame.is_colour else "minisblack",
         "metadata": None,
-        "software": program(),
-        "resolution": None if per_cm is None else (per_cm, per_cm),
-        "resolutionunit": None if per_cm is None else "CENTIMETER",
+        "software": format_program_version(),
+        "resolution": None if pixels_per_cm is None else (pixels_per_cm, pixels_per_cm),
+        "resolutionunit": None if pixels_per_cm is None else "CENTIMETER",
     }
 
 
-def write_tiff(path: Path, frame: Frame, about: Circumstances) -> None:
-    """Write the camera's own numbers, 8 or 16 bits, completely or not at all.
+def write_tiff(path: Path, frame: CameraFrame, snapshot_metadata: SnapshotMetadata) -> None:
+    """Write the unchanged pixel values of the camera, 8 or 16 bits, completely or not at all.
 
     Raises
     ------
     FileWriteError
         If it cannot be written.
     """
-    import tifffile  # takes a tenth of a second, for which no start of the window waits
+    # Imported here because the import takes 0.1 s, which would delay the start of the window.
+    import tifffile
 
-    with replaced(path) as file:
+    with replace_file(path) as file:
         tifffile.imwrite(
-            file, frame.pixels, description=description(frame, about), **tiff_tags(frame, about)
+            file,
+            frame.pixels,
+            description=format_description(frame, snapshot_metadata),
+            **make_tiff_arguments(frame, snapshot_metadata),
         )
 
 
-def write_png(path: Path, shown: NDArray[np.uint8], frame: Frame, about: Circumstances) -> None:
+def write_png(
+    path: Path,
+    displayed_pixels: NDArray[np.uint8],
+    frame: CameraFrame,
+    snapshot_metadata: SnapshotMetadata,
+) -> None:
     """Write a picture as displayed, completely or not at all.
 
     Parameters
     ----------
     path : Path
-    shown : (rows, columns) or (rows, columns, 3)
-        With contrast and colours.
-    frame : Frame
-        What it was made of.
-    about : Circumstances
+    displayed_pixels : (rows, columns) or (rows, columns, 3)
+        The displayed picture, with contrast and colours.
+    frame : CameraFrame
+        The picture of the camera.
+    snapshot_metadata : SnapshotMetadata
 
     Raises
     ------
     FileWriteError
         If it cannot be written.
     """
-    from PIL import Image, PngImagePlugin  # as slow
+    # Imported here because the import is slow.
+    from PIL import Image, PngImagePlugin
 
     text = PngImagePlugin.PngInfo()
-    text.add_text("Software", program())
-    text.add_text("Description", description(frame, about))
-    scale = {"dpi": (0.0254 / about.pixel_m,) * 2} if about.pixel_m else {}
-    with replaced(path) as file:
-        Image.fromarray(np.ascontiguousarray(shown)).save(file, "PNG", pnginfo=text, **scale)
+    text.add_text("Software", format_program_version())
+    text.add_text("Description", format_description(frame, snapshot_metadata))
+    scale = {"dpi": (0.0254 / snapshot_metadata.pixel_m,) * 2} if snapshot_metadata.pixel_m else {}
+    with replace_file(path) as file:
+        Image.fromarray(np.ascontiguousarray(displayed_pixels)).save(
+            file, "PNG", pnginfo=text, **scale
+        )
 
 
-class Page(NamedTuple):
-    """A picture, the place of the focus, m, and all axes as commanded and measured, m and rad."""
+class StackPage(NamedTuple):
+    """A picture of a stack.
 
-    place: float
-    frame: Frame
+    Attributes
+    ----------
+    focus_m : float
+        Position of the focus.
+    frame : CameraFrame
+    command, measured : mapping axis -> float
+        All axes, m or rad.
+    """
+
+    focus_m: float
+    frame: CameraFrame
     command: Mapping[str, float]
     measured: Mapping[str, float]
 
 
-def write_stack(path: Path, pages: Sequence[Page], axis: str, about: Circumstances) -> None:
-    """Write the camera's own numbers, a page for each place, completely or not at all.
+def write_stack(
+    path: Path, pages: Sequence[StackPage], axis: str, snapshot_metadata: SnapshotMetadata
+) -> None:
+    """Write one page with unchanged pixel values for each position, completely or not at all.
 
-    A page's description is JSON as that of a snapshot, with ``focus_axis``, ``focus_m``, ``page``
-    and ``pages``.
+    The description of a page is the JSON of a snapshot with the additional keys ``focus_axis``,
+    ``focus_m``, ``page`` and ``pages``.
 
     Raises
     ------
     FileWriteError
         If it cannot be written.
     """
-    import tifffile  # as slow
+    # Imported here because the import is slow.
+    import tifffile
 
-    with replaced(path) as file, tifffile.TiffWriter(file) as writer:
-        for number, page in enumerate(pages, 1):
-            own = replace(about, command=page.command, measured=page.measured)
-            facts = json.loads(description(page.frame, own))
-            facts |= {"focus_axis": axis, "focus_m": page.place}
-            facts |= {"page": number, "pages": len(pages)}
+    with replace_file(path) as file, tifffile.TiffWriter(file) as writer:
+        for page_number, page in enumerate(pages, 1):
+            page_metadata = replace(snapshot_metadata, command=page.command, measured=page.measured)
+            metadata = json.loads(format_description(page.frame, page_metadata))
+            metadata |= {"focus_axis": axis, "focus_m": page.focus_m}
+            metadata |= {"page": page_number, "pages": len(pages)}
             writer.write(
                 page.frame.pixels,
-                description=json.dumps(facts),
+                description=json.dumps(metadata),
                 contiguous=False,
-                **tiff_tags(page.frame, about),
+                **make_tiff_arguments(page.frame, snapshot_metadata),
             )

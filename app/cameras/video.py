@@ -1,4 +1,4 @@
-"""Recording of a camera's pictures as a video: a bounded queue and a writer thread."""
+"""Records the pictures of a camera as a video, through a bounded queue and a writer thread."""
 
 import logging
 import threading
@@ -9,19 +9,22 @@ from pathlib import Path
 from types import MappingProxyType
 
 from rotemina.app.cameras.video_file import VideoFile
-from rotemina.app.files import Opener, new_file
-from rotemina.drivers.cameras.frame import Frame
-from rotemina.sim.errors import InputError, reason_of
-from rotemina.sim.messages import message
+from rotemina.app.errors import VideoError
+from rotemina.app.settings import FileOpener, open_new_file
+from rotemina.drivers.cameras import CameraFrame
+from rotemina.sim.errors import (
+    describe_exception,
+)
+from rotemina.sim.messages import (
+    message,
+)
 
 _LOG = logging.getLogger(__name__)
 
-CAPACITY_BYTES = 200_000_000  # of pictures that wait for the disk: 2.5 s of 1300 × 1030 at 30 Hz
-_LONGEST_S = 10.0  # that a close waits for a disk that hangs
-
-
-class VideoError(InputError):
-    """A film that cannot be made, or ended before it should."""
+# Size of the pictures that may wait for the disk; holds 2.5 s of 1300 × 1030 pixels at 30 Hz.
+QUEUE_CAPACITY_BYTES = 200_000_000
+# Longest time for which ``close`` waits for a disk that hangs.
+_CLOSE_TIMEOUT_S = 10.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,192 +34,194 @@ class VideoStatus:
     Attributes
     ----------
     pictures : int
-        On the disk.
+        Number of pictures on the disk.
     dropped : int
-        Not recorded, because the disk was too slow or the camera's size or kind had changed.
+        Number of pictures not recorded because the disk was too slow, or because their size or
+        pixel type had changed.
     bytes_written : int
     lasts_s : float
-        From the first to the last picture.
+        Time from the first to the last picture.
     failure : str
-        Why it ended by itself, and what to do; empty while it has not.
+        Why the recording ended by itself, and what to do; empty if it did not.
     """
 
     pictures: int = 0
     dropped: int = 0
     bytes_written: int = 0
-    lasts_s: float = 0.0
+    duration_s: float = 0.0
     failure: str = ""
 
 
-class Video:
-    """Records every picture that it is given until :meth:`close`.
+class VideoRecorder:
+    """Records every picture that it receives, until :meth:`close`.
 
-    Each page of the file has its picture's number and ``host_time_s``, on the clock of the session
-    and of its recordings. What is on the disk can be read at any moment.
+    Each page of the file contains its picture's number and ``host_time_s``, on the clock of the
+    session and of its recordings. The file on the disk can be read at any moment.
 
     Parameters
     ----------
     path : Path
-        Of a file that does not exist.
-    facts : mapping
-        What holds for the whole film, as JSON can hold it.
+        The file, which must not exist.
+    metadata : mapping
+        Metadata of the whole video; must be convertible to JSON.
     pixel_m : float or None
         Size of a pixel in the specimen, m.
     tell : callable
-        Gets what the operator must know, on the thread that writes.
+        Called with messages for the operator, on the writer thread.
     capacity_bytes : int
-        Of what may wait; a picture that has no room is dropped and counted.
+        Capacity of the queue; a picture that does not fit is dropped and counted.
     opener : callable
-        How the file is made.
+        Creates the file.
 
     Raises
     ------
     VideoError
-        If there is a file already, or none can be made.
+        If the file exists already, or cannot be created.
     """
 
     def __init__(
         self,
         path: Path,
-        facts: Mapping[str, object] = MappingProxyType({}),
+        metadata: Mapping[str, object] = MappingProxyType({}),
         *,
         pixel_m: float | None = None,
-        tell: Callable[[str], None] = lambda _: None,
-        capacity_bytes: int = CAPACITY_BYTES,
-        opener: Opener = new_file,
+        notify: Callable[[str], None] = lambda _: None,
+        capacity_bytes: int = QUEUE_CAPACITY_BYTES,
+        opener: FileOpener = open_new_file,
     ) -> None:
         self.path = path
-        self._tell = tell
-        self._capacity = capacity_bytes
-        self._waiting: deque[Frame] = deque()
-        self._bytes = 0
-        self._changed = threading.Condition()  # guards the two above and the status
+        self._tell = notify
+        self._capacity_bytes = capacity_bytes
+        self._queue: deque[CameraFrame] = deque()
+        self._queued_bytes = 0
+        # Guards the queue, its size and the status.
+        self._queue_changed = threading.Condition()
         #: The status; replaced as a whole.
         self.status = VideoStatus()
-        self._ending = False
-        self._told_dropped = False
-        self._first: Frame | None = None  # of the writer's thread alone
+        self._is_closing = False
+        self._has_reported_dropped = False
+        # Used only by the writer thread.
+        self._first_frame: CameraFrame | None = None
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
-            self._file = VideoFile(path, facts, pixel_m, opener)
+            self._file = VideoFile(path, metadata, pixel_m, opener)
         except OSError as error:
             if path.exists():
                 raise VideoError(
-                    message("engine", "{path} already exists; record to another name").fill(
-                        path=path
-                    )
+                    "{path} already exists; record to another name", path=path
                 ) from error
             raise VideoError(
-                message(
-                    "engine",
-                    "{path}: cannot be written ({reason}); make room, or choose another folder",
-                ).fill(path=path, reason=reason_of(error))
+                "{path}: cannot be written ({reason}); make room, or choose another folder",
+                path=path,
+                reason=describe_exception(error),
             ) from error
         self._thread = threading.Thread(target=self._run, name="video", daemon=True)
 
     def start(self) -> None:
-        """Begin to write."""
+        """Start the writer thread."""
         self._thread.start()
 
-    def take(self, frame: Frame) -> None:
-        """Queue a picture for writing; returns at once, on any thread."""
+    def queue_frame(self, frame: CameraFrame) -> None:
+        """Queue a picture for writing; returns at once, and may be called from any thread."""
         size = frame.pixels.nbytes
-        with self._changed:
-            if self._ending or self.status.failure:
+        with self._queue_changed:
+            if self._is_closing or self.status.failure:
                 return
-            if self._bytes + size > self._capacity:
-                self._count(dropped=1)
+            if self._queued_bytes + size > self._capacity_bytes:
+                self._update_status(dropped=1)
                 return
-            self._waiting.append(frame)
-            self._bytes += size
-            self._changed.notify()
+            self._queue.append(frame)
+            self._queued_bytes += size
+            self._queue_changed.notify()
 
-    def close(self, timeout_s: float = _LONGEST_S) -> VideoStatus:
-        """Write what waits, end, and return how it went; safe to call twice.
+    def close(self, timeout_s: float = _CLOSE_TIMEOUT_S) -> VideoStatus:
+        """Write the queued pictures, close the file, and return the status; safe to call twice.
 
         Raises
         ------
         VideoError
-            If the disk hangs; what is in the file can be read.
+            If the disk hangs. The file is readable up to its last complete picture.
         """
-        with self._changed:
-            self._ending = True
-            self._changed.notify()
+        with self._queue_changed:
+            self._is_closing = True
+            self._queue_changed.notify()
         if self._thread.is_alive():
             self._thread.join(timeout_s)
         if self._thread.is_alive():
             raise VideoError(
-                message(
-                    "engine",
-                    "{path}: the last pictures could not be written within {timeout_s} s; "
-                    "{pictures} pictures are kept",
-                ).fill(path=self.path, timeout_s=timeout_s, pictures=self.status.pictures)
+                "{path}: the last pictures could not be written within {timeout_s} s; "
+                "{pictures} pictures are kept",
+                path=self.path,
+                timeout_s=timeout_s,
+                pictures=self.status.pictures,
             )
         self._file.close()
         return self.status
 
-    # --- on the writer's thread -------------------------------------------------------------------
-
     def _run(self) -> None:
-        while (frame := self._next()) is not None:
+        while (frame := self._wait_for_frame()) is not None:
             if self.status.failure:
                 continue
             try:
                 self._write(frame)
-            except Exception as error:  # the thread must end in words, whatever happens
+            except Exception as error:
+                # Whatever happens, the operator must see why the video has ended.
                 self._fail(error)
-            self._tell_dropped()
+            self._report_dropped()
 
-    def _next(self) -> Frame | None:
-        """Wait for a picture; None: that was the last."""
-        with self._changed:
-            self._changed.wait_for(lambda: self._waiting or self._ending)
-            if not self._waiting:
+    def _wait_for_frame(self) -> CameraFrame | None:
+        """Wait for a picture; None means that there are no more."""
+        with self._queue_changed:
+            self._queue_changed.wait_for(lambda: self._queue or self._is_closing)
+            if not self._queue:
                 return None
-            frame = self._waiting.popleft()
-            self._bytes -= frame.pixels.nbytes
+            frame = self._queue.popleft()
+            self._queued_bytes -= frame.pixels.nbytes
             return frame
 
-    def _write(self, frame: Frame) -> None:
-        if self._first is None:
-            self._first = frame
-        if not _alike(frame, self._first):
-            with self._changed:
-                self._count(dropped=1)
+    def _write(self, frame: CameraFrame) -> None:
+        if self._first_frame is None:
+            self._first_frame = frame
+        if not _has_same_format(frame, self._first_frame):
+            with self._queue_changed:
+                self._update_status(dropped=1)
             return
         self._file.append(frame)
-        with self._changed:
-            self._count(pictures=1, lasts_s=frame.host_time_s - self._first.host_time_s)
+        with self._queue_changed:
+            self._update_status(
+                pictures=1, lasts_s=frame.host_time_s - self._first_frame.host_time_s
+            )
 
-    def _count(self, *, pictures: int = 0, dropped: int = 0, lasts_s: float | None = None) -> None:
-        was = self.status
+    def _update_status(
+        self, *, pictures: int = 0, dropped: int = 0, lasts_s: float | None = None
+    ) -> None:
+        previous = self.status
         self.status = replace(
-            was,
-            pictures=was.pictures + pictures,
-            dropped=was.dropped + dropped,
+            previous,
+            pictures=previous.pictures + pictures,
+            dropped=previous.dropped + dropped,
             bytes_written=self._file.size,
-            lasts_s=was.lasts_s if lasts_s is None else lasts_s,
+            duration_s=previous.duration_s if lasts_s is None else lasts_s,
         )
 
     def _fail(self, error: Exception) -> None:
-        why = reason_of(error)
-        kept = self.status.pictures
+        reason = describe_exception(error)
+        pictures = self.status.pictures
         failure = message(
             "engine",
             "{path}: the video has ended ({why}); {kept} pictures are kept. Free disk space, "
             "or choose another folder, and start another one",
-        ).fill(path=self.path, why=why, kept=kept)
+        ).fill(path=self.path, why=reason, kept=pictures)
         _LOG.warning(failure)
-        with self._changed:
+        with self._queue_changed:
             self.status = replace(self.status, failure=failure)
-            self._waiting.clear()
-            self._bytes = 0
+            self._queue.clear()
+            self._queued_bytes = 0
         self._tell(failure)
 
-    def _tell_dropped(self) -> None:
-        """Say once that pictures are missing, while there is something to be done about it."""
-        if self.status.dropped and not self._told_dropped:
-            self._told_dropped = True
+    def _report_dropped(self) -> None:
+        if self.status.dropped and not self._has_reported_dropped:
+            self._has_reported_dropped = True
             self._tell(
                 message(
                     "engine",
@@ -228,6 +233,5 @@ class Video:
             )
 
 
-def _alike(one: Frame, other: Frame) -> bool:
-    """Return whether two pictures can be pages of one film."""
-    return one.pixels.shape == other.pixels.shape and one.pixels.dtype == other.pixels.dtype
+def _has_same_format(frame: CameraFrame, other: CameraFrame) -> bool:
+    return frame.pixels.shape == other.pixels.shape and frame.pixels.dtype == other.pixels.dtype

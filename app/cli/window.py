@@ -1,10 +1,9 @@
-"""``rotemina`` without a subcommand: the window, or its main job where there is no display."""
+"""``rotemina`` without a subcommand: open the window, or run without a display."""
 
 import argparse
 from pathlib import Path
 
-from rotemina.app.cli.language import ENGLISH, LANGUAGES
-from rotemina.app.cli.options import add_robot
+from rotemina.app.cli.terminal import DECIMAL_SIGNS, ENGLISH, add_robot
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -41,7 +40,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--language",
-        choices=(ENGLISH, *LANGUAGES),
+        choices=(ENGLISH, *DECIMAL_SIGNS),
         help="language of window, help and messages (default: last used in the window, "
         "else the system's)",
     )
@@ -49,9 +48,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Open the window, or run offscreen where there is no display."""
-    # Qt is loaded only when a window is wanted: the subcommands work without its libraries.
-    from rotemina.app.shell.start import start
+    """Open the window, or run offscreen if requested."""
+    # Qt is imported only for the window, so that the subcommands work without its libraries.
+    from rotemina.app.shell.startup import start
 
     return start(
         options.robot,
@@ -59,5 +58,5 @@ def run(options: argparse.Namespace) -> int:
         assignments=options.assignments,
         offscreen=options.offscreen,
         output=options.output,
-        speaks=options.language,
+        ui_language=options.language,
     )

@@ -1,4 +1,4 @@
-"""The TOML file of a calibrated camera and objective."""
+"""The TOML file with the calibration of one camera behind one objective."""
 
 import re
 from dataclasses import replace
@@ -10,72 +10,79 @@ import numpy as np
 from pydantic import Field
 from pydantic.dataclasses import dataclass
 
-from rotemina.app.microscope.errors import MicroscopeError
-from rotemina.app.toml_file import STRICT, Format, Text
-from rotemina.drivers.cameras.frame import Region
+from rotemina.app.errors import MicroscopeError
+from rotemina.app.settings import (
+    FORBID_EXTRA_KEYS,
+    NonEmptyText,
+    TomlFormat,
+)
+from rotemina.drivers.cameras import SensorRegion
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.messages import message
-from rotemina.sim.vision.calibration import StageFit, StageMap
+from rotemina.sim.vision import StageFit, StageMap
 
-VERSION = 1
+FILE_VERSION = 1
 MICRO, NANO = "micro", "nano"
 
-Finite = Annotated[float, Field(strict=False, allow_inf_nan=False)]
-Side = Annotated[int, Field(strict=True, ge=1)]
-Offset = Annotated[int, Field(strict=True, ge=0)]
-Residual = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
+FiniteNumber = Annotated[float, Field(strict=False, allow_inf_nan=False)]
+PixelCount = Annotated[int, Field(strict=True, ge=1)]
+PixelOffset = Annotated[int, Field(strict=True, ge=0)]
+NonNegativeNumber = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
-class View:
-    """The part of the sensor that was calibrated, px."""
+@dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_EXTRA_KEYS)
+class CalibratedRegion:
+    """The region of the sensor that was calibrated, px."""
 
-    left: Offset
-    top: Offset
-    width: Side
-    height: Side
+    left: PixelOffset
+    top: PixelOffset
+    width: PixelCount
+    height: PixelCount
 
     @classmethod
-    def of(cls, region: Region) -> Self:
-        """Return what a camera shows."""
+    def from_region(cls, region: SensorRegion) -> Self:
+        """Return the calibrated region that equals the region of a picture."""
         return cls(left=region.left, top=region.top, width=region.width, height=region.height)
 
-    def holds(self, pixel: FloatArray) -> bool:
-        """Return whether a pixel (column, row) of the picture lies in it."""
+    def contains(self, pixel: FloatArray) -> bool:
+        """Return whether a pixel (column, row) of the picture lies in the region."""
         column, row = float(pixel[0]), float(pixel[1])
         return -0.5 <= column <= self.width - 0.5 and -0.5 <= row <= self.height - 0.5
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
+@dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_EXTRA_KEYS)
 class StageCalibration:
-    """How a stage moves the tip in the picture.
+    """Calibration of a stage: how it moves the tip in the picture.
 
     Attributes
     ----------
     date : str
-        When, ISO 8601.
+        Date and time of the calibration, ISO 8601.
     matrix : (2, 2)
-        px per m of the tip by x and y of the kinematics.
+        Jacobian of the tip's pixel with respect to the tip's x and y in the kinematics, px/m.
     covariance : (4, 4)
-        Of the matrix, row after row, (px/m)².
+        Covariance of the matrix elements in row-major order, (px/m)².
     tip_m : (3,)
-        Where the tip was by the kinematics when it was seen at ``tip_px`` (2,), m.
+        Tip position in the kinematics, m, at which the tip was seen at ``tip_px`` (2,).
     residual_px : float
-        rms distance between fit and pictures.
+        rms distance between the fit and the pictures.
     """
 
-    date: Text
-    matrix: tuple[tuple[Finite, Finite], tuple[Finite, Finite]]
+    date: NonEmptyText
+    matrix: tuple[tuple[FiniteNumber, FiniteNumber], tuple[FiniteNumber, FiniteNumber]]
     covariance: Annotated[
-        tuple[tuple[Finite, Finite, Finite, Finite], ...], Field(min_length=4, max_length=4)
+        tuple[tuple[FiniteNumber, FiniteNumber, FiniteNumber, FiniteNumber], ...],
+        Field(min_length=4, max_length=4),
     ]
-    tip_m: tuple[Finite, Finite, Finite]
-    tip_px: tuple[Finite, Finite]
-    residual_px: Residual
+    tip_m: tuple[FiniteNumber, FiniteNumber, FiniteNumber]
+    tip_px: tuple[FiniteNumber, FiniteNumber]
+    residual_px: NonNegativeNumber
 
     @classmethod
-    def of(cls, fit: StageFit, date: datetime, tip_m: FloatArray, tip_px: FloatArray) -> Self:
-        """Return the stored form of a fit, with the true and the seen position of the tip."""
+    def from_fit(cls, fit: StageFit, date: datetime, tip_m: FloatArray, tip_px: FloatArray) -> Self:
+        """Return the stored form of a fit, with the tip's position in the machine and the picture.
+
+        ``tip_m`` is (3,), m, and ``tip_px`` is (2,).
+        """
         (a, b), (c, d) = fit.map.matrix.tolist()
         (x, y, z), (column, row) = tip_m.tolist(), tip_px.tolist()
         return cls(
@@ -89,69 +96,69 @@ class StageCalibration:
 
     def __post_init__(self) -> None:
         if not abs(np.linalg.det(np.array(self.matrix))) > 0.0:
-            raise ValueError("the matrix must not be singular; calibrate anew")
+            raise ValueError("the matrix must not be singular; calibrate again")
 
     @property
     def map(self) -> StageMap:
-        """The map in the form that the computations use."""
+        """The matrix and its covariance in the form that the computations use."""
         return StageMap(np.array(self.matrix), np.array(self.covariance))
 
-    def pixel_of(self, tip_m: FloatArray) -> FloatArray:
-        """Return where a tip (3,), m, by the kinematics should be seen, px."""
-        moved = np.asarray(tip_m)[:2] - np.array(self.tip_m)[:2]
-        return np.array(self.tip_px) + self.map.pixels(moved)
+    def predict_pixel(self, tip_m: FloatArray) -> FloatArray:
+        """Return the pixel (2,) at which a tip at ``tip_m`` (3,), m, should be seen."""
+        displacement = np.asarray(tip_m)[:2] - np.array(self.tip_m)[:2]
+        return np.array(self.tip_px) + self.map.shift_of(displacement)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
+@dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_EXTRA_KEYS)
 class FocusCalibration:
-    """Where the picture was sharpest along an axis, m, with its standard deviation."""
+    """Position of best focus along an axis, m, with its standard deviation."""
 
-    date: Text
-    axis: Text
-    sharpest: Finite
-    uncertainty: Residual
+    date: NonEmptyText
+    axis: NonEmptyText
+    sharpest: FiniteNumber
+    uncertainty: NonNegativeNumber
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
+@dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_EXTRA_KEYS)
 class MicroscopeCalibration:
     """The calibration of one camera behind one objective."""
 
-    version: Annotated[int, Field(strict=True, ge=VERSION, le=VERSION)] = VERSION
-    camera: Text
-    objective: Text
-    view: View
+    version: Annotated[int, Field(strict=True, ge=FILE_VERSION, le=FILE_VERSION)] = FILE_VERSION
+    camera: NonEmptyText
+    objective: NonEmptyText
+    view: CalibratedRegion
     micro: StageCalibration | None = None
     nano: StageCalibration | None = None
     focus: FocusCalibration | None = None
 
-    def stage(self, name: str) -> StageCalibration:
+    def get_stage(self, name: str) -> StageCalibration:
         """Return the calibration of ``micro`` or ``nano``.
 
         Raises
         ------
         MicroscopeError
-            If that stage was not calibrated.
+            If that stage is not calibrated.
         """
-        found = self.micro if name == MICRO else self.nano
-        if found is None:
+        calibration = self.micro if name == MICRO else self.nano
+        if calibration is None:
             raise MicroscopeError(
-                message(
-                    "engine",
-                    "the {name} stage is not calibrated for objective {objective} on camera "
-                    "{camera}; calibrate it first",
-                ).fill(name=name, objective=repr(self.objective), camera=repr(self.camera))
+                "the {name} stage is not calibrated for objective {objective} on camera "
+                "{camera}; calibrate it first",
+                name=name,
+                objective=repr(self.objective),
+                camera=repr(self.camera),
             )
-        return found
+        return calibration
 
     def with_stage(self, name: str, stage: StageCalibration) -> "MicroscopeCalibration":
-        """Return all of it with another calibration of one stage."""
+        """Return a copy in which the calibration of one stage is replaced."""
         return replace(self, micro=stage) if name == MICRO else replace(self, nano=stage)
 
 
-FORMAT = Format(
+CALIBRATION_FORMAT = TomlFormat(
     MicroscopeCalibration,
     {
-        "view": View,
+        "view": CalibratedRegion,
         "micro": StageCalibration,
         "nano": StageCalibration,
         "focus": FocusCalibration,
@@ -160,50 +167,46 @@ FORMAT = Format(
 )
 
 
-def file_of(folder: Path, camera: str, objective: str) -> Path:
-    """Return where the calibration of a camera behind an objective is kept."""
+def make_calibration_path(folder: Path, camera: str, objective: str) -> Path:
+    """Return the path of the calibration file of a camera behind an objective."""
     names = (re.sub(r"[^\w.+-]+", "_", name).strip("_") or "_" for name in (camera, objective))
     return folder / f"{'--'.join(names)}.toml"
 
 
-def load(folder: Path, camera: str, objective: str) -> MicroscopeCalibration | None:
+def load_calibration(folder: Path, camera: str, objective: str) -> MicroscopeCalibration | None:
     """Return the stored calibration of a camera behind an objective, or None.
 
     Raises
     ------
     MicroscopeError
-        If the file cannot be used, or is of another camera.
+        If the file cannot be used, or belongs to another camera or objective.
     """
-    path = file_of(folder, camera, objective)
+    path = make_calibration_path(folder, camera, objective)
     if not path.exists():
         return None
-    found = FORMAT.load(path)
-    if (found.camera, found.objective) != (camera, objective):
+    calibration = CALIBRATION_FORMAT.load(path)
+    if (calibration.camera, calibration.objective) != (camera, objective):
         raise MicroscopeError(
-            message(
-                "engine",
-                "{path}: this calibration is for camera {camera} with objective "
-                "{objective}, not for {other_camera} with {other_objective}; move the file "
-                "away and calibrate again",
-            ).fill(
-                path=path,
-                camera=repr(found.camera),
-                objective=repr(found.objective),
-                other_camera=repr(camera),
-                other_objective=repr(objective),
-            )
+            "{path}: this calibration is for camera {camera} with objective "
+            "{objective}, not for {other_camera} with {other_objective}; move the file "
+            "away and calibrate again",
+            path=path,
+            camera=repr(calibration.camera),
+            objective=repr(calibration.objective),
+            other_camera=repr(camera),
+            other_objective=repr(objective),
         )
-    return found
+    return calibration
 
 
-def save(folder: Path, calibration: MicroscopeCalibration) -> Path:
-    """Keep a calibration; return where.
+def save_calibration(folder: Path, calibration: MicroscopeCalibration) -> Path:
+    """Save a calibration, and return the path of its file.
 
     Raises
     ------
     FileWriteError
-        If it cannot be written.
+        If the file cannot be written.
     """
-    path = file_of(folder, calibration.camera, calibration.objective)
-    FORMAT.save(path, calibration)
+    path = make_calibration_path(folder, calibration.camera, calibration.objective)
+    CALIBRATION_FORMAT.save(path, calibration)
     return path

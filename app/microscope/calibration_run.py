@@ -1,9 +1,10 @@
-"""A guided calibration: small moves around the present position, a picture after each, a fit.
+"""A guided calibration: small moves around the current position, a picture after each, and a fit.
 
-Somebody calls :meth:`CalibrationRun.step`; it has no thread and never waits. Every move goes
-through the session, which knows limits, keep-out and owners; a refusal, a stop, a fault or a
-camera that stands still ends the run with the reason. After a refusal it goes back to where it
-began; after a stop or a fault nothing moves.
+The run has no thread and never waits; its owner calls :meth:`StageCalibrationRun.step`. Every move
+goes through the session, which checks limits, keep-out and ownership. A refused move, a stop, a
+fault or a stalled camera ends the run with the reason. After a refused move the machine returns to
+its start position; after a stop or a fault nothing moves. Once the moves are evaluated, only
+:meth:`StageCalibrationRun.abort` discards the calibration; a failed return does not.
 """
 
 from collections.abc import Callable
@@ -13,45 +14,64 @@ from enum import StrEnum
 
 import numpy as np
 
+from rotemina.app.errors import MicroscopeError, RequestRefusedError
 from rotemina.app.microscope.calibration_file import MICRO, NANO, StageCalibration
-from rotemina.app.microscope.errors import MicroscopeError
-from rotemina.app.microscope.settled_frame import Newest, SettledFrame, SettledFrameGrabber
-from rotemina.app.motion.mailbox import RefusedError
+from rotemina.app.microscope.settled_frame import FrameSource, SettledFrame, SettledFrameGrabber
 from rotemina.app.motion.session import MotionSession
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
-from rotemina.sim.kinematics.chain import JOINTS, Chain
-from rotemina.sim.kinematics.forward import tip_position
-from rotemina.sim.kinematics.inverse import solve_nano
-from rotemina.sim.messages import message
-from rotemina.sim.quantities import fixed, rounded
-from rotemina.sim.trajectory.axis_limits import check_target
-from rotemina.sim.vision.calibration import StageFit, fit_stage
-from rotemina.sim.vision.image import Image
-from rotemina.sim.vision.pipette import Pipette
-from rotemina.sim.vision.registration import register
-from rotemina.sim.vision.tip import find_body, find_tip, fit_depths, likeliest
-from rotemina.sim.vision.tip_fit import TipFit
+from rotemina.sim.kinematics import JOINTS, KinematicChain, compute_tip_position, solve_nano
+from rotemina.sim.messages import format_fixed, format_rounded, message
+from rotemina.sim.trajectory import check_target
+from rotemina.sim.vision import (
+    Image,
+    Pipette,
+    StageFit,
+    TipFit,
+    find_likeliest_place,
+    find_tip,
+    find_tip_in_any_direction,
+    fit_from_depths,
+    fit_stage,
+    register_images,
+)
 
-OWNER = "calibration"
-EXTENT_M = {MICRO: 40e-6, NANO: 15e-6}  # of the tip, each way from where it is
-_RING = ((1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1), (0, 0))
-_MOST_DRIFT_PX = 1.0  # between the first and the last picture, both from the same place
-_SEARCHED_PX = 24.0  # about where the tip should be, once that is known
+CALIBRATION_OWNER = "calibration"
+# Displacement of the tip along x and along y in each move, by stage.
+MOVE_SIZE_M = {MICRO: 40e-6, NANO: 15e-6}
+# The last move returns to the start position, where the picture shows the drift.
+_MOVE_DIRECTIONS = ((1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1), (0, 0))
+# Largest shift between the first and the last picture, both taken at the start position.
+_MAX_DRIFT_PX = 1.0
+_TEMPLATE_SIZE_PX = 48
+# Margin of the search window around the predicted pixel, in addition to the template's size.
+_SEARCH_MARGIN_PX = 24.0
+# The search evaluates one of this many columns and rows.
+_SEARCH_FACTOR = 2
 
 
-class Phase(StrEnum):
-    """Where a calibration is."""
+class StageCalibrationPhase(StrEnum):
+    """The phase of a calibration run."""
 
-    LOOKING = "looking"
+    MEASURING = "looking"
     RETURNING = "returning"
     DONE = "done"
     FAILED = "failed"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Observation:
-    """One move: the tip's displacement (2,), m, the image's (2,), px, and its covariance."""
+class ShiftObservation:
+    """The displacement of the tip in one move, and the shift seen in the picture.
+
+    Attributes
+    ----------
+    displacement : (2,)
+        Displacement of the tip from its start position, m.
+    shift : (2,)
+        Shift since the first picture, px.
+    covariance : (2, 2)
+        Covariance of the shift, px².
+    """
 
     displacement: FloatArray
     shift: FloatArray
@@ -59,259 +79,306 @@ class Observation:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class CalibrationStatus:
-    """Status for display.
+class StageCalibrationStatus:
+    """Status of a calibration run, for display.
 
     Attributes
     ----------
-    phase : Phase
-    done, moves : int
-        Looks taken, and how many it takes.
-    observations : tuple of Observation
+    phase : StageCalibrationPhase
+    pictures_taken, pictures_total : int
+        Progress: settled pictures taken so far, and the number that the run needs.
+    observations : tuple of ShiftObservation
     fit : StageFit or None
-        With the residuals, once it was fitted; also where it was refused.
+        The fit with its residuals; None until the moves are evaluated.
     calibration : StageCalibration or None
-        The result.
+        The result; None until the moves are evaluated.
     reason : str
-        Why it failed.
+        Why the run failed or, if it is done, why the return to the start position failed; else
+        empty.
     """
 
-    phase: Phase
-    done: int
-    moves: int
-    observations: tuple[Observation, ...] = ()
+    phase: StageCalibrationPhase
+    pictures_taken: int
+    pictures_total: int
+    observations: tuple[ShiftObservation, ...] = ()
     fit: StageFit | None = None
     calibration: StageCalibration | None = None
     reason: str = ""
 
 
-class CalibrationRun:
-    """Calibrates one stage.
+class StageCalibrationRun:
+    """A run that calibrates one stage.
 
     Parameters
     ----------
     session : MotionSession
-    newest : callable
-        The camera's newest picture.
+    newest_frame : callable
+        Returns the camera's newest picture.
     stage : str
         ``micro`` or ``nano``.
     pipette : Pipette, optional
-        What the tip looks like: the background stands and the tip moves. Without one the whole
+        Shape of the tip, which moves in front of a stationary background. If it is None, the whole
         picture must move with the stage.
     now_s : float
-        The host's time.
+        Host time.
     direction_known : bool
-        Whether the pipette's direction is roughly right; else it is found along with the tip.
-    today : callable
-        Return date and time, for the file.
+        Whether the pipette's direction is approximately correct. If not, the search for the tip
+        also finds the direction.
+    read_date : callable
+        Returns the date and time that is stored in the calibration file.
 
     Raises
     ------
     InputError
-        If the robot has no such chain, a move would leave an axis' range, or motion is locked;
-        then nothing has moved.
+        If the robot has no kinematic chain to the tip, a move would leave the range of an axis, or
+        motion is locked; then nothing has moved.
     """
 
     def __init__(
         self,
         session: MotionSession,
-        newest: Newest,
+        newest_frame: FrameSource,
         stage: str,
         pipette: Pipette | None,
         *,
         now_s: float,
         direction_known: bool = True,
-        today: Callable[[], datetime] = lambda: datetime.now(UTC),
+        read_date: Callable[[], datetime] = lambda: datetime.now(UTC),
     ) -> None:
         self._session, self._stage, self._pipette = session, stage, pipette
-        self._today = today
-        self._find = find_tip if direction_known else find_body
-        self._chain = Chain.of(session.robot)
+        self._read_date = read_date
+        self._search_whole_picture = find_tip if direction_known else find_tip_in_any_direction
+        self._chain = KinematicChain.of(session.robot)
         state = session.snapshot()
-        if state.locked is not None:
-            raise RefusedError(
-                message("engine", "motion is locked: {locked}").fill(locked=state.locked)
-            )
+        if state.lock_reason is not None:
+            raise RequestRefusedError("motion is locked: {locked}", locked=state.lock_reason)
         self._axes = ("x", "y") if stage == MICRO else ("thx", "thy", "zn")
-        self._begin = {axis: state.command[axis] for axis in self._axes}
+        self._start_command = {axis: state.command[axis] for axis in self._axes}
         joints = np.array([state.command[axis] for axis in JOINTS])
-        self._plan = tuple(self._targets(joints, EXTENT_M[stage] * np.array(way)) for way in _RING)
-        self._looking = SettledFrameGrabber(session, newest)
-        self._looking.begin(now_s)
-        self._first: tuple[SettledFrame, TipFit | None] | None = None
-        self._status = CalibrationStatus(Phase.LOOKING, 0, len(self._plan) + 1)
+        self._planned_targets = tuple(
+            self._compute_targets(joints, MOVE_SIZE_M[stage] * np.array(direction))
+            for direction in _MOVE_DIRECTIONS
+        )
+        self._grabber = SettledFrameGrabber(session, newest_frame)
+        self._grabber.begin(now_s)
+        # The picture at the start position, and the tip in it.
+        self._reference: tuple[SettledFrame, TipFit | None] | None = None
+        self._status = StageCalibrationStatus(
+            StageCalibrationPhase.MEASURING, 0, len(self._planned_targets) + 1
+        )
 
     @property
-    def status(self) -> CalibrationStatus:
-        """Status for display."""
+    def status(self) -> StageCalibrationStatus:
+        """Status of the run, for display."""
         return self._status
 
     @property
     def pipette(self) -> Pipette | None:
-        """The pipette with the direction in which it was found; what to track it by."""
+        """The pipette with the direction in which it was found, for tracking."""
         return self._pipette
 
-    def step(self, now_s: float) -> CalibrationStatus:
-        """Advance; never raises for what a device or a camera does."""
+    def step(self, now_s: float) -> StageCalibrationStatus:
+        """Advance the run; a failure of a device or a camera ends the run and raises nothing."""
         phase = self._status.phase
-        if phase not in (Phase.LOOKING, Phase.RETURNING):
+        if phase not in (StageCalibrationPhase.MEASURING, StageCalibrationPhase.RETURNING):
             return self._status
         try:
-            look = self._looking.step(now_s)
+            settled = self._grabber.step(now_s)
         except InputError as error:
-            # What stands between machine and program, or camera and program: nothing is moved.
-            self._end(Phase.FAILED, self._status.reason or str(error))
+            # The connection to the machine or the camera has failed, so nothing may move.
+            if self._status.calibration is not None:
+                self._end_without_return(error)
+            else:
+                self._end(StageCalibrationPhase.FAILED, self._status.reason or str(error))
             return self._status
-        if look is None:
+        if settled is None:
             return self._status
-        if phase is Phase.RETURNING:
-            self._end(Phase.FAILED if self._status.reason else Phase.DONE, self._status.reason)
+        if phase is StageCalibrationPhase.RETURNING:
+            self._end(
+                StageCalibrationPhase.FAILED if self._status.reason else StageCalibrationPhase.DONE,
+                self._status.reason,
+            )
             return self._status
         try:
-            self._observe(look)
-            self._go_on(now_s)
+            self._observe(settled)
+            self._continue(now_s)
         except InputError as error:
-            self._go_back(str(error), now_s)
+            self._start_return(str(error), now_s)
         return self._status
 
     @property
     def ended(self) -> bool:
         """Whether the run has ended."""
-        return self._status.phase in (Phase.DONE, Phase.FAILED)
+        return self._status.phase in (StageCalibrationPhase.DONE, StageCalibrationPhase.FAILED)
 
     def abort(self, reason: str = message("engine", "the calibration was stopped")) -> None:
-        """Stop the machine and end; it stays where it is."""
+        """Stop the machine, which stays where it is, and end the run."""
         if not self.ended:
             self._session.stop(reason)
-            self._end(Phase.FAILED, reason)
+            self._end(StageCalibrationPhase.FAILED, reason)
 
-    # --- the moves --------------------------------------------------------------------------------
-
-    def _targets(self, joints: FloatArray, away_m: FloatArray) -> dict[str, float]:
-        """Return axis targets that displace the tip by ``away_m`` (2,), m; checked."""
-        goal = tip_position(self._chain, joints) + np.append(away_m, 0.0)
+    def _compute_targets(self, joints: FloatArray, displacement_m: FloatArray) -> dict[str, float]:
+        """Return checked axis targets that displace the tip by ``displacement_m`` (2,), m."""
+        goal = compute_tip_position(self._chain, joints) + np.append(displacement_m, 0.0)
         if self._stage == MICRO:
-            targets = {axis: self._begin[axis] + away_m[i] for i, axis in enumerate(self._axes)}
+            targets = {
+                axis: self._start_command[axis] + displacement_m[i]
+                for i, axis in enumerate(self._axes)
+            }
         else:
-            solved = solve_nano(self._chain, goal, joints)
-            targets = {axis: float(solved[JOINTS.index(axis)]) for axis in self._axes}
+            solution = solve_nano(self._chain, goal, joints)
+            targets = {axis: float(solution[JOINTS.index(axis)]) for axis in self._axes}
         for axis, target in targets.items():
             check_target(self._session.robot, axis, float(target))
         return {axis: float(target) for axis, target in targets.items()}
 
-    def _go_on(self, now_s: float) -> None:
-        done = self._status.done
-        if done <= len(self._plan) - 1:
-            self._looking.check()
-            self._session.go_to(self._plan[done], OWNER, permit=self._looking.permit)
-        else:
-            self._finish()
-            self._go_back("", now_s)
-            return
-        self._status = replace(self._status, done=done + 1)
-        self._looking.begin(now_s)
-
-    def _go_back(self, reason: str, now_s: float) -> None:
-        """Return to where it began; a refusal of that ends it where it is."""
-        self._status = replace(self._status, phase=Phase.RETURNING, reason=reason)
-        try:
-            self._looking.check()
-            self._session.go_to(self._begin, OWNER, permit=self._looking.permit)
-        except InputError as error:
-            self._end(
-                Phase.FAILED,
-                message("engine", "{reason}; the return failed: {error}").fill(
-                    reason=reason or "calibrated", error=str(error)
-                ),
+    def _continue(self, now_s: float) -> None:
+        """Start the next move after a picture; after the last picture, fit and return."""
+        next_target = self._status.pictures_taken
+        self._status = replace(self._status, pictures_taken=next_target + 1)
+        if next_target < len(self._planned_targets):
+            self._grabber.require_motion_permitted()
+            self._session.go_to(
+                self._planned_targets[next_target], CALIBRATION_OWNER, permit=self._grabber.permit
             )
-            return
-        self._looking.begin(now_s)
+            self._grabber.begin(now_s)
+        else:
+            self._fit_calibration()
+            self._start_return("", now_s)
 
-    def _end(self, phase: Phase, reason: str) -> None:
+    def _start_return(self, reason: str, now_s: float) -> None:
+        """Start the return to the start position; if that is refused, end the run at once."""
+        self._status = replace(self._status, phase=StageCalibrationPhase.RETURNING, reason=reason)
+        try:
+            self._grabber.require_motion_permitted()
+            self._session.go_to(self._start_command, CALIBRATION_OWNER, permit=self._grabber.permit)
+        except InputError as error:
+            self._end_without_return(error)
+            return
+        self._grabber.begin(now_s)
+
+    def _end_without_return(self, error: InputError) -> None:
+        """End the run because the return failed; a calibration that was found is kept."""
+        if self._status.calibration is not None:
+            text = message("engine", "the return to the start position failed: {error}")
+            self._end(StageCalibrationPhase.DONE, text.fill(error=str(error)))
+        else:
+            text = message("engine", "{reason}; the return to the start position failed: {error}")
+            self._end(
+                StageCalibrationPhase.FAILED,
+                text.fill(reason=self._status.reason, error=str(error)),
+            )
+
+    def _end(self, phase: StageCalibrationPhase, reason: str) -> None:
         self._status = replace(self._status, phase=phase, reason=reason)
 
-    # --- what is seen -----------------------------------------------------------------------------
-
-    def _observe(self, look: SettledFrame) -> None:
-        if self._first is None:
-            self._first = look, self._tip(look.image, None)
+    def _observe(self, settled: SettledFrame) -> None:
+        if self._reference is None:
+            self._reference = settled, self._find_tip(settled.image, None)
             return
-        first, tip = self._first
+        first, tip = self._reference
         if tip is not None:
-            fit = self._tip(look.image, self._expected(tip, look))
+            fit = self._find_tip(settled.image, self._predict_pixel(tip, settled))
             assert fit is not None
-            shift, spread = fit.pixel - tip.pixel, fit.covariance
+            shift, covariance = fit.pixel - tip.pixel, fit.covariance
         else:
-            found = register(first.image, look.image)
-            shift, spread = found.shift, found.covariance
-        displacement = self._tip_m(look)[:2] - self._tip_m(first)[:2]
-        seen = (*self._status.observations, Observation(displacement, shift, spread))
-        self._status = replace(self._status, observations=seen)
+            registration = register_images(first.image, settled.image)
+            shift, covariance = registration.shift, registration.covariance
+        displacement = self._compute_tip_m(settled)[:2] - self._compute_tip_m(first)[:2]
+        observations = (
+            *self._status.observations,
+            ShiftObservation(displacement, shift, covariance),
+        )
+        self._status = replace(self._status, observations=observations)
 
-    def _tip(self, image: Image, expected: FloatArray | None) -> TipFit | None:
-        """Find the tip, in the whole picture or about where it should be; None without one."""
+    def _find_tip(self, image: Image, predicted_px: FloatArray | None) -> TipFit | None:
+        """Find the tip near the predicted pixel, or in the whole picture if that is None.
+
+        Return None if the run has no pipette.
+        """
         pipette = self._pipette
         if pipette is None:
             return None
-        if expected is None:
-            fit = self._find(image, pipette)
-            # Its direction is found with it, and kept.
+        if predicted_px is None:
+            fit = self._search_whole_picture(image, pipette)
+            # The search also gives the direction of the pipette, which later searches need.
             self._pipette = replace(pipette, direction=fit.direction)
             return fit
-        half = round(_SEARCHED_PX) + 48
-        low = np.maximum(np.rint(expected).astype(int) - half, 0)
-        part = image[low[1] : low[1] + 2 * half, low[0] : low[0] + 2 * half]
-        depth = self._first[1].depth.distance if self._first and self._first[1] else 0.0
-        _, place = likeliest(part, pipette, (depth,), 2, 48)
-        found = fit_depths(image, pipette, place + low, (depth,), turning=False)
-        return find_tip(image, pipette, turning=False) if found is None else found
+        half_width = round(_SEARCH_MARGIN_PX) + _TEMPLATE_SIZE_PX
+        corner = np.maximum(np.rint(predicted_px).astype(int) - half_width, 0)
+        window_image = image[
+            corner[1] : corner[1] + 2 * half_width, corner[0] : corner[0] + 2 * half_width
+        ]
+        depth = self._reference[1].depth.distance if self._reference and self._reference[1] else 0.0
+        _, offset = find_likeliest_place(
+            window_image, pipette, (depth,), _SEARCH_FACTOR, _TEMPLATE_SIZE_PX
+        )
+        local_fit = fit_from_depths(image, pipette, offset + corner, (depth,), fit_direction=False)
+        return find_tip(image, pipette, turning=False) if local_fit is None else local_fit
 
-    def _expected(self, tip: TipFit, look: SettledFrame) -> FloatArray | None:
-        """Return where the tip should be by what was seen so far; None before that tells."""
-        seen = self._status.observations
-        if len(seen) < 3:
+    def _predict_pixel(self, tip: TipFit, settled: SettledFrame) -> FloatArray | None:
+        """Predict the tip's pixel from the observations so far.
+
+        Return None while there are fewer than three, which are too few for a fit.
+        """
+        observations = self._status.observations
+        if len(observations) < 3:
             return None
-        moves = np.stack([one.displacement for one in seen])
-        shifts = np.stack([one.shift for one in seen])
+        moves = np.stack([observation.displacement for observation in observations])
+        shifts = np.stack([observation.shift for observation in observations])
         matrix = np.linalg.lstsq(moves, shifts, rcond=None)[0]
-        assert self._first is not None
-        moved = self._tip_m(look)[:2] - self._tip_m(self._first[0])[:2]
-        return np.asarray(tip.pixel + moved @ matrix)
+        assert self._reference is not None
+        displacement = (
+            self._compute_tip_m(settled)[:2] - self._compute_tip_m(self._reference[0])[:2]
+        )
+        return np.asarray(tip.pixel + displacement @ matrix)
 
-    def _tip_m(self, look: SettledFrame) -> FloatArray:
-        """Return the tip (3,), m, by what the moved stage's sensors say, else by command."""
+    def _compute_tip_m(self, settled: SettledFrame) -> FloatArray:
+        """Return the tip position (3,), m.
+
+        The measured positions are used for the axes of the calibrated stage, except zn. The
+        commanded positions are used for zn and for all other axes.
+        """
         axes, robot = self._session.driver.axes, self._session.robot
-        places = dict(zip(axes, look.command.tolist(), strict=True))
-        for axis, value in zip(axes, look.measured.tolist(), strict=True):
+        positions = dict(zip(axes, settled.command.tolist(), strict=True))
+        for axis, value in zip(axes, settled.measured.tolist(), strict=True):
             if axis in self._axes and axis != "zn":
-                places[axis] = value - robot.axes[axis].offset
-        return tip_position(self._chain, np.array([places[axis] for axis in JOINTS]))
+                positions[axis] = value - robot.axes[axis].offset
+        return compute_tip_position(self._chain, np.array([positions[axis] for axis in JOINTS]))
 
-    def _finish(self) -> None:
-        """Fit; the last look is from where the first one was, and shows what drifted."""
-        assert self._first is not None
-        seen = self._status.observations
-        drift = float(np.linalg.norm(seen[-1].shift))
-        if drift > _MOST_DRIFT_PX:
+    def _fit_calibration(self) -> None:
+        """Fit the map of the stage.
+
+        Raises
+        ------
+        MicroscopeError
+            If the picture drifted. The first and the last picture, both taken at the start
+            position, show the drift.
+        """
+        assert self._reference is not None
+        observations = self._status.observations
+        drift = float(np.linalg.norm(observations[-1].shift))
+        if drift > _MAX_DRIFT_PX:
             raise MicroscopeError(
-                message(
-                    "engine",
-                    "the picture drifted by {drift} px during the calibration; at most "
-                    "{most} px are permitted: let stage and camera settle, reduce backlash, "
-                    "and start again",
-                ).fill(drift=fixed(drift, 1), most=rounded(_MOST_DRIFT_PX, 6))
+                "the picture drifted by {drift} px during the calibration; at most "
+                "{most} px are permitted: let stage and camera settle, reduce backlash, "
+                "and start again",
+                drift=format_fixed(drift, 1),
+                most=format_rounded(_MAX_DRIFT_PX, 6),
             )
-        first, tip = self._first
-        moves = np.stack([np.zeros(2), *(one.displacement for one in seen)])
-        shifts = np.stack([np.zeros(2), *(one.shift for one in seen)])
-        own = seen[-1].covariance if tip is None else tip.covariance
-        spreads = np.stack([own, *(one.covariance for one in seen)])
-        fit = fit_stage(moves, shifts, spreads)
-        at_px = np.zeros(2) if tip is None else tip.pixel + fit.offset
+        first, tip = self._reference
+        moves = np.stack([np.zeros(2), *(observation.displacement for observation in observations)])
+        shifts = np.stack([np.zeros(2), *(observation.shift for observation in observations)])
+        first_covariance = observations[-1].covariance if tip is None else tip.covariance
+        covariances = np.stack(
+            [first_covariance, *(observation.covariance for observation in observations)]
+        )
+        fit = fit_stage(moves, shifts, covariances)
+        tip_px = np.zeros(2) if tip is None else tip.pixel + fit.offset
         self._status = replace(
             self._status,
             fit=fit,
-            calibration=StageCalibration.of(
-                fit, self._today(), self._tip_m(first), np.asarray(at_px)
+            calibration=StageCalibration.from_fit(
+                fit, self._read_date(), self._compute_tip_m(first), np.asarray(tip_px)
             ),
         )

@@ -5,28 +5,36 @@ from enum import StrEnum
 
 import numpy as np
 
+from rotemina.app.errors import MicroscopeError
 from rotemina.app.microscope.calibration_file import NANO
-from rotemina.app.microscope.click_target import ClickToMove, PlannedMove
-from rotemina.app.microscope.errors import MicroscopeError
-from rotemina.app.microscope.settled_frame import Newest, SettledFrame, SettledFrameGrabber
-from rotemina.drivers.gate import Permit
+from rotemina.app.microscope.click_target import ClickMover, PlannedMove
+from rotemina.app.microscope.settled_frame import FrameSource, SettledFrame, SettledFrameGrabber
+from rotemina.drivers.contract import Permit
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
-from rotemina.sim.messages import message
-from rotemina.sim.quantities import fixed, rounded
-from rotemina.sim.vision.image import Image, relative_to
-from rotemina.sim.vision.tip import likeliest, plausible
-from rotemina.sim.vision.tip_fit import fit_tip
-from rotemina.sim.vision.tracking import TipTrack
+from rotemina.sim.messages import format_fixed, format_rounded
+from rotemina.sim.vision import (
+    Image,
+    TipTrack,
+    divide_by_background,
+    find_likeliest_place,
+    fit_tip,
+    is_plausible,
+)
 
-TOLERANCE_PX = 0.3
-CORRECTIONS = 4
-_MOST_CORRECTION_PX = 30.0  # farther off than this is no matter of refinement
-_LOOKED_PX = 48
-_COVERED = 0.02  # share of a pixel that a pipette may still shade
+ARRIVAL_TOLERANCE_PX = 0.3
+MAX_CORRECTIONS = 4
+# A larger miss means that the calibration is wrong, so it is not corrected.
+_MAX_CORRECTION_PX = 30.0
+# Side length of the tip template. The search window extends two side lengths in each direction.
+_TEMPLATE_SIZE_PX = 48
+# The search evaluates one of this many columns and rows.
+_SEARCH_FACTOR = 2
+# A pixel counts as uncovered if the pipette blocks at most this fraction of its light.
+_MAX_BLOCKED_FRACTION = 0.02
 
 
-class Visit(StrEnum):
+class VisitState(StrEnum):
     """The state of a visit to a clicked point."""
 
     UNDER_WAY = "under way"
@@ -36,36 +44,43 @@ class Visit(StrEnum):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class VisitStatus:
-    """Status for display: the latest miss (2,), px, seen after so many corrections."""
+    """Status of a visit, for display.
 
-    visit: Visit
+    ``miss_px`` (2,) is the vector from the tip to the clicked point. ``corrections`` is the number
+    of corrections so far.
+    """
+
+    state: VisitState
     corrections: int = 0
-    miss: FloatArray | None = None
+    miss_px: FloatArray | None = None
     reason: str = ""
 
 
-class ClickRun:
-    """Goes to a planned place, looks where the tip is, and corrects until it is there.
+class VisitRun:
+    """A visit: makes a planned move, finds the tip, and corrects until the tip is at the goal.
 
-    Somebody calls :meth:`step`.
+    The owner calls :meth:`step`.
 
     Parameters
     ----------
-    clicks : ClickToMove
-    newest : callable
-        The camera's newest picture.
+    mover : ClickMover
+    newest_frame : callable
+        Returns the camera's newest picture.
     move : PlannedMove
     track : TipTrack
-        What the tip looks like, as it was seen before the move.
+        Appearance of the tip before the move.
     now_s : float
-    before : image, optional
-        The picture in which it was seen. Where the tip goes to a place that it does not cover
-        there, that place is known without the tip, and a cell beneath it misleads nobody.
+        Host time.
+    earlier_image : image, optional
+        The picture before the move. If the tip does not cover the goal in this picture, the picture
+        serves as the background at the goal, so that a cell under the tip does not disturb the
+        search.
     confirmed : bool
-    clear : bool
-        Whether ``before`` shows the goal without the tip for certain.
+        Whether the operator has confirmed a large move.
+    earlier_is_clear : bool
+        Whether ``earlier_image`` is certain to show the goal without the tip.
     permit : Permit, optional
-        Of the request; every move goes with it.
+        Issued with the request; every move uses it.
 
     Raises
     ------
@@ -75,117 +90,124 @@ class ClickRun:
 
     def __init__(
         self,
-        clicks: ClickToMove,
-        newest: Newest,
+        mover: ClickMover,
+        newest_frame: FrameSource,
         move: PlannedMove,
         track: TipTrack,
         *,
         now_s: float,
-        before: Image | None = None,
+        earlier_image: Image | None = None,
         confirmed: bool = False,
-        clear: bool = False,
+        earlier_is_clear: bool = False,
         permit: Permit | None = None,
     ) -> None:
-        self._clicks, self._goal, self._stage = clicks, move.pixel, move.stage
-        self._track, self._ghost, self._before = track, move.ghost, before
-        self._clear = clear
-        self._looking = SettledFrameGrabber(clicks.session, newest, permit=permit)
-        clicks.go(move, confirmed=confirmed, permit=self._looking.permit)
-        self._looking.begin(now_s)
-        self.status = VisitStatus(Visit.UNDER_WAY)
+        self._mover, self._goal_px, self._stage = mover, move.pixel, move.stage
+        self._track, self._expected_px, self._earlier_image = (
+            track,
+            move.predicted_px,
+            earlier_image,
+        )
+        self._shows_goal_uncovered = earlier_is_clear
+        self._grabber = SettledFrameGrabber(mover.session, newest_frame, permit=permit)
+        mover.go(move, confirmed=confirmed, permit=self._grabber.permit)
+        self._grabber.begin(now_s)
+        self.status = VisitStatus(VisitState.UNDER_WAY)
 
     def step(self, now_s: float) -> VisitStatus:
-        """Advance; never raises for what a device or a camera does."""
+        """Advance the run; a failure of a device or a camera ends the run and raises nothing."""
         if self.ended:
             return self.status
         try:
-            look = self._looking.step(now_s)
-            if look is not None:
-                self._judge(look, now_s)
+            settled = self._grabber.step(now_s)
+            if settled is not None:
+                self._evaluate_picture(settled, now_s)
         except InputError as error:
-            self.status = replace(self.status, visit=Visit.FAILED, reason=str(error))
+            self.status = replace(self.status, state=VisitState.FAILED, reason=str(error))
         return self.status
 
     @property
     def ended(self) -> bool:
         """Whether the run has ended."""
-        return self.status.visit is not Visit.UNDER_WAY
+        return self.status.state is not VisitState.UNDER_WAY
 
     def abort(self, reason: str) -> None:
-        """Stop the machine and end; it stays where it is."""
+        """Stop the machine, which stays where it is, and end the run."""
         if not self.ended:
-            self._clicks.session.stop(reason)
-            self.status = replace(self.status, visit=Visit.FAILED, reason=reason)
+            self._mover.session.stop(reason)
+            self.status = replace(self.status, state=VisitState.FAILED, reason=reason)
 
-    def _judge(self, look: SettledFrame, now_s: float) -> None:
-        tip = self._seen(look)
-        miss = self._goal - tip
-        self.status = replace(self.status, miss=miss)
+    def _evaluate_picture(self, settled: SettledFrame, now_s: float) -> None:
+        tip = self._find_tip(settled)
+        miss = self._goal_px - tip
+        self.status = replace(self.status, miss_px=miss)
         distance = float(np.linalg.norm(miss))
-        if distance <= TOLERANCE_PX:
-            self.status = replace(self.status, visit=Visit.ARRIVED)
+        if distance <= ARRIVAL_TOLERANCE_PX:
+            self.status = replace(self.status, state=VisitState.ARRIVED)
             return
-        if distance > _MOST_CORRECTION_PX:
+        if distance > _MAX_CORRECTION_PX:
             raise MicroscopeError(
-                message(
-                    "engine",
-                    "the tip is {distance} px from its target, but at most {most} px are "
-                    "permitted after a move; the calibration is no longer valid: calibrate "
-                    "again",
-                ).fill(distance=fixed(distance, 0), most=fixed(_MOST_CORRECTION_PX, 0))
+                "the tip is {distance} px from its target, but at most {most} px are "
+                "permitted after a move; the calibration is no longer valid: calibrate "
+                "again",
+                distance=format_fixed(distance, 0),
+                most=format_fixed(_MAX_CORRECTION_PX, 0),
             )
-        if self.status.corrections >= CORRECTIONS:
+        if self.status.corrections >= MAX_CORRECTIONS:
             raise MicroscopeError(
-                message(
-                    "engine",
-                    "the tip is still {distance} px off after {n} corrections; at most "
-                    "{most} px are permitted: the stage drifts, or its resolution is too coarse",
-                ).fill(
-                    distance=fixed(distance, 2),
-                    n=CORRECTIONS,
-                    most=rounded(TOLERANCE_PX, 6),
-                )
+                "the tip is still {distance} px off after {n} corrections; at most "
+                "{most} px are permitted: the stage drifts, or its resolution is too coarse",
+                distance=format_fixed(distance, 2),
+                n=MAX_CORRECTIONS,
+                most=format_rounded(ARRIVAL_TOLERANCE_PX, 6),
             )
-        self._ghost = self._goal
-        move = self._correction(tip)
-        self._looking.check()
-        self._clicks.go(move, permit=self._looking.permit)
+        self._expected_px = self._goal_px
+        move = self._plan_correction(tip)
+        self._grabber.require_motion_permitted()
+        self._mover.go(move, permit=self._grabber.permit)
         self.status = replace(self.status, corrections=self.status.corrections + 1)
-        self._looking.begin(now_s)
+        self._grabber.begin(now_s)
 
-    def _correction(self, tip: FloatArray) -> PlannedMove:
-        """Correct with the nano stage where it is calibrated and reaches."""
-        return self._clicks.plan(
-            self._goal, stage=NANO if self._stage == NANO else None, tip_px=tip
+    def _plan_correction(self, tip: FloatArray) -> PlannedMove:
+        """Plan a correction with the nano stage if the move used it; else the mover chooses."""
+        return self._mover.plan(
+            self._goal_px, stage=NANO if self._stage == NANO else None, tip_px=tip
         )
 
-    def _seen(self, look: SettledFrame) -> FloatArray:
-        """Find the tip about where it should be."""
+    def _find_tip(self, settled: SettledFrame) -> FloatArray:
+        """Return the pixel (2,) of the tip, searched near the expected pixel."""
         track = self._track
-        middle = np.rint(self._ghost).astype(int)
-        low = np.maximum(middle - 2 * _LOOKED_PX, 0)
-        high = np.minimum(middle + 2 * _LOOKED_PX, look.image.shape[::-1])
-        window = slice(low[1], high[1]), slice(low[0], high[0])
-        part, depth = self._alone(look.image[window], window), track.depth.distance
-        score, place = likeliest(part, track.pipette, (depth,), 2, _LOOKED_PX)
-        fit = fit_tip(part, track.pipette, place, depth) if score > 0.0 else None
-        if fit is None or not plausible(fit):
+        centre = np.rint(self._expected_px).astype(int)
+        begin = np.maximum(centre - 2 * _TEMPLATE_SIZE_PX, 0)
+        end = np.minimum(centre + 2 * _TEMPLATE_SIZE_PX, settled.image.shape[::-1])
+        window = slice(begin[1], end[1]), slice(begin[0], end[0])
+        window_image = self._remove_background(settled.image[window], window)
+        depth = track.depth.distance
+        score, offset = find_likeliest_place(
+            window_image, track.pipette, (depth,), _SEARCH_FACTOR, _TEMPLATE_SIZE_PX
+        )
+        fit = fit_tip(window_image, track.pipette, offset, depth) if score > 0.0 else None
+        if fit is None or not is_plausible(fit):
             raise MicroscopeError(
-                message(
-                    "engine",
-                    "the tip is not visible near {column}, {row} px, where it should be; "
-                    "motion has ended: check the picture",
-                ).fill(column=fixed(self._ghost[0], 0), row=fixed(self._ghost[1], 0))
+                "the tip is not visible near {column}, {row} px, where it should be; no "
+                "further moves are made: check the picture",
+                column=format_fixed(self._expected_px[0], 0),
+                row=format_fixed(self._expected_px[1], 0),
             )
-        return np.asarray(fit.pixel + low)
+        return np.asarray(fit.pixel + begin)
 
-    def _alone(self, part: Image, window: tuple[slice, slice]) -> Image:
-        """Return the part without what was there before, if the tip was not."""
-        before, track = self._before, self._track
-        if before is None or before[window].shape != part.shape:
-            return part
-        if self._clear:
-            return relative_to(part, before[window])
+    def _remove_background(self, window_image: Image, window: tuple[slice, slice]) -> Image:
+        """Divide the window by the earlier picture, unless the tip covers the window in it."""
+        earlier_image, track = self._earlier_image, self._track
+        if earlier_image is None or earlier_image[window].shape != window_image.shape:
+            return window_image
+        if self._shows_goal_uncovered:
+            return divide_by_background(window_image, earlier_image[window])
         corner = np.array([window[1].start, window[0].start])
-        covered = track.pipette.drawn(track.pixel - corner, track.depth.distance, part.shape)[0]
-        return part if covered.max() > _COVERED else relative_to(part, before[window])
+        shading = track.pipette.draw(
+            track.pixel - corner, track.depth.distance, window_image.shape
+        )[0]
+        return (
+            window_image
+            if shading.max() > _MAX_BLOCKED_FRACTION
+            else divide_by_background(window_image, earlier_image[window])
+        )

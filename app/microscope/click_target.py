@@ -1,70 +1,77 @@
 """Conversion of a click in the picture into a move of the tip.
 
-A pixel becomes a displacement of the tip through the calibration, and that becomes targets of the
-stage's axes: the tables' x and y, or thx, thy (and zn, which keeps the height) within their range.
-Limits and keep-out are the session's.
+The calibration converts a pixel into a displacement of the tip. The displacement is converted into
+targets of the stage's axes: x and y of the micro stage, or thx and thy of the nano stage, with zn
+to keep the height. The targets lie within the ranges of the axes. The session checks limits and
+keep-out.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from rotemina.app.microscope.calibration_file import MICRO, NANO, MicroscopeCalibration, View
-from rotemina.app.microscope.errors import MicroscopeError
+from rotemina.app.errors import MicroscopeError
+from rotemina.app.microscope.calibration_file import (
+    MICRO,
+    NANO,
+    CalibratedRegion,
+    MicroscopeCalibration,
+)
 from rotemina.app.motion.session import MotionSession
-from rotemina.drivers.cameras.frame import Frame
-from rotemina.drivers.gate import Permit
+from rotemina.drivers.cameras import CameraFrame
+from rotemina.drivers.contract import Permit
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.kinematics.chain import JOINTS, Chain
-from rotemina.sim.kinematics.forward import tip_position
-from rotemina.sim.kinematics.inverse import solve_nano
-from rotemina.sim.messages import message
-from rotemina.sim.quantities import exact, fixed
-from rotemina.sim.trajectory.axis_limits import OutOfLimitsError, check_target
+from rotemina.sim.errors import OutOfLimitsError
+from rotemina.sim.kinematics import JOINTS, KinematicChain, compute_tip_position, solve_nano
+from rotemina.sim.messages import format_fixed
+from rotemina.sim.trajectory import check_target
+from rotemina.sim.units import format_exact
 
-OWNER = "click"
-CONFIRM_M = 100e-6  # moves of the tip beyond this are confirmed first
+CLICK_OWNER = "click"
+# The operator must confirm a move of the tip that is longer than this.
+MIN_CONFIRMED_MOVE_M = 100e-6
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PlannedMove:
-    """The planned move for a click; nothing has moved.
+    """The planned move for a click; nothing has moved yet.
 
     Attributes
     ----------
     pixel : (2,)
-        Where it was clicked.
+        The clicked pixel.
     ghost : (2,)
-        Where the tip would be seen, px.
+        The pixel at which the tip should be seen after the move.
     uncertainty_px : float
-        By how much the calibration alone may miss.
+        Uncertainty of ``ghost`` due to the calibration, px.
     stage : str
+        ``micro`` or ``nano``.
     targets : dict axis -> float
-        m or rad.
+        Axis targets, m or rad.
     distance : float
-        Of the tip's way, m.
-    confirm : bool
-        Whether the move is so large that it must be confirmed.
+        Distance that the tip moves, m.
+    needs_confirmation : bool
+        Whether the move is so large that the operator must confirm it.
     """
 
     pixel: FloatArray
-    ghost: FloatArray
+    predicted_px: FloatArray
     uncertainty_px: float
     stage: str
     targets: dict[str, float]
     distance: float
-    confirm: bool
+    needs_confirmation: bool
 
 
-class ClickToMove:
-    """Plans moves and sends them.
+class ClickMover:
+    """Plans the moves for clicks, and sends them to the session.
 
     Parameters
     ----------
     session : MotionSession
     calibration : MicroscopeCalibration or None
     confirm_m : float
-        The tip's way beyond which :meth:`go` wants a confirmation.
+        :meth:`go` requires a confirmation if the tip moves farther than this, m.
     """
 
     def __init__(
@@ -72,22 +79,26 @@ class ClickToMove:
         session: MotionSession,
         calibration: MicroscopeCalibration | None,
         *,
-        confirm_m: float = CONFIRM_M,
+        confirm_m: float = MIN_CONFIRMED_MOVE_M,
     ) -> None:
         self.session = session
         self.calibration = calibration
         self.confirm_m = confirm_m
-        self._chain = Chain.of(session.robot)
+        self._chain = KinematicChain.of(session.robot)
 
-    def tip_pixel(self, stage: str = MICRO) -> FloatArray:
-        """Return where the tip should be seen now by calibration and commands, px.
+    def predict_tip_pixel(self, stage: str = MICRO) -> FloatArray:
+        """Predict the tip's pixel (2,) from the calibration and the commanded position.
 
         Raises
         ------
         MicroscopeError
-            If the stage is not calibrated, or no position is known.
+            If the stage is not calibrated, or the position is unknown.
         """
-        return self._calibrated().stage(stage).pixel_of(tip_position(self._chain, self._joints()))
+        return (
+            self._require_calibration()
+            .get_stage(stage)
+            .predict_pixel(compute_tip_position(self._chain, self._read_joints()))
+        )
 
     def plan(
         self,
@@ -95,147 +106,142 @@ class ClickToMove:
         *,
         stage: str | None = None,
         tip_px: FloatArray | None = None,
-        frame: Frame | None = None,
+        frame: CameraFrame | None = None,
     ) -> PlannedMove:
         """Plan the move for a click.
 
         Parameters
         ----------
         pixel : (2,)
-            Where the tip is to go.
+            The clicked pixel, the goal of the tip.
         stage : str, optional
-            ``micro`` or ``nano``; by default nano where it is calibrated and reaches, else micro.
+            ``micro`` or ``nano``; by default nano if it is calibrated and reaches the goal,
+            otherwise micro.
         tip_px : (2,), optional
-            Where the tip is seen now; by default where it should be.
-        frame : Frame, optional
-            The picture that was clicked in: it must show what was calibrated.
+            Current pixel of the tip; by default the predicted one.
+        frame : CameraFrame, optional
+            The picture in which the user clicked; it must show the calibrated region.
 
         Raises
         ------
         MicroscopeError
             If nothing is calibrated, or the click is outside the calibrated field.
         OutOfLimitsError
-            If an axis does not reach.
+            If an axis does not reach its target.
         """
-        calibration = self._calibrated()
+        calibration = self._require_calibration()
         _check_click(np.asarray(pixel, dtype=np.float64), calibration.view, frame)
         if stage is not None:
-            return self._planned(np.asarray(pixel, dtype=np.float64), stage, tip_px)
+            return self._plan_for_stage(np.asarray(pixel, dtype=np.float64), stage, tip_px)
         if calibration.nano is not None:
             try:
-                return self._planned(np.asarray(pixel, dtype=np.float64), NANO, tip_px)
+                return self._plan_for_stage(np.asarray(pixel, dtype=np.float64), NANO, tip_px)
             except OutOfLimitsError:
                 if calibration.micro is None:
                     raise
-        return self._planned(np.asarray(pixel, dtype=np.float64), MICRO, tip_px)
+        return self._plan_for_stage(np.asarray(pixel, dtype=np.float64), MICRO, tip_px)
 
     def go(
         self, move: PlannedMove, *, confirmed: bool = False, permit: Permit | None = None
     ) -> None:
-        """Send a planned move, with the permit of the plan that it is a part of.
+        """Send a planned move with the permit of the run that it belongs to.
 
         Raises
         ------
         MicroscopeError
-            If it must be confirmed and was not.
-        OutOfLimitsError, RefusedError
-            What the session says: keep-out, owners, locks.
+            If the move needs a confirmation and has none.
+        OutOfLimitsError, RequestRefusedError
+            If the session refuses it because of limits, keep-out, ownership or a lock.
         """
         if not confirmed:
-            self.check(move)
-        self.session.go_to(move.targets, OWNER, permit=permit)
+            self.require_confirmation(move)
+        self.session.go_to(move.targets, CLICK_OWNER, permit=permit)
 
-    def check(self, move: PlannedMove) -> None:
-        """Refuse a move that must be confirmed, with MicroscopeError."""
-        if move.confirm:
+    def require_confirmation(self, move: PlannedMove) -> None:
+        """Raise MicroscopeError if the move needs a confirmation."""
+        if move.needs_confirmation:
             raise MicroscopeError(
-                message(
-                    "engine",
-                    "the tip would move {distance}, more than {confirm_m}; confirm the move first",
-                ).fill(distance=exact(move.distance, "m"), confirm_m=exact(self.confirm_m, "m"))
+                "the tip would move {distance}, more than {confirm_m}; confirm the move first",
+                distance=format_exact(move.distance, "m"),
+                confirm_m=format_exact(self.confirm_m, "m"),
             )
 
-    def _calibrated(self) -> MicroscopeCalibration:
+    def _require_calibration(self) -> MicroscopeCalibration:
         if self.calibration is None:
             raise MicroscopeError(
-                message(
-                    "engine",
-                    "the camera is not calibrated with this objective; calibrate it before "
-                    "clicking",
-                )
+                "the camera is not calibrated with this objective; calibrate it before clicking"
             )
         return self.calibration
 
-    def _joints(self) -> FloatArray:
+    def _read_joints(self) -> FloatArray:
         command = self.session.snapshot().command
         if not command:
-            raise MicroscopeError(
-                message("engine", "no position is known; connect the machine first")
-            )
+            raise MicroscopeError("no position is known; connect the machine first")
         return np.array([command[axis] for axis in JOINTS])
 
-    def _planned(self, pixel: FloatArray, stage: str, tip_px: FloatArray | None) -> PlannedMove:
-        known = self._calibrated().stage(stage)
-        joints = self._joints()
-        here = self.tip_pixel(stage) if tip_px is None else np.asarray(tip_px, dtype=np.float64)
-        moved = known.map.displacement(pixel - here)
-        targets = self._targets(stage, joints, moved)
+    def _plan_for_stage(
+        self, pixel: FloatArray, stage: str, tip_px: FloatArray | None
+    ) -> PlannedMove:
+        calibration = self._require_calibration().get_stage(stage)
+        joints = self._read_joints()
+        tip_now_px = (
+            self.predict_tip_pixel(stage)
+            if tip_px is None
+            else np.asarray(tip_px, dtype=np.float64)
+        )
+        displacement = calibration.map.displacement_of(pixel - tip_now_px)
+        targets = self._compute_targets(stage, joints, displacement)
         for axis, target in targets.items():
             check_target(self.session.robot, axis, target)
-        there = joints.copy()
+        target_joints = joints.copy()
         for axis, target in targets.items():
-            there[JOINTS.index(axis)] = target
-        tips = (tip_position(self._chain, places) for places in (there, joints))
-        way = next(tips) - next(tips)
-        distance = float(np.linalg.norm(way))
+            target_joints[JOINTS.index(axis)] = target
+        tip_move_m = compute_tip_position(self._chain, target_joints) - compute_tip_position(
+            self._chain, joints
+        )
+        distance = float(np.linalg.norm(tip_move_m))
         return PlannedMove(
             pixel=pixel,
-            ghost=here + known.map.pixels(way[:2]),
-            uncertainty_px=known.map.uncertainty_px(way[:2]),
+            predicted_px=tip_now_px + calibration.map.shift_of(tip_move_m[:2]),
+            uncertainty_px=calibration.map.uncertainty_px(tip_move_m[:2]),
             stage=stage,
             targets=targets,
             distance=distance,
-            confirm=distance > self.confirm_m,
+            needs_confirmation=distance > self.confirm_m,
         )
 
-    def _targets(self, stage: str, joints: FloatArray, moved: FloatArray) -> dict[str, float]:
+    def _compute_targets(
+        self, stage: str, joints: FloatArray, displacement: FloatArray
+    ) -> dict[str, float]:
         if stage == MICRO:
-            return {axis: float(joints[i] + moved[i]) for i, axis in enumerate(("x", "y"))}
-        goal = tip_position(self._chain, joints) + np.append(moved, 0.0)
-        solved = solve_nano(self._chain, goal, joints)
-        return {axis: float(solved[JOINTS.index(axis)]) for axis in ("thx", "thy", "zn")}
+            return {axis: float(joints[i] + displacement[i]) for i, axis in enumerate(("x", "y"))}
+        goal = compute_tip_position(self._chain, joints) + np.append(displacement, 0.0)
+        solution = solve_nano(self._chain, goal, joints)
+        return {axis: float(solution[JOINTS.index(axis)]) for axis in ("thx", "thy", "zn")}
 
 
-def _check_click(pixel: FloatArray, view: View, frame: Frame | None) -> None:
-    if frame is not None and View.of(frame.region) != view:
-        shown = frame.region
+def _check_click(pixel: FloatArray, view: CalibratedRegion, frame: CameraFrame | None) -> None:
+    if frame is not None and CalibratedRegion.from_region(frame.region) != view:
+        region = frame.region
         raise MicroscopeError(
-            message(
-                "engine",
-                "the camera shows {width} × {height} px from {left}, {top}, but the "
-                "calibration is for {view_width} × {view_height} px from {view_left}, "
-                "{view_top}; restore the region of the camera, or calibrate again",
-            ).fill(
-                width=shown.width,
-                height=shown.height,
-                left=shown.left,
-                top=shown.top,
-                view_width=view.width,
-                view_height=view.height,
-                view_left=view.left,
-                view_top=view.top,
-            )
+            "the camera shows {width} × {height} px from {left}, {top}, but the "
+            "calibration is for {view_width} × {view_height} px from {view_left}, "
+            "{view_top}; restore the region of the camera, or calibrate again",
+            width=region.width,
+            height=region.height,
+            left=region.left,
+            top=region.top,
+            view_width=view.width,
+            view_height=view.height,
+            view_left=view.left,
+            view_top=view.top,
         )
-    if not (np.isfinite(pixel).all() and view.holds(pixel)):
+    if not (np.isfinite(pixel).all() and view.contains(pixel)):
         raise MicroscopeError(
-            message(
-                "engine",
-                "the click at {x}, {y} px is outside the calibrated field, 0 to {width} "
-                "and 0 to {height} px; click inside",
-            ).fill(
-                x=fixed(pixel[0], 0),
-                y=fixed(pixel[1], 0),
-                width=view.width - 1,
-                height=view.height - 1,
-            )
+            "the click at {x}, {y} px is outside the calibrated field, 0 to {width} "
+            "and 0 to {height} px; click inside",
+            x=format_fixed(pixel[0], 0),
+            y=format_fixed(pixel[1], 0),
+            width=view.width - 1,
+            height=view.height - 1,
         )

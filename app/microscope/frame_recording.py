@@ -1,25 +1,27 @@
-"""Writes frame times and the tip into the running recording."""
+"""Recording of frame times and the tracked tip."""
 
 from collections.abc import Callable
 
 from rotemina.app.microscope.calibration_file import MicroscopeCalibration
-from rotemina.app.microscope.measurements import CHANNEL, tip_columns
-from rotemina.app.microscope.tip_tracker import Tracked
-from rotemina.app.motion.recording.session_recorder import SessionRecorder
-from rotemina.drivers.cameras.frame import Frame
+from rotemina.app.microscope.measurements import TIP_CHANNEL, make_tip_columns
+from rotemina.app.microscope.tip_tracker import TrackingResult
+from rotemina.app.motion.recording import SessionRecorder
+from rotemina.drivers.cameras import CameraFrame
 
-FRAMES = "frames"
+FRAMES_CHANNEL = "frames"
 
 
-class FrameRecording:
-    """Hands on what is seen; on the threads of camera and tracker, and never waits.
+class FrameRecorder:
+    """Writes frame times and tip positions to the running recording.
+
+    The methods are called on the threads of the camera and the tracker, and never wait.
 
     Parameters
     ----------
     recorder : callable
-        Return what records now, or None.
+        Returns the running recorder, or None.
     calibration : callable
-        Return what is known of camera and objective, or None.
+        Returns the calibration of camera and objective, or None.
     """
 
     def __init__(
@@ -27,30 +29,34 @@ class FrameRecording:
         recorder: Callable[[], SessionRecorder | None],
         calibration: Callable[[], MicroscopeCalibration | None],
     ) -> None:
-        self._recorder, self._calibration = recorder, calibration
+        self._get_recorder, self._get_calibration = recorder, calibration
 
-    def frame(self, frame: Frame) -> None:
-        """Record the arrival of a picture, with all numbers of the camera.
+    def record_frame(self, frame: CameraFrame) -> None:
+        """Record the arrival of a picture, with all numeric metadata of the camera.
 
-        A camera's own time is among those, where it tells one.
+        They include the time on the camera's clock, if the camera reports it.
         """
-        recorder = self._recorder()
+        recorder = self._get_recorder()
         if recorder is None:
             return
-        told = {
+        camera_values = {
             name: float(value)
             for name, value in frame.metadata.items()
             if isinstance(value, bool | int | float)
         }
         exposure = {} if frame.exposure_s is None else {"exposure [s]": frame.exposure_s}
-        known = {"number": float(frame.number), "lost": float(frame.lost)}
-        recorder.record(FRAMES, frame.host_time_s, {**told, **known, **exposure})
+        counters = {"number": float(frame.number), "lost": float(frame.lost)}
+        recorder.record_values(
+            FRAMES_CHANNEL, frame.host_time_s, {**camera_values, **counters, **exposure}
+        )
 
-    def tip(self, tracked: Tracked) -> None:
-        """Record where the tip is in a picture; NaN while it is lost."""
-        recorder, frame, track = self._recorder(), tracked.frame, tracked.track
+    def record_tip(self, result: TrackingResult) -> None:
+        """Record the position of the tip in a picture; NaN while the tip is lost."""
+        recorder, frame, track = self._get_recorder(), result.frame, result.track
         if recorder is None or frame is None or track is None:
             return
-        known = self._calibration()
-        columns = tip_columns(track, None if known is None else known.micro)
-        recorder.record(CHANNEL, frame.host_time_s, {**columns, "frame": float(frame.number)})
+        calibration = self._get_calibration()
+        columns = make_tip_columns(track, None if calibration is None else calibration.micro)
+        recorder.record_values(
+            TIP_CHANNEL, frame.host_time_s, {**columns, "frame": float(frame.number)}
+        )

@@ -1,60 +1,66 @@
-"""Tracked positions as numbers for recordings, and as an independent ``ref`` for records.
+"""Tracked tip positions as columns of a recording, and as the ``ref`` signal of a record.
 
-A tip in the picture gives x and y through the calibration, and the depth through its blur. With
-one axis moving and the others as commanded, the kinematics turn that into the axis' true place:
+The pixel of the tip gives x and y through the calibration, and its blur gives the depth. If only
+one axis moves and the others are at their commanded positions, the kinematics give the true
+position of that axis:
 
-    x, y: the tip's less the pin's;   thy = arcsin(Δx / (L cos thx)),   thx = −arcsin(Δy / L)
-    z, zn: from the depth, whose uncertainty is that of blur
+    x, y: tip position minus the vector from the pivot to the tip
+    thy = arcsin(Δx / (L cos thx)),   thx = −arcsin(Δy / L)
+    z, zn: from the depth, with the uncertainty of the blur
 
-with the pin's signed length ``L = zn − pin_length``.
+Here Δx and Δy are the tip position minus the pivot position, and ``L = zn − pin_length`` is the
+signed distance from the pivot to the tip along the pin.
 """
 
 from collections.abc import Mapping
 
 import numpy as np
 
+from rotemina.app.errors import MicroscopeError
 from rotemina.app.microscope.calibration_file import StageCalibration
-from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.kinematics.chain import JOINTS, Chain
-from rotemina.sim.kinematics.forward import tip_from_pivot
+from rotemina.sim.kinematics import JOINTS, KinematicChain, compute_tip_from_pivot
 from rotemina.sim.messages import message
-from rotemina.sim.records.record import REFERENCE_NOISE, Record, Tap
-from rotemina.sim.vision.tracking import TipTrack
+from rotemina.sim.records import (
+    REFERENCE_NOISE_KEY,
+    Record,
+    Tap,
+)
+from rotemina.sim.vision import TipTrack
 
-CHANNEL = "tip"
-_UM = 1e6
+TIP_CHANNEL = "tip"
+_UM_PER_M = 1e6
 
 
-def tip_columns(track: TipTrack, calibration: StageCalibration | None) -> dict[str, float]:
-    """Return what a recording keeps of a tip, by column; positions in µm, ``sd`` their doubts.
+def make_tip_columns(track: TipTrack, calibration: StageCalibration | None) -> dict[str, float]:
+    """Return the values of a tracked tip for one row of a recording, by column name.
 
-    ``x`` and ``y`` are NaN where nothing is calibrated. All are NaN while the tip is lost, but
-    ``quality``, which is 0 then. ``z`` is the distance from focus; ``z sign known`` is 0 where its
-    sign may as well be the other one.
+    ``x`` and ``y`` are NaN without a calibration. ``z`` is the distance from focus; ``z sign
+    known`` is 0 if its sign is ambiguous. The ``sd`` columns are standard deviations. While the tip
+    is lost, all values are NaN except ``quality``, which is 0.
     """
     if track.lost:
-        return {**dict.fromkeys(_COLUMNS, float("nan")), "quality": 0.0}
-    tip_m, spread = np.full(2, np.nan), np.full((2, 2), np.nan)
+        return {**dict.fromkeys(_TIP_COLUMNS, float("nan")), "quality": 0.0}
+    tip_m, tip_covariance = np.full(2, np.nan), np.full((2, 2), np.nan)
     if calibration is not None:
-        tip_m, spread = tip_in_plane(track.pixel, track.covariance, calibration)
-    doubts = np.sqrt(np.diag(spread))
+        tip_m, tip_covariance = compute_tip_xy(track.pixel, track.covariance, calibration)
+    deviations_m = np.sqrt(np.diag(tip_covariance))
     values = (
-        float(tip_m[0]) * _UM,
-        float(tip_m[1]) * _UM,
-        track.depth.distance * _UM,
-        float(doubts[0]) * _UM,
-        float(doubts[1]) * _UM,
-        track.depth.uncertainty * _UM,
+        float(tip_m[0]) * _UM_PER_M,
+        float(tip_m[1]) * _UM_PER_M,
+        track.depth.distance * _UM_PER_M,
+        float(deviations_m[0]) * _UM_PER_M,
+        float(deviations_m[1]) * _UM_PER_M,
+        track.depth.uncertainty * _UM_PER_M,
         float(track.pixel[0]),
         float(track.pixel[1]),
         float(track.depth.sign_known),
         track.quality,
     )
-    return dict(zip(_COLUMNS, values, strict=True))
+    return dict(zip(_TIP_COLUMNS, values, strict=True))
 
 
-_COLUMNS = (
+_TIP_COLUMNS = (
     "x [um]",
     "y [um]",
     "z [um]",
@@ -68,64 +74,69 @@ _COLUMNS = (
 )
 
 
-def tip_in_plane(
+def compute_tip_xy(
     pixel: FloatArray, covariance: FloatArray, calibration: StageCalibration
 ) -> tuple[FloatArray, FloatArray]:
-    """Return x and y (..., 2), m, of tips seen at ``pixel`` (..., 2), and their covariance.
+    """Return x and y (..., 2), m, of tips at ``pixel`` (..., 2), and their covariance, m².
 
-    Both doubts count: that of the pixel, ``covariance`` (..., 2, 2), and the calibration's.
+    The result includes the covariance of the pixel, ``covariance`` (..., 2, 2), px², and the
+    covariance of the calibration.
     """
-    mapped = calibration.map
-    inverse = np.linalg.inv(mapped.matrix)
-    moved = mapped.displacement(np.asarray(pixel) - np.array(calibration.tip_px))
-    # By how much the map's doubt moves a pixel so far away.
-    away = np.einsum("ij,...k->...ijk", np.eye(2), moved)
-    jacobian = away.reshape(*moved.shape[:-1], 2, 4)
-    own = jacobian @ mapped.covariance @ np.swapaxes(jacobian, -1, -2)
-    spread = inverse @ (covariance + own) @ inverse.T
-    return np.array(calibration.tip_m)[:2] + moved, np.asarray(spread)
+    stage_map = calibration.map
+    inverse = np.linalg.inv(stage_map.matrix)
+    displacement = stage_map.displacement_of(np.asarray(pixel) - np.array(calibration.tip_px))
+    # Derivative of the pixel with respect to the elements of the map's matrix.
+    derivatives = np.einsum("ij,...k->...ijk", np.eye(2), displacement)
+    jacobian = derivatives.reshape(*displacement.shape[:-1], 2, 4)
+    map_covariance = jacobian @ stage_map.covariance @ np.swapaxes(jacobian, -1, -2)
+    tip_covariance = inverse @ (covariance + map_covariance) @ inverse.T
+    return np.array(calibration.tip_m)[:2] + displacement, np.asarray(tip_covariance)
 
 
-def axis_reference(chain: Chain, axis: str, tip_m: FloatArray, joints: FloatArray) -> FloatArray:
-    """Return where one axis truly was, (n,), m or rad, by where the tip was seen.
+def compute_axis_reference(
+    chain: KinematicChain, axis: str, tip_m: FloatArray, joints: FloatArray
+) -> FloatArray:
+    """Compute the true positions (n,), m or rad, of one axis from the tip seen in the picture.
 
     Parameters
     ----------
-    chain : Chain
+    chain : KinematicChain
     axis : str
-        The one that moved.
+        The axis that moved.
     tip_m : (n, 3)
-        Seen; only the coordinates that the axis moves count.
+        Tip positions from the picture; only the coordinates that the axis moves are used.
     joints : (n, 6)
-        Of the other axes, as commanded or measured.
+        Joint positions, commanded or measured; the column of ``axis`` is not used.
 
     Raises
     ------
     MicroscopeError
-        If it is no joint, or the tip is farther away than the pin is long.
+        If ``axis`` is not a joint, or the tip is farther from the pivot than the pin is long.
     """
     if axis not in JOINTS:
         raise MicroscopeError(
-            message("engine", "axis {axis} does not move the tip; choose one of {joints}").fill(
-                axis=repr(axis), joints=str(JOINTS)
-            )
+            "axis {axis} does not move the tip; choose one of {joints}",
+            axis=repr(axis),
+            joints=str(JOINTS),
         )
-    pin = tip_from_pivot(chain, joints[..., 3:])
+    pivot_to_tip = compute_tip_from_pivot(chain, joints[..., 3:])
     index = JOINTS.index(axis)
     if index < 3:
-        return np.asarray(tip_m[..., index] - pin[..., index])
-    reach, length = tip_m - joints[..., :3], joints[..., 5] - chain.pin_length
+        return np.asarray(tip_m[..., index] - pivot_to_tip[..., index])
+    seen_from_pivot, length = tip_m - joints[..., :3], joints[..., 5] - chain.pin_length
     thx, thy = joints[..., 3], joints[..., 4]
     if axis == "zn":
-        return np.asarray(chain.pin_length + reach[..., 2] / (np.cos(thx) * np.cos(thy)))
-    sine = -reach[..., 1] / length if axis == "thx" else reach[..., 0] / (length * np.cos(thx))
+        return np.asarray(chain.pin_length + seen_from_pivot[..., 2] / (np.cos(thx) * np.cos(thy)))
+    sine = (
+        -seen_from_pivot[..., 1] / length
+        if axis == "thx"
+        else seen_from_pivot[..., 0] / (length * np.cos(thx))
+    )
     if not (np.abs(sine) <= 1.0).all():
         raise MicroscopeError(
-            message(
-                "engine",
-                "axis {axis}: the tip appears farther from the pivot than the pin is long; "
-                "the calibration belongs to another machine or place: calibrate again",
-            ).fill(axis=axis)
+            "axis {axis}: the tip appears farther from the pivot than the pin is long; the "
+            "calibration was made on another machine or at another position: calibrate again",
+            axis=axis,
         )
     return np.asarray(np.arcsin(sine))
 
@@ -133,30 +144,30 @@ def axis_reference(chain: Chain, axis: str, tip_m: FloatArray, joints: FloatArra
 def with_reference(
     record: Record, axis: str, time_s: FloatArray, values: FloatArray, noise_rms: float
 ) -> Record:
-    """Return the part of a record that frames cover, with ``axis.ref`` from them.
+    """Return the part of a record that the frames cover, with ``axis.ref`` computed from them.
 
     Parameters
     ----------
     record : Record
     axis : str
     time_s : (n,)
-        When the frames were taken, on the record's clock, increasing.
+        Times of the frames on the record's clock, s, increasing.
     values : (n,)
-        Of :func:`axis_reference`, m or rad; NaN where the tip was lost.
+        Result of :func:`compute_axis_reference`, m or rad; NaN while the tip was lost.
     noise_rms : float
-        Their uncertainty, m or rad: kept as metadata.
+        Uncertainty of the values, m or rad; stored in the metadata.
 
-    Frames are slower than samples: between two of them the axis is taken to move evenly, so
-    nothing above half the frame rate is in the reference.
+    Frames are less frequent than samples. The reference is interpolated linearly between frames, so
+    it contains nothing above half the frame rate.
 
     Raises
     ------
     MicroscopeError
-        If the record does not know the axis or has a reference already, or fewer than two frames
-        show the tip while it was taken.
+        If the record lacks the axis or already has its reference, or if no sample lies between the
+        first and the last frame that show the tip.
     """
     if axis not in record.axes or record.has(axis, Tap.REF):
-        said = (
+        template = (
             message(
                 "engine",
                 "the record already has a reference of axis {axis}; choose one of {names} "
@@ -167,29 +178,31 @@ def with_reference(
                 "engine", "the record has no axis {axis}; choose one of {names} without ref"
             )
         )
-        raise MicroscopeError(said.fill(axis=repr(axis), names=", ".join(record.axes)))
-    seen = np.isfinite(values)
-    times, places = np.asarray(time_s)[seen], np.asarray(values)[seen]
-    rows = np.zeros(len(record.time_s), dtype=bool)
-    if len(times) >= 2:
-        rows = (record.time_s >= times[0]) & (record.time_s <= times[-1])
-    if not rows.any():
+        raise MicroscopeError(template.fill(axis=repr(axis), names=", ".join(record.axes)))
+    is_tip_visible = np.isfinite(values)
+    frame_times_s, positions = (
+        np.asarray(time_s)[is_tip_visible],
+        np.asarray(values)[is_tip_visible],
+    )
+    is_covered = np.zeros(len(record.time_s), dtype=bool)
+    if len(frame_times_s) >= 2:
+        is_covered = (record.time_s >= frame_times_s[0]) & (record.time_s <= frame_times_s[-1])
+    if not is_covered.any():
         raise MicroscopeError(
-            message(
-                "engine",
-                "{count} frames show the tip, but no time of the record lies between them; "
-                "record frames and samples together, on one clock",
-            ).fill(count=len(times))
+            "{count} frames show the tip, but no sample of the record lies between the first "
+            "and the last of them; record frames and samples together, on one clock",
+            count=len(frame_times_s),
         )
-    kept = {
-        (channel.axis, channel.tap): record.values[rows, column]
+    signals = {
+        (channel.axis, channel.tap): record.values[is_covered, column]
         for column, channel in enumerate(record.columns)
     }
-    kept[axis, Tap.REF] = np.interp(record.time_s[rows], times, places)
-    facts: Mapping[str, str] = {
+    signals[axis, Tap.REF] = np.interp(record.time_s[is_covered], frame_times_s, positions)
+    metadata: Mapping[str, str] = {
         **record.metadata,
+        # The motion before the first remaining sample, which hysteresis depends on, is missing.
         "history": "unknown",
-        f"{REFERENCE_NOISE} {axis}": f"{noise_rms:.6g}",
-        "reference": f"microscope: {axis}, {noise_rms:.3g} rms, {len(times)} frames",
+        f"{REFERENCE_NOISE_KEY} {axis}": f"{noise_rms:.6g}",
+        "reference": f"microscope: {axis}, {noise_rms:.3g} rms, {len(frame_times_s)} frames",
     }
-    return Record.from_signals(record.time_s[rows], kept, record.units, facts)
+    return Record.from_signals(record.time_s[is_covered], signals, record.units, metadata)

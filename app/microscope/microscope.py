@@ -1,4 +1,4 @@
-"""The microscope in use: one facade for camera, calibration, clicks and vision."""
+"""Facade of the microscope services: camera, calibration, clicks and vision."""
 
 import time
 from collections.abc import Callable
@@ -6,47 +6,44 @@ from pathlib import Path
 
 import numpy as np
 
-from rotemina.app.cameras.feed import CameraFeed
-from rotemina.app.microscope.adjustments import FOCUS, Adjustments
+from rotemina.app.cameras import CameraFeed
+from rotemina.app.errors import MicroscopeError
+from rotemina.app.microscope.adjustments import FOCUS_DRIVE, MicroscopeProcedures
 from rotemina.app.microscope.camera_in_use import CameraInUse
 from rotemina.app.microscope.camera_memory import CameraMemory
 from rotemina.app.microscope.click_target import PlannedMove
-from rotemina.app.microscope.errors import MicroscopeError
-from rotemina.app.microscope.frame_recording import FrameRecording
-from rotemina.app.microscope.measurements import tip_in_plane
+from rotemina.app.microscope.frame_recording import FrameRecorder
+from rotemina.app.microscope.measurements import compute_tip_xy
 from rotemina.app.microscope.optical_setup import OpticalSetup
 from rotemina.app.microscope.picture_jobs import PictureJobs
-from rotemina.app.microscope.runs import Runs
+from rotemina.app.microscope.runs import MicroscopeRunner
 from rotemina.app.microscope.status import (
-    Activity,
-    CellSeen,
-    Measured,
+    CellStatus,
+    MeasuredLine,
+    MicroscopeActivity,
     MicroscopeStatus,
-    TipSeen,
     TipState,
+    TipStatus,
 )
 from rotemina.app.microscope.tip_positioning import TipPositioning
-from rotemina.app.microscope.tip_tracker import Pressing, TipTracker, Tracked
-from rotemina.app.motion.penetration.status import Phase as PenetrationPhase
-from rotemina.app.motion.recording.session_recorder import SessionRecorder
+from rotemina.app.microscope.tip_tracker import TipContact, TipTracker, TrackingResult
+from rotemina.app.motion.device import Ticker
+from rotemina.app.motion.penetration import PenetrationPhase
+from rotemina.app.motion.recording import SessionRecorder
 from rotemina.app.motion.session import MotionSession
-from rotemina.app.motion.stop import PROGRAM
-from rotemina.app.motion.ticker import Ticker
-from rotemina.app.settings import Settings
-from rotemina.drivers.cameras.camera import Camera
-from rotemina.drivers.cameras.hub import CameraHub
-from rotemina.drivers.cameras.simulated import SimulatedMicroscope
-from rotemina.drivers.clock import Clock
-from rotemina.drivers.gate import Permit
+from rotemina.app.motion.state import PROGRAM
+from rotemina.app.settings import UserSettings
+from rotemina.drivers.cameras import Camera, CameraHub, SimulatedMicroscope
+from rotemina.drivers.contract import Clock, Permit
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.messages import marked, message
-from rotemina.sim.vision.cell import membrane_ahead
-from rotemina.sim.vision.tracking import TipTrack
+from rotemina.sim.vision import TipTrack, find_membrane_ahead
 
-FOLDER = "microscope"  # of calibrations, in the user's own
-RUN_S, TRACK_S, KEEP_S = 0.02, 0.008, 0.1
-_ARMED = (PenetrationPhase.ARMED,)
-_AT_REST = (
+# Folder of the calibrations in the user's folder.
+CALIBRATION_FOLDER = "microscope"
+RUN_PERIOD_S, TRACK_PERIOD_S, MAINTENANCE_PERIOD_S = 0.02, 0.008, 0.1
+_ARMED_PHASES = (PenetrationPhase.ARMED,)
+_RESTING_PHASES = (
     PenetrationPhase.DISARMED,
     PenetrationPhase.DONE,
     PenetrationPhase.ABORTED,
@@ -55,30 +52,31 @@ _AT_REST = (
 
 
 class Microscope:
-    """What a panel holds; every method may be called from any thread and never waits.
+    """The microscope, for views and scripts.
 
-    A method raises InputError where what is asked can be refused at once; what goes wrong later is
-    in :attr:`status`.
+    Every method may be called from any thread and never waits, except :meth:`close`, :meth:`step`
+    and :meth:`maintain`. A method raises InputError if it can refuse the request at once; later
+    problems appear in :attr:`status`.
 
     Parameters
     ----------
     session : MotionSession
     folder : Path
-        Of the user's files; calibrations are in a folder of it.
+        Folder of the user's files; it contains the folder of the calibrations.
     hub : CameraHub, optional
-        Of all cameras; by default the installed ones and the simulated microscope.
-    recorder : callable
-        Return what records now, or None.
-    penetration : callable
-        Return the phase of the penetration.
+        Finds and opens cameras; by default the installed ones and the simulated microscope.
+    get_recorder : callable
+        Returns the running recorder, or None.
+    read_penetration_phase : callable
+        Returns the phase of the penetration.
     clock : callable
-        The host's; the session's and the cameras' too.
-    told : callable
-        Gets what the operator must know and no state shows, on any thread.
-    feed_of : callable
-        Make the feed of a camera.
-    settings : Settings, optional
-        Where the camera in use is remembered for the next start.
+        Clock of the host, which the session and the cameras use too.
+    notify : callable
+        Called on any thread with a message for the operator that :attr:`status` does not show.
+    make_feed : callable
+        Makes the feed of a camera.
+    settings : UserSettings, optional
+        Preferences, in which the camera in use is remembered for the next start.
     """
 
     def __init__(
@@ -87,251 +85,266 @@ class Microscope:
         folder: Path,
         *,
         hub: CameraHub | None = None,
-        recorder: Callable[[], SessionRecorder | None] = lambda: None,
-        penetration: Callable[[], PenetrationPhase] = lambda: PenetrationPhase.DISARMED,
+        get_recorder: Callable[[], SessionRecorder | None] = lambda: None,
+        read_penetration_phase: Callable[[], PenetrationPhase] = lambda: PenetrationPhase.DISARMED,
         clock: Clock = time.monotonic,
-        told: Callable[[str], None] = lambda _: None,
-        feed_of: Callable[[Camera], CameraFeed] | None = None,
-        settings: Settings | None = None,
+        notify: Callable[[str], None] = lambda _: None,
+        make_feed: Callable[[Camera], CameraFeed] | None = None,
+        settings: UserSettings | None = None,
     ) -> None:
         self.session, self.clock = session, clock
-        self._penetration, self._told = penetration, told
+        self._read_penetration_phase, self._notify = read_penetration_phase, notify
         simulated = SimulatedMicroscope(lambda: session.driver, clock=clock)
-        hub = CameraHub.installed({"simulated": simulated}, clock=clock) if hub is None else hub
-        made = feed_of or (lambda camera: CameraFeed(camera, clock=clock))
+        hub = CameraHub.from_plugins({"simulated": simulated}, clock=clock) if hub is None else hub
+        make_camera_feed = make_feed or (lambda camera: CameraFeed(camera, clock=clock))
         memory = CameraMemory(settings)
         self.camera = CameraInUse(
-            hub, lambda: session.driver, made, memory, lambda: self._refuse_under_way()
+            hub, lambda: session.driver, make_camera_feed, memory, lambda: self._refuse_during_run()
         )
-        self.setup = OpticalSetup(session, folder / FOLDER, lambda: self.camera.camera)
-        self.recording = FrameRecording(recorder, lambda: self.setup.calibration)
+        self.setup = OpticalSetup(session, folder / CALIBRATION_FOLDER, lambda: self.camera.camera)
+        self.recording = FrameRecorder(get_recorder, lambda: self.setup.calibration)
         self.tracker = TipTracker(
             lambda: self.camera.view,
-            self.setup.pipette,
-            self.setup.expected,
-            self._pressing,
-            self.recording.tip,
+            self.setup.make_pipette,
+            self.setup.predict_tip_pixel,
+            self._read_tip_contact,
+            self.recording.record_tip,
         )
-        self.jobs = PictureJobs(lambda: self.camera.newest)
-        self.runs = Runs(
-            session, lambda: self.camera.view, lambda what: self.positioning.doubt(what)
+        self.picture_jobs = PictureJobs(lambda: self.camera.newest_frame)
+        self.runner = MicroscopeRunner(
+            session,
+            lambda: self.camera.view,
+            lambda activity: self.positioning.find_tracking_problem(activity),
         )
         self.positioning = TipPositioning(
-            session, self.camera, self.setup, self.tracker, self.runs, clock
+            session, self.camera, self.setup, self.tracker, self.runner, clock
         )
-        self.adjustments = Adjustments(
-            session, self.camera, self.setup, self.tracker, self.runs, clock, told
+        self.procedures = MicroscopeProcedures(
+            session, self.camera, self.setup, self.tracker, self.runner, clock, notify
         )
-        #: Ends (2,), px, of the measured line.
-        self.measured: tuple[FloatArray, FloatArray] | None = None
-        self._leave = self.camera.listen(self.recording.frame)
+        #: Both ends (2,), px, of the measured line.
+        self.line_ends: tuple[FloatArray, FloatArray] | None = None
+        self._stop_listening = self.camera.listen(self.recording.record_frame)
         self._tickers = (
-            Ticker("microscope", RUN_S, lambda: self.runs.step(self.clock()), self._failed),
-            Ticker("tip tracking", TRACK_S, self.tracker.step, self._failed),
-            Ticker("cameras", KEEP_S, lambda: self.keep(self.clock()), self._failed),
+            Ticker(
+                "microscope",
+                RUN_PERIOD_S,
+                lambda: self.runner.step(self.clock()),
+                self._report_failure,
+            ),
+            Ticker("tip tracking", TRACK_PERIOD_S, self.tracker.step, self._report_failure),
+            Ticker(
+                "cameras",
+                MAINTENANCE_PERIOD_S,
+                lambda: self.maintain(self.clock()),
+                self._report_failure,
+            ),
         )
-
-    # --- life -------------------------------------------------------------------------------------
 
     def start(self) -> None:
-        """Look for cameras and begin to work, on threads of its own."""
+        """Start the threads that search for cameras, track the tip and advance the runs."""
         for ticker in self._tickers:
             ticker.start()
 
     def close(self) -> None:
-        """End what is under way, and release the camera."""
-        self.runs.stop(marked("engine", "the program is being closed"))
+        """Stop the current run and all threads, and release the camera."""
+        self.runner.stop(marked("engine", "the program is being closed"))
         for ticker in self._tickers:
             ticker.close()
-        self._leave()
+        self._stop_listening()
         self.camera.close()
 
     def step(self, now_s: float) -> None:
-        """Do all that the threads do, once; for a test."""
-        self.keep(now_s)
+        """Do the work of all threads once; for tests."""
+        self.maintain(now_s)
         self.tracker.step()
-        self.runs.step(now_s)
+        self.runner.step(now_s)
 
-    def keep(self, now_s: float) -> None:
-        """Maintain cameras, calibrations and slow picture jobs; may take a while."""
+    def maintain(self, now_s: float) -> None:
+        """Update cameras and calibrations, and run slow picture jobs; may take a while."""
         self.camera.step(now_s)
         self.setup.step()
-        self.jobs.step(now_s)
-        track = self.tracker.tracked.track
+        self.picture_jobs.step(now_s)
+        track = self.tracker.result.track
         if track is not None:
-            self.setup.learn_direction(track.pipette.direction)
+            self.setup.store_direction(track.pipette.direction)
 
     @property
     def status(self) -> MicroscopeStatus:
-        """All that a view shows now; to be read once a frame, while someone looks at it.
+        """The current state for a view; read it once per frame while the view is visible.
 
-        Cameras are looked for from the first time on.
+        The first read starts the search for cameras.
         """
-        self.camera.watched = True
-        setup, tracked = self.setup, self.tracker.tracked
-        view, camera = self.camera.view, self.camera.camera
+        self.camera.is_watched = True
+        setup, tracking = self.setup, self.tracker.result
+        feed_view, camera = self.camera.view, self.camera.camera
         pixel_m, source = setup.scale
-        positioning, adjustments = self.positioning, self.adjustments
-        calibrating, focusing = adjustments.calibrating, adjustments.focusing
+        positioning, procedures = self.positioning, self.procedures
+        calibration_run, focus_run = procedures.calibration_run, procedures.focus_run
         tip = self.tracker.tip
         return MicroscopeStatus(
             cameras=self.camera.cameras,
             camera_problems=self.camera.problems,
             camera=None if camera is None else camera.identity,
-            feed=view,
+            feed=feed_view,
             objective=setup.objective,
             objectives=setup.objectives,
             calibration=setup.calibration,
             calibration_problem=setup.problem,
             pixel_m=pixel_m,
             scale_source=source,
-            activity=self.runs.activity,
-            calibrating=None if calibrating is None else calibrating.status,
-            visiting=None if positioning.run is None else positioning.run.status,
-            focusing=None if focusing is None else focusing.status,
-            stacking=None if adjustments.stacking is None else adjustments.stacking.status,
-            stopped=self.runs.stopped,
-            planned=positioning.planned,
-            path=self.tracker.path,
-            tip=_tip(setup, tracked),
-            cell=_cell(self.jobs, tip, pixel_m),
-            measured=_measured(self.measured, tip, pixel_m),
-            targets=tuple(positioning.sequence.targets),
-            nano_limits=setup.nano_limits(None if tip is None else tip.pixel),
-            focus_axes=adjustments.focus_axes,
-            drift=self.jobs.drift,
-            background=tracked.ground,
-            frames_processed=tracked.processed,
-            frames_skipped=tracked.skipped,
-            truth=self.camera.truth,
+            activity=self.runner.activity,
+            calibration_status=None if calibration_run is None else calibration_run.status,
+            visit_status=None if positioning.visit_run is None else positioning.visit_run.status,
+            focus_status=None if focus_run is None else focus_run.status,
+            stack_status=None if procedures.stack_run is None else procedures.stack_run.status,
+            abort_reason=self.runner.abort_reason,
+            planned_move=positioning.planned_move,
+            tip_path=self.tracker.path,
+            tip=_make_tip_status(setup, tracking),
+            cell=_make_cell_status(self.picture_jobs, tip, pixel_m),
+            measured_line=_make_measured_line(self.line_ends, tip, pixel_m),
+            targets=tuple(positioning.target_sequence.targets),
+            nano_limits=setup.compute_nano_limits(None if tip is None else tip.pixel),
+            focus_axes=procedures.focus_axes,
+            drift=self.picture_jobs.drift,
+            has_background=tracking.has_background,
+            frames_processed=tracking.processed,
+            frames_skipped=tracking.skipped,
+            simulation_problem=self.camera.simulation_problem,
         )
 
-    # --- what is looked through -------------------------------------------------------------------
-
     def choose_objective(self, name: str) -> None:
-        """Set the objective; raises MicroscopeError without a name, or during a run."""
-        self._refuse_under_way()
-        self.positioning.planned = None
+        """Set the objective; raises MicroscopeError if the name is empty, or during a run."""
+        self._refuse_during_run()
+        self.positioning.planned_move = None
         self.setup.choose_objective(name)
 
-    # --- what moves; one at a time ----------------------------------------------------------------
-
     def calibrate(self, stage: str, *, whole_picture: bool = False) -> None:
-        """Begin the guided calibration of ``micro`` or ``nano``; from then on the tip is tracked.
+        """Start the guided calibration of ``micro`` or ``nano``, and tracking of the tip.
 
-        ``whole_picture``: what is seen moves as a whole with the stage, and no tip before it.
+        By default, the calibration assumes that only the tip moves, in front of a stationary
+        background. With ``whole_picture`` it assumes that the whole picture moves with the stage,
+        and the tip is not tracked.
 
         Raises
         ------
         InputError
-            As :class:`CalibrationRun` and :meth:`Runs.begin`; then nothing has moved.
+            See :class:`StageCalibrationRun` and :meth:`MicroscopeRunner.begin`. In that case
+            nothing has moved.
         """
-        self.adjustments.calibrate(stage, whole_picture=whole_picture)
-        if not whole_picture and self.tracker.tracked.state is TipState.OFF:
-            self.tracker.switch(True)  # what it uncovers on its way becomes the background
+        self.procedures.calibrate(stage, whole_picture=whole_picture)
+        if not whole_picture and self.tracker.result.state is TipState.OFF:
+            # The moves of the calibration uncover the background, which the tracker then collects.
+            self.tracker.switch(True)
 
     def move_focus(self, focus_m: float) -> None:
-        """Move the microscope's focus drive, m; raises InputError if it has none, or cannot."""
-        self._refuse_under_way()
-        self.adjustments.focus_mover(FOCUS)(focus_m, None)
-
-    def plan(self, pixel: FloatArray, *, stage: str | None = None) -> PlannedMove:
-        """Plan the move for a click or drag, and show its ghost; nothing moves.
+        """Move the microscope's focus drive to a position, m.
 
         Raises
         ------
         InputError
-            As :meth:`ClickToMove.plan`.
+            If there is no focus drive, the drive refuses the move, or a run is under way.
+        """
+        self._refuse_during_run()
+        self.procedures.make_focus_mover(FOCUS_DRIVE)(focus_m, None)
+
+    def plan(self, pixel: FloatArray, *, stage: str | None = None) -> PlannedMove:
+        """Plan the move that a click or a drag requests, for a preview; nothing moves.
+
+        Raises
+        ------
+        InputError
+            See :meth:`ClickMover.plan`.
         """
         return self.positioning.plan(pixel, stage)
 
     def cancel_plan(self) -> None:
-        """Forget the planned move."""
-        self.positioning.planned = None
+        """Discard the planned move."""
+        self.positioning.planned_move = None
 
     def go(self, *, confirmed: bool = False, permit: Permit | None = None) -> None:
-        """Make the planned move, look, and correct until the tip is there.
+        """Make the planned move, and correct it until the tip is at the goal.
 
-        ``permit`` is that of the request, where it waited for a yes.
+        If the request waited for a confirmation, pass the ``permit`` that was issued when the
+        operator made it. By default a new permit is issued.
 
         Raises
         ------
         MicroscopeError
-            If nothing is planned, the tip is not tracked, or a large move is not confirmed.
+            If no move is planned, the tip is not tracked, or a large move is not confirmed.
         InputError
-            As :meth:`ClickToMove.go` and :meth:`Runs.begin`.
+            See :meth:`ClickMover.go` and :meth:`MicroscopeRunner.begin`.
         """
         self.positioning.go(confirmed=confirmed, permit=permit or self.session.permit())
 
     def go_back(self) -> None:
-        """Return to where the machine rested before its latest move; raises as ``undo``."""
-        self._refuse_under_way()
-        self.session.undo()
-
-    def stop(self, *, by: str = PROGRAM) -> None:
-        """Halt the machine, and end what is under way; ``by`` as of :meth:`MotionSession.stop`."""
-        self.runs.stop(message("engine", "stopped"), by=by)
-        self.session.stop(by=by)
-
-    # --- targets ----------------------------------------------------------------------------------
-
-    def mark_target(self, pixel: FloatArray) -> None:
-        """Add a target behind the others."""
-        self.positioning.sequence.mark(np.asarray(pixel, dtype=np.float64))
-
-    def visit_next(self, *, confirmed: bool = False, permit: Permit | None = None) -> None:
-        """Go to the next target; ``permit`` as in :meth:`go`.
+        """Return to the position before the latest move.
 
         Raises
         ------
         MicroscopeError
-            If there is none, or the way is so large that it must be confirmed.
+            If a run is under way.
         InputError
-            As :meth:`go`.
+            See :meth:`MotionSession.undo`.
         """
-        self.positioning.next(confirmed=confirmed, permit=permit or self.session.permit())
+        self._refuse_during_run()
+        self.session.undo()
 
-    # --- vision -----------------------------------------------------------------------------------
+    def stop(self, *, by: str = PROGRAM) -> None:
+        """Halt the machine, and end the current run; ``by`` as in :meth:`MotionSession.stop`."""
+        self.runner.stop(message("engine", "stopped"), by=by)
+        self.session.stop(by=by)
+
+    def mark_target(self, pixel: FloatArray) -> None:
+        """Add a target at the end of the list."""
+        self.positioning.target_sequence.mark(np.asarray(pixel, dtype=np.float64))
+
+    def visit_next(self, *, confirmed: bool = False, permit: Permit | None = None) -> None:
+        """Move to the next target; ``permit`` as in :meth:`go`.
+
+        Raises
+        ------
+        MicroscopeError
+            If no target is left, or the move is so large that it needs a confirmation.
+        InputError
+            See :meth:`go`.
+        """
+        self.positioning.visit_next(confirmed=confirmed, permit=permit or self.session.permit())
 
     def track(self, on: bool, *, near: FloatArray | None = None) -> None:
-        """Turn tracking on or off; ``near`` (2,), px, is an approximate position."""
+        """Turn tracking on or off; ``near`` (2,), px, is the approximate position of the tip."""
         self.tracker.switch(on, near)
 
     def outline_cell(self, near: FloatArray) -> None:
-        """Look for the outline of the cell about ``near`` (2,), px."""
-        self.jobs.outline(np.asarray(near, dtype=np.float64), self.setup.pixel_m)
+        """Request the outline of the cell around ``near`` (2,), px."""
+        self.picture_jobs.request_outline(np.asarray(near, dtype=np.float64), self.setup.pixel_m)
 
     def measure(self, begin: FloatArray, end: FloatArray) -> None:
-        """Measure from one pixel (2,) to another."""
+        """Measure the line from one pixel (2,) to another."""
         ends = np.asarray(begin, dtype=np.float64), np.asarray(end, dtype=np.float64)
         if not (np.isfinite(ends[0]).all() and np.isfinite(ends[1]).all()):
-            raise MicroscopeError(
-                message("engine", "measure: a pixel is not a finite number; draw the line again")
-            )
-        self.measured = ends
+            raise MicroscopeError("measure: a pixel is not a finite number; draw the line again")
+        self.line_ends = ends
 
-    def forget_measure(self) -> None:
+    def clear_measurement(self) -> None:
         """Remove the measured line."""
-        self.measured = None
+        self.line_ends = None
 
-    # --- inside -----------------------------------------------------------------------------------
+    def _read_tip_contact(self) -> TipContact:
+        phase = self._read_penetration_phase()
+        if phase in _ARMED_PHASES:
+            return TipContact.SOON
+        return TipContact.NO if phase in _RESTING_PHASES else TipContact.YES
 
-    def _pressing(self) -> Pressing:
-        phase = self._penetration()
-        if phase in _ARMED:
-            return Pressing.SOON
-        return Pressing.NO if phase in _AT_REST else Pressing.YES
-
-    def _refuse_under_way(self) -> None:
-        if self.runs.activity is not Activity.NONE:
+    def _refuse_during_run(self) -> None:
+        if self.runner.activity is not MicroscopeActivity.NONE:
             raise MicroscopeError(
-                message("engine", "a {activity} is under way; wait, or stop it first").fill(
-                    activity=self.runs.activity
-                )
+                "{activity} is under way; wait, or stop it first", activity=self.runner.activity
             )
 
-    def _failed(self, _: Exception) -> None:
-        self._told(
+    def _report_failure(self, _: Exception) -> None:
+        self._notify(
             message(
                 "engine",
                 "A step of the microscope failed; the log has the cause. If this repeats, open "
@@ -340,56 +353,61 @@ class Microscope:
         )
 
 
-def _tip(setup: OpticalSetup, tracked: Tracked) -> TipSeen:
-    track = tracked.track
+def _make_tip_status(setup: OpticalSetup, tracking: TrackingResult) -> TipStatus:
+    track = tracking.track
     if track is None:
-        return TipSeen(tracked.state, reason=tracked.reason)
-    place = sigma = None
-    kept = setup.calibration
-    if kept is not None and kept.micro is not None:
-        place, spread = tip_in_plane(track.pixel, track.covariance, kept.micro)
-        sigma = np.sqrt(np.diag(spread))
-    return TipSeen(
-        state=tracked.state,
+        return TipStatus(tracking.state, reason=tracking.reason)
+    position_m = sigma_m = None
+    calibration = setup.calibration
+    if calibration is not None and calibration.micro is not None:
+        position_m, covariance = compute_tip_xy(track.pixel, track.covariance, calibration.micro)
+        sigma_m = np.sqrt(np.diag(covariance))
+    return TipStatus(
+        state=tracking.state,
         pixel=track.pixel,
         sigma_px=float(np.sqrt(np.linalg.eigvalsh(track.covariance)[-1])),
         direction=track.pipette.direction,
         depth=track.depth,
-        place_m=place,
-        sigma_m=sigma,
+        position_m=position_m,
+        sigma_m=sigma_m,
         quality=track.quality,
-        reason=tracked.reason,
+        reason=tracking.reason,
     )
 
 
-def _cell(jobs: PictureJobs, tip: TipTrack | None, pixel_m: float | None) -> CellSeen:
-    outline, reason = jobs.cell, jobs.reason
+def _make_cell_status(jobs: PictureJobs, tip: TipTrack | None, pixel_m: float | None) -> CellStatus:
+    outline, reason = jobs.cell_outline, jobs.outline_reason
     if outline is None or tip is None:
-        return CellSeen(outline, reason=reason)
-    # The way of the tip is out of its body, which leads the other way.
-    ahead = membrane_ahead(outline, tip.pixel, tip.covariance, tip.pipette.direction + np.pi)
-    if ahead is None or pixel_m is None:
-        return CellSeen(outline, ahead, reason=reason)
-    away, doubt = ahead.distance * pixel_m, ahead.distance_uncertainty * pixel_m
-    return CellSeen(outline, ahead, away, doubt, reason)
+        return CellStatus(outline, reason=reason)
+    # ``pipette.direction`` points from the tip to the body, so the tip points the opposite way.
+    membrane_ahead = find_membrane_ahead(
+        outline, tip.pixel, tip.covariance, tip.pipette.direction + np.pi
+    )
+    if membrane_ahead is None or pixel_m is None:
+        return CellStatus(outline, membrane_ahead, reason=reason)
+    distance_m, sigma_m = (
+        membrane_ahead.distance * pixel_m,
+        membrane_ahead.distance_uncertainty * pixel_m,
+    )
+    return CellStatus(outline, membrane_ahead, distance_m, sigma_m, reason)
 
 
-def _measured(
+def _make_measured_line(
     ends: tuple[FloatArray, FloatArray] | None, tip: TipTrack | None, pixel_m: float | None
-) -> Measured | None:
+) -> MeasuredLine | None:
     if ends is None:
         return None
-    way = ends[1] - ends[0]
-    length, angle = float(np.hypot(*way)), float(np.arctan2(way[1], way[0]))
-    to_body = None
+    vector = ends[1] - ends[0]
+    length, angle = float(np.hypot(*vector)), float(np.arctan2(vector[1], vector[0]))
+    angle_to_pipette = None
     if tip is not None:
-        between = abs((angle - tip.pipette.direction + 0.5 * np.pi) % np.pi - 0.5 * np.pi)
-        to_body = float(between)
-    return Measured(
+        difference = (angle - tip.pipette.direction + 0.5 * np.pi) % np.pi - 0.5 * np.pi
+        angle_to_pipette = float(abs(difference))
+    return MeasuredLine(
         begin=ends[0],
         end=ends[1],
         length_px=length,
         length_m=None if pixel_m is None else length * pixel_m,
         angle=angle,
-        to_body=to_body,
+        angle_to_pipette=angle_to_pipette,
     )

@@ -7,190 +7,211 @@ from pathlib import Path
 
 import numpy as np
 
+from rotemina.app.errors import MicroscopeError
 from rotemina.app.microscope.calibration_file import (
+    CalibratedRegion,
     FocusCalibration,
     MicroscopeCalibration,
     StageCalibration,
-    View,
-    load,
-    save,
+    load_calibration,
+    save_calibration,
 )
-from rotemina.app.microscope.camera_in_use import SIMULATED
-from rotemina.app.microscope.errors import MicroscopeError
-from rotemina.app.microscope.optics import as_simulated, nominal_pixel_m, objective_of, pipette_of
+from rotemina.app.microscope.camera_in_use import SIMULATED_SOURCE
+from rotemina.app.microscope.optics import (
+    compute_nominal_pixel_size_m,
+    make_objective_name,
+    make_pipette,
+    with_simulated_optics,
+)
 from rotemina.app.microscope.status import ScaleSource
 from rotemina.app.motion.session import MotionSession
-from rotemina.drivers.cameras.camera import Camera
-from rotemina.drivers.cameras.frame import Region
+from rotemina.drivers.cameras import Camera, SensorRegion
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.kinematics.chain import JOINTS, Chain, ChainError
-from rotemina.sim.kinematics.forward import tip_position
-from rotemina.sim.messages import message
-from rotemina.sim.robot.model import Robot
-from rotemina.sim.vision.pipette import Pipette
+from rotemina.sim.errors import ChainError
+from rotemina.sim.kinematics import JOINTS, KinematicChain, compute_tip_position
+from rotemina.sim.robot import Robot
+from rotemina.sim.vision import Pipette
 
-_EDGE = 9  # places along each side of the nano stage's field
+# Number of points along each side of the nano stage's field.
+_POINTS_PER_SIDE = 9
 
 
 class OpticalSetup:
-    """Reads and keeps calibrations; one for each camera behind each objective.
+    """The calibration of the camera and objective in use, with everything derived from it.
+
+    There is one calibration file for each camera behind each objective.
 
     Parameters
     ----------
     session : MotionSession
     folder : Path
+        Folder of the calibration files.
     camera : callable
-        Return the camera in use, or None.
+        Returns the camera in use, or None.
     """
 
     def __init__(
         self, session: MotionSession, folder: Path, camera: Callable[[], Camera | None]
     ) -> None:
-        self._session, self._folder, self._camera = session, folder, camera
-        self._lock = threading.Lock()  # guards what follows, for what changes it
-        self._of: tuple[str, str] | None = None
+        self._session, self._folder, self._get_camera = session, folder, camera
+        # Guards changes of the attributes below.
+        self._lock = threading.Lock()
+        # Camera key and objective of the loaded calibration.
+        self._loaded_for: tuple[str, str] | None = None
+        # Direction of the pipette in the picture, rad, by camera key.
         self._directions: dict[str, float] = {}
-        self.objective = objective_of(as_simulated(session.robot))
+        self.objective = make_objective_name(with_simulated_optics(session.robot))
         self.objectives: tuple[str, ...] = (self.objective,)
         self.calibration: MicroscopeCalibration | None = None
-        #: Why what is kept cannot be used.
+        #: Why the stored calibration cannot be used.
         self.problem = ""
         try:
-            self.chain: Chain | None = Chain.of(session.robot)
+            self.chain: KinematicChain | None = KinematicChain.of(session.robot)
         except ChainError:
             self.chain = None
 
-    # --- what a view asks -------------------------------------------------------------------------
-
     @property
-    def key(self) -> str:
-        """By which calibrations know the camera; empty without one."""
-        camera = self._camera()
+    def camera_key(self) -> str:
+        """The key that identifies the camera in calibrations; empty without a camera."""
+        camera = self._get_camera()
         return "" if camera is None else camera.identity.key
 
     @property
     def _robot(self) -> Robot:
-        """What is known of microscope and tool; of the simulated one, all."""
-        camera, robot = self._camera(), self._session.robot
-        simulated = camera is not None and camera.identity.source == SIMULATED
-        return as_simulated(robot) if simulated else robot
+        """The robot, completed with simulated optics and tool if the simulated camera is in use."""
+        camera, robot = self._get_camera(), self._session.robot
+        is_simulated = camera is not None and camera.identity.source == SIMULATED_SOURCE
+        return with_simulated_optics(robot) if is_simulated else robot
 
     @property
     def scale(self) -> tuple[float | None, ScaleSource]:
         """The size of a pixel, m, and its source."""
-        known = self.calibration
-        stage = None if known is None else known.micro or known.nano
+        calibration = self.calibration
+        stage = None if calibration is None else calibration.micro or calibration.nano
         if stage is not None:
             return float(np.mean(stage.map.geometry.pixel_size)), ScaleSource.CALIBRATION
         try:
-            nominal = nominal_pixel_m(self._robot, self.objective)
+            nominal_m = compute_nominal_pixel_size_m(self._robot, self.objective)
         except MicroscopeError:
             return None, ScaleSource.NONE
-        return nominal, ScaleSource.ROBOT_FILE
+        return nominal_m, ScaleSource.ROBOT_FILE
 
     @property
     def pixel_m(self) -> float | None:
         """The size of a pixel, m."""
         return self.scale[0]
 
-    def pipette(self) -> tuple[Pipette, bool]:
-        """Return what the tip looks like, and whether its direction is known.
+    def make_pipette(self) -> tuple[Pipette, bool]:
+        """Return the shape of the tip in the picture, and whether its direction is known.
 
         Raises
         ------
         InputError
-            If the robot file does not tell enough, or it cannot be seen from there.
+            If the robot file lacks data for the shape, or the microscope looks along the pipette.
         """
-        direction = self._directions.get(self.key)
+        direction = self._directions.get(self.camera_key)
         pixel_m = self.pixel_m
         if pixel_m is None:
-            nominal_pixel_m(self._robot, self.objective)  # says what is missing
-        return pipette_of(self._robot, direction or 0.0, pixel_m), direction is not None
+            # Raises an error that names the missing entries of the robot file.
+            compute_nominal_pixel_size_m(self._robot, self.objective)
+        return make_pipette(self._robot, direction or 0.0, pixel_m), direction is not None
 
-    def expected(self) -> FloatArray | None:
-        """Return where the tip should be by commands and calibration, px (2,), or None."""
-        known, joints = self.calibration, self._joints()
-        stage = None if known is None else known.micro or known.nano
+    def predict_tip_pixel(self) -> FloatArray | None:
+        """Predict the tip's pixel (2,) from command and calibration; None if one is unknown."""
+        calibration, joints = self.calibration, self._read_joints()
+        stage = None if calibration is None else calibration.micro or calibration.nano
         if stage is None or joints is None or self.chain is None:
             return None
-        return stage.pixel_of(tip_position(self.chain, joints))
+        return stage.predict_pixel(compute_tip_position(self.chain, joints))
 
-    def nano_limits(self, tip_px: FloatArray | None) -> FloatArray | None:
-        """Return the closed polygon (n, 2), px, of where thx and thy can bring the tip."""
-        known, joints, chain = self.calibration, self._joints(), self.chain
-        stage = None if known is None else known.nano or known.micro
+    def compute_nano_limits(self, tip_px: FloatArray | None) -> FloatArray | None:
+        """Return the closed polygon (n, 2), px, around all pixels that thx and thy can reach.
+
+        ``tip_px`` (2,) is the current pixel of the tip; None means the predicted one. Return None
+        if calibration or position is unknown.
+        """
+        calibration, joints, chain = self.calibration, self._read_joints(), self.chain
+        stage = None if calibration is None else calibration.nano or calibration.micro
         if stage is None or joints is None or chain is None:
             return None
-        (x_low, y_low), (x_high, y_high) = chain.lower[3:5], chain.upper[3:5]
-        up, even = np.linspace(0.0, 1.0, _EDGE), np.zeros(_EDGE)
-        thx = np.concatenate([up, even + 1.0, up[::-1], even])
-        thy = np.concatenate([even, up, even + 1.0, up[::-1]])
-        places = np.tile(joints, (len(thx), 1))
-        places[:, 3] = x_low + thx * (x_high - x_low)
-        places[:, 4] = y_low + thy * (y_high - y_low)
-        here = tip_position(chain, joints)
-        moved = (tip_position(chain, places) - here)[:, :2]
-        middle = stage.pixel_of(here) if tip_px is None else tip_px
-        return np.asarray(middle + stage.map.pixels(moved))
-
-    # --- what changes it --------------------------------------------------------------------------
+        (thx_low, thy_low), (thx_high, thy_high) = chain.lower[3:5], chain.upper[3:5]
+        # The outline of the range in thx and thy, as fractions of the range.
+        ramp, zeros = np.linspace(0.0, 1.0, _POINTS_PER_SIDE), np.zeros(_POINTS_PER_SIDE)
+        thx_fractions = np.concatenate([ramp, zeros + 1.0, ramp[::-1], zeros])
+        thy_fractions = np.concatenate([zeros, ramp, zeros + 1.0, ramp[::-1]])
+        positions = np.tile(joints, (len(thx_fractions), 1))
+        positions[:, 3] = thx_low + thx_fractions * (thx_high - thx_low)
+        positions[:, 4] = thy_low + thy_fractions * (thy_high - thy_low)
+        tip_m = compute_tip_position(chain, joints)
+        displacement = (compute_tip_position(chain, positions) - tip_m)[:, :2]
+        current_px = stage.predict_pixel(tip_m) if tip_px is None else tip_px
+        return np.asarray(current_px + stage.map.shift_of(displacement))
 
     def step(self) -> None:
-        """Load the calibration of camera and objective if they have changed."""
-        of = self.key, self.objective
+        """Load the calibration of camera and objective if one of them has changed."""
+        camera_and_objective = self.camera_key, self.objective
         with self._lock:
-            if of == self._of:
+            if camera_and_objective == self._loaded_for:
                 return
-            self._of = of
+            self._loaded_for = camera_and_objective
         calibration, problem = None, ""
-        if of[0]:
+        if camera_and_objective[0]:
             try:
-                calibration = load(self._folder, *of)
+                calibration = load_calibration(self._folder, *camera_and_objective)
             except MicroscopeError as error:
                 problem = str(error)
         with self._lock:
-            if self._of == of:
+            if self._loaded_for == camera_and_objective:
                 self.calibration, self.problem = calibration, problem
 
     def choose_objective(self, name: str) -> None:
-        """Set the objective; raises MicroscopeError without a name."""
+        """Set the objective; raises MicroscopeError if the name is empty."""
         name = name.strip()
         if not name:
-            raise MicroscopeError(
-                message("engine", 'objective: the name is empty; enter one, such as "20x"')
-            )
+            raise MicroscopeError('objective: the name is empty; enter one, such as "20x"')
         with self._lock:
             if name != self.objective:
-                self.calibration, self._of, self.objective = None, None, name
+                self.calibration, self._loaded_for, self.objective = None, None, name
             if name not in self.objectives:
                 self.objectives = (*self.objectives, name)
 
-    def learn_direction(self, direction: float) -> None:
-        """Keep in which direction the pipette was found, rad, for the next search."""
-        self._directions[self.key] = direction
+    def store_direction(self, direction: float) -> None:
+        """Store the direction of the pipette, rad, for the next search."""
+        self._directions[self.camera_key] = direction
 
-    def keep_stage(self, name: str, stage: StageCalibration, region: Region) -> None:
-        """Keep the calibration of a stage; raises FileWriteError if no file can be written."""
-        self._keep(lambda known: known.with_stage(name, stage), region)
+    def store_stage(self, name: str, stage: StageCalibration, region: SensorRegion) -> None:
+        """Store the calibration of a stage.
 
-    def keep_focus(self, focus: FocusCalibration, region: Region) -> None:
-        """Store the sharpest position; raises as :meth:`keep_stage`."""
-        self._keep(lambda known: replace(known, focus=focus), region)
+        Raises
+        ------
+        FileWriteError
+            If the file cannot be written.
+        """
+        self._store(lambda calibration: calibration.with_stage(name, stage), region)
 
-    def _keep(
-        self, change: Callable[[MicroscopeCalibration], MicroscopeCalibration], region: Region
+    def store_focus(self, focus: FocusCalibration, region: SensorRegion) -> None:
+        """Store the position of best focus; raises as :meth:`store_stage`."""
+        self._store(lambda calibration: replace(calibration, focus=focus), region)
+
+    def _store(
+        self, change: Callable[[MicroscopeCalibration], MicroscopeCalibration], region: SensorRegion
     ) -> None:
-        """Change what is known; of another part of the sensor nothing else holds any more."""
-        view = View.of(region)
-        with self._lock:
-            known = self.calibration
-            if known is None or known.view != view:
-                known = MicroscopeCalibration(camera=self.key, objective=self.objective, view=view)
-            self.calibration = known = change(known)
-            self.problem = ""
-        save(self._folder, known)
+        """Change the calibration and save it.
 
-    def _joints(self) -> FloatArray | None:
+        If it belongs to another region of the sensor, a new calibration replaces it.
+        """
+        view = CalibratedRegion.from_region(region)
+        with self._lock:
+            calibration = self.calibration
+            if calibration is None or calibration.view != view:
+                calibration = MicroscopeCalibration(
+                    camera=self.camera_key, objective=self.objective, view=view
+                )
+            self.calibration = calibration = change(calibration)
+            self.problem = ""
+        save_calibration(self._folder, calibration)
+
+    def _read_joints(self) -> FloatArray | None:
         command = self._session.reported.command
         if not all(axis in command for axis in JOINTS):
             return None

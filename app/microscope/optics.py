@@ -1,4 +1,4 @@
-"""Microscope and tool of the robot file, as the tip finder needs them."""
+"""Converts the microscope and tool of a robot file into the form that the tip search needs."""
 
 import re
 from dataclasses import replace
@@ -6,88 +6,96 @@ from math import pi
 
 import numpy as np
 
-from rotemina.app.microscope.errors import MicroscopeError
-from rotemina.sim.messages import message
-from rotemina.sim.microscope.optics import APERTURE as SIMULATED_APERTURE
-from rotemina.sim.microscope.optics import MAGNIFICATION, PIXEL_SIZE_M
-from rotemina.sim.microscope.scene import Pin
-from rotemina.sim.robot.model import Robot
-from rotemina.sim.vision.pipette import Pipette
+from rotemina.app.errors import MicroscopeError
+from rotemina.sim.microscope import (
+    DEFAULT_APERTURE as SIMULATED_APERTURE,
+    DEFAULT_MAGNIFICATION,
+    DEFAULT_PIXEL_SIZE_M,
+    TaperedPin,
+)
+from rotemina.sim.robot import Robot
+from rotemina.sim.vision import Pipette
 
-APPROACH = pi / 4  # rad, where a file says nothing
-APERTURE = 0.4
+# Approach angle and numerical aperture for robot files that do not state them.
+DEFAULT_APPROACH_RAD = pi / 4
+DEFAULT_APERTURE = 0.4
 
 
-def nominal_pixel_m(robot: Robot, objective: str = "") -> float:
-    """Return the size of a pixel in the specimen, m, by the robot file.
+def compute_nominal_pixel_size_m(robot: Robot, objective: str = "") -> float:
+    """Compute the size of a pixel in the specimen, m, from the robot file.
 
-    An ``objective`` whose name tells its magnification counts instead of the file's.
+    If the name of the ``objective`` contains a magnification, that replaces the one in the file.
 
     Raises
     ------
     MicroscopeError
-        If the file does not say it.
+        If the file lacks pixel size or magnification.
     """
-    given = robot.microscope
-    if given.pixel_size is None or given.magnification is None:
+    optics = robot.microscope
+    if optics.pixel_size is None or optics.magnification is None:
         raise MicroscopeError(
-            message(
-                "engine",
-                "robot {name}: [microscope] pixel_size and magnification are missing; they "
-                "determine the tip's shape in the picture",
-            ).fill(name=repr(robot.name))
+            "robot {name}: [microscope] pixel_size and magnification are missing; they "
+            "determine the tip's shape in the picture",
+            name=repr(robot.name),
         )
-    return given.pixel_size / (magnification_of(objective) or given.magnification)
+    return optics.pixel_size / (parse_magnification(objective) or optics.magnification)
 
 
-def as_simulated(robot: Robot) -> Robot:
-    """Return a robot with the simulated microscope and tool."""
-    given, angle = robot.microscope, robot.tool.approach_angle
+def with_simulated_optics(robot: Robot) -> Robot:
+    """Return a copy of a robot, completed with the data of the simulated microscope and tool."""
+    optics, angle = robot.microscope, robot.tool.approach_angle
     return replace(
         robot,
         microscope=replace(
-            given,
-            pixel_size=given.pixel_size or PIXEL_SIZE_M,
-            magnification=given.magnification or MAGNIFICATION,
-            numerical_aperture=given.numerical_aperture or SIMULATED_APERTURE,
+            optics,
+            pixel_size=optics.pixel_size or DEFAULT_PIXEL_SIZE_M,
+            magnification=optics.magnification or DEFAULT_MAGNIFICATION,
+            numerical_aperture=optics.numerical_aperture or SIMULATED_APERTURE,
         ),
-        tool=replace(robot.tool, approach_angle=Pin().approach_rad if angle is None else angle),
+        tool=replace(
+            robot.tool, approach_angle=TaperedPin().approach_rad if angle is None else angle
+        ),
     )
 
 
-def magnification_of(objective: str) -> float | None:
-    """Return the magnification in an objective's name: ``40x``, ``Plan 40x/0.6``."""
-    found = re.search(r"(\d+(?:\.\d+)?)\s*[x×]", objective, re.IGNORECASE)
-    return float(found[1]) if found and float(found[1]) > 0.0 else None
+def parse_magnification(objective: str) -> float | None:
+    """Return the magnification in an objective's name, such as ``40x`` or ``Plan 40x/0.6``.
+
+    Return None if the name contains none.
+    """
+    match = re.search(r"(\d+(?:\.\d+)?)\s*[x×]", objective, re.IGNORECASE)
+    return float(match[1]) if match and float(match[1]) > 0.0 else None
 
 
-def objective_of(robot: Robot) -> str:
-    """Return what the robot file's objective is called."""
+def make_objective_name(robot: Robot) -> str:
+    """Return a name for the objective of the robot file."""
     magnification = robot.microscope.magnification
     return "objective" if magnification is None else f"{magnification:g}x"
 
 
-def pipette_of(robot: Robot, direction: float, pixel_m: float | None = None) -> Pipette:
-    """Return the pipette as it is seen when its body leads in ``direction``, rad, in the picture.
+def make_pipette(robot: Robot, direction: float, pixel_m: float | None = None) -> Pipette:
+    """Return the pipette as the microscope sees it.
 
     Parameters
     ----------
     robot : Robot
-        Its ``[tool]`` and ``[microscope]``; the view is along z unless they say otherwise.
+        Its ``[tool]`` and ``[microscope]`` are used; the default optical axis is z.
     direction : float
-        From the tip, from columns towards rows; to within about 6°, found by itself.
+        Direction from the tip along the body in the picture, rad: the angle from the +column
+        direction towards the +row direction. An accuracy of about 6° is enough for the search.
     pixel_m : float, optional
-        In the specimen; by default as the robot file says.
+        Size of a pixel in the specimen, m; by default that of the robot file.
     """
-    given = robot.microscope
-    approach = robot.tool.approach_angle
-    approach = APPROACH if approach is None else approach
-    axis = np.array(given.optical_axis or (0.0, 0.0, 1.0))
-    body = np.array([np.cos(approach), 0.0, np.sin(approach)])
-    towards = float(body @ axis) / float(np.linalg.norm(axis))
-    return Pipette.seen(
+    optics = robot.microscope
+    approach_rad = robot.tool.approach_angle
+    approach_rad = DEFAULT_APPROACH_RAD if approach_rad is None else approach_rad
+    optical_axis = np.array(optics.optical_axis or (0.0, 0.0, 1.0))
+    body = np.array([np.cos(approach_rad), 0.0, np.sin(approach_rad)])
+    # Component of the body's direction along the optical axis.
+    axial = float(body @ optical_axis) / float(np.linalg.norm(optical_axis))
+    return Pipette.from_optics(
         direction,
-        nominal_pixel_m(robot) if pixel_m is None else pixel_m,
-        approach=float(np.arcsin(np.clip(towards, -1.0, 1.0))),
-        aperture=given.numerical_aperture or APERTURE,
+        compute_nominal_pixel_size_m(robot) if pixel_m is None else pixel_m,
+        approach=float(np.arcsin(np.clip(axial, -1.0, 1.0))),
+        aperture=optics.numerical_aperture or DEFAULT_APERTURE,
     )

@@ -1,75 +1,75 @@
-"""Converts a recording of the tip into a record with the microscope as ``ref``."""
+"""Conversion of a recording of the tip into a record with the tracked tip as ``ref``."""
 
 import numpy as np
 
-from rotemina.app.microscope.errors import MicroscopeError
-from rotemina.app.microscope.measurements import CHANNEL, axis_reference, with_reference
-from rotemina.app.motion.recording.exporting import record_of
-from rotemina.app.motion.recording.recording_reader import Recording
-from rotemina.sim.kinematics.chain import JOINTS, Chain
-from rotemina.sim.messages import message
-from rotemina.sim.records.record import Record
+from rotemina.app.errors import MicroscopeError
+from rotemina.app.microscope.measurements import TIP_CHANNEL, compute_axis_reference, with_reference
+from rotemina.app.motion.recording import Recording, make_record
+from rotemina.sim.kinematics import JOINTS, KinematicChain
+from rotemina.sim.records import Record
 
-#: Axes whose motion is across the view. Depth comes from blur, without its zero.
-SEEN = ("x", "y", "thx", "thy")
+#: Axes that move the tip across the picture. The depth axes are left out, because blur gives depth
+#: only relative to the focus.
+MEASURABLE_AXES = ("x", "y", "thx", "thy")
 
 
-def recorded_reference(
+def make_reference_record(
     recording: Recording, axis: str, begin_s: float = -np.inf, end_s: float = np.inf
 ) -> Record:
-    """Return what was recorded between two host times, with ``axis.ref`` from the tracked tip.
+    """Return the record between two host times, with ``axis.ref`` from the tracked tip.
 
-    The axis must be the only one that deviates from its commands; the others count as commanded.
-    It begins with the first picture and ends with the last.
+    Only this axis may deviate from its command; the other axes are assumed to be at their commanded
+    positions. The record begins with the first picture and ends with the last one.
 
     Raises
     ------
     MicroscopeError
-        If the axis is not seen from there, or no tip was tracked and calibrated meanwhile.
+        If the microscope cannot measure the axis, no tip was recorded, or the micro stage was not
+        calibrated.
     RecordingError
-        As :func:`record_of`.
+        See :func:`make_record`.
     """
-    if axis not in SEEN:
+    if axis not in MEASURABLE_AXES:
         raise MicroscopeError(
-            message(
-                "engine",
-                "axis {axis}: the microscope measures only {names}; depth has no zero",
-            ).fill(axis=repr(axis), names=", ".join(SEEN))
+            "axis {axis}: the microscope measures only {names}; depth has no zero",
+            axis=repr(axis),
+            names=", ".join(MEASURABLE_AXES),
         )
-    record, samples = record_of(recording, begin_s, end_s), recording.samples(begin_s, end_s)
-    if CHANNEL not in recording.channels:
+    record, samples = make_record(recording, begin_s, end_s), recording.read_samples(begin_s, end_s)
+    if TIP_CHANNEL not in recording.channels:
         raise MicroscopeError(
-            message(
-                "engine",
-                "{path}: the recording contains no tip; calibrate, and track the tip while "
-                "recording",
-            ).fill(path=recording.path)
+            "{path}: the recording contains no tip; calibrate, and track the tip while recording",
+            path=recording.path,
         )
-    tips = recording.channel(CHANNEL, samples.host_time_s[0], samples.host_time_s[-1])
-    at_s = tips["host_time_s"]
-    chain = Chain.of(recording.robot)
+    tips = recording.read_channel(TIP_CHANNEL, samples.host_time_s[0], samples.host_time_s[-1])
+    frame_times_s = tips["host_time_s"]
+    chain = KinematicChain.of(recording.robot)
     columns = [samples.axes.index(joint) for joint in JOINTS]
     joints = np.stack(
-        [np.interp(at_s, samples.host_time_s, samples.command[:, column]) for column in columns],
+        [
+            np.interp(frame_times_s, samples.host_time_s, samples.command[:, column])
+            for column in columns
+        ],
         axis=-1,
     )
-    tip_m = 1e-6 * np.stack([tips["x [um]"], tips["y [um]"], np.zeros(len(at_s))], axis=-1)
-    along = "x" if axis in ("x", "thy") else "y"
-    doubt_m = 1e-6 * tips[f"{along} sd [um]"]
-    seen = np.isfinite(tip_m).all(axis=-1)
-    if not seen.any():
+    tip_m = 1e-6 * np.stack([tips["x [um]"], tips["y [um]"], np.zeros(len(frame_times_s))], axis=-1)
+    component = "x" if axis in ("x", "thy") else "y"
+    deviation_m = 1e-6 * tips[f"{component} sd [um]"]
+    is_tip_visible = np.isfinite(tip_m).all(axis=-1)
+    if not is_tip_visible.any():
         raise MicroscopeError(
-            message(
-                "engine",
-                "{path}: none of the {count} pictures shows where the tip is; calibrate the "
-                "micro stage before recording",
-            ).fill(path=recording.path, count=len(at_s))
+            "{path}: none of the {count} pictures shows where the tip is; calibrate the "
+            "micro stage before recording",
+            path=recording.path,
+            count=len(frame_times_s),
         )
-    values = np.full(len(at_s), np.nan)
-    values[seen] = axis_reference(chain, axis, tip_m[seen], joints[seen])
-    noise = float(np.sqrt(np.mean(doubt_m[seen] ** 2)))
+    values = np.full(len(frame_times_s), np.nan)
+    values[is_tip_visible] = compute_axis_reference(
+        chain, axis, tip_m[is_tip_visible], joints[is_tip_visible]
+    )
+    noise = float(np.sqrt(np.mean(deviation_m[is_tip_visible] ** 2)))
     if axis in ("thx", "thy"):
         noise /= chain.pin_length
-    begin = samples.device_time_s[0]
-    time_s = np.interp(at_s, samples.host_time_s, samples.device_time_s) - begin
+    record_start_s = samples.device_time_s[0]
+    time_s = np.interp(frame_times_s, samples.host_time_s, samples.device_time_s) - record_start_s
     return with_reference(record, axis, time_s, values, noise)

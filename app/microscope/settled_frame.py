@@ -1,7 +1,7 @@
-"""Pictures taken after the machine came to rest, with its position.
+"""Pictures that are taken after the machine has come to rest, with its position.
 
-Whoever moves by what a camera shows waits here. Anything that makes the picture or the place
-doubtful ends the wait with the reason: then nothing is to move.
+Every run that is guided by camera pictures waits for such a picture. If the picture or the position
+becomes unreliable, the wait ends with an error that gives the reason, and nothing may move.
 """
 
 from collections.abc import Callable
@@ -9,37 +9,36 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotemina.app.cameras.frame_check import FrameCheck, PictureState
-from rotemina.app.microscope.errors import MicroscopeError
+from rotemina.app.cameras import FrameCheck, PictureState
+from rotemina.app.errors import MicroscopeError
 from rotemina.app.motion.session import MotionSession
-from rotemina.app.motion.state import Connection, SessionState
-from rotemina.drivers.cameras.frame import Frame, Region
-from rotemina.drivers.gate import Permit
-from rotemina.drivers.samples import DeviceState
+from rotemina.app.motion.state import ConnectionState, SessionState
+from rotemina.drivers.cameras import CameraFrame, SensorRegion
+from rotemina.drivers.contract import DeviceState, Permit
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.messages import marked, message
-from rotemina.sim.quantities import fixed
-from rotemina.sim.vision.image import Image, grey
+from rotemina.sim.messages import format_fixed, marked, message
+from rotemina.sim.vision import Image, to_grey
 
-#: Return the newest picture, or None while there is none; never waits.
-Newest = Callable[[], Frame | None]
+#: A function that returns the newest picture, or None while there is none; it never waits.
+FrameSource = Callable[[], CameraFrame | None]
 
-SETTLE_S = 0.15  # after the machine came to rest: vibrations, and a picture in exposure
-PICTURES = 3
-PATIENCE_S = 3.0  # with a camera
-REST_PATIENCE_S = 30.0  # with a machine
+# In this time vibrations decay, and an exposure that began during the motion ends.
+SETTLING_TIME_S = 0.15
+DEFAULT_PICTURE_COUNT = 3
+CAMERA_TIMEOUT_S = 3.0
+REST_TIMEOUT_S = 30.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SettledFrame:
-    """Pictures of a machine at rest, with its position.
+    """Mean picture of the machine at rest, with the positions of its axes.
 
     Attributes
     ----------
     image : (rows, columns)
-        Mean of the pictures, as one plane.
+        Mean of the pictures, in grey levels.
     command, measured : (axes,)
-        m or rad, in the driver's order; means over the look.
+        Positions, m or rad, in the driver's order of axes; means over the pictures.
     """
 
     image: Image
@@ -53,158 +52,144 @@ class SettledFrameGrabber:
     Parameters
     ----------
     session : MotionSession
-    newest : callable
-        The camera's newest picture.
+    newest_frame : callable
+        Returns the camera's newest picture.
     pictures : int
-        How many are averaged.
+        Number of pictures that are averaged.
     permit : Permit, optional
-        Of the request that led here; drawn now without it.
+        Permit issued with the request; by default a new one.
     """
 
     def __init__(
         self,
         session: MotionSession,
-        newest: Newest,
+        newest_frame: FrameSource,
         *,
-        pictures: int = PICTURES,
+        pictures: int = DEFAULT_PICTURE_COUNT,
         permit: Permit | None = None,
     ) -> None:
         self._session = session
-        self._newest = newest
-        self._pictures = pictures
-        self._region: Region | None = None
-        #: Drawn when it began; every move of what looks goes with it, and a stop ends them all.
+        self._newest_frame = newest_frame
+        self._picture_count = pictures
+        self._region: SensorRegion | None = None
+        #: Permit for every move of the run; a stop invalidates it.
         self.permit = session.permit() if permit is None else permit
-        self._begun_s = 0.0
-        self._rested_s: float | None = None
-        self._frame_check = FrameCheck()  # also knows the pictures from before a move
+        self._wait_start_s = 0.0
+        self._rest_start_s: float | None = None
+        # Kept for the whole run, so that a repetition of a picture before the move is noticed.
+        self._frame_check = FrameCheck()
         self._restart()
 
     def begin(self, now_s: float) -> None:
-        """Wait for the next rest."""
-        self._begun_s = now_s
+        """Start waiting for a settled frame."""
+        self._wait_start_s = now_s
         self._restart()
 
     def step(self, now_s: float) -> SettledFrame | None:
-        """Return the settled frame as soon as there is one.
+        """Return the settled frame if it is complete, otherwise None.
 
         Raises
         ------
         MicroscopeError
-            If someone stopped the machine, it cannot move any more or does not come to rest, or
-            the camera stands still, is black, or shows another part of its sensor.
+            If the machine was stopped, can no longer move or does not come to rest, or if the
+            picture is stalled, frozen or black, or shows another region of the sensor.
         VisionError
-            If the picture is none.
+            If the picture has a wrong shape, values that are not finite, or no contrast.
         """
         state = self._session.snapshot()
-        self._refuse_if_broken(state)
+        self._require_motion_possible(state)
         if state.activity is not DeviceState.IDLE or state.queued:
             self._restart()
-            if now_s - self._begun_s > REST_PATIENCE_S:
+            if now_s - self._wait_start_s > REST_TIMEOUT_S:
                 raise MicroscopeError(
-                    message(
-                        "engine",
-                        "the machine did not come to rest within {rest_patience_s} s; check "
-                        "what drives it, and start again",
-                    ).fill(rest_patience_s=REST_PATIENCE_S)
+                    "the machine did not come to rest within {rest_patience_s} s; check "
+                    "what drives it, and start again",
+                    rest_patience_s=REST_TIMEOUT_S,
                 )
             return None
-        if self._rested_s is None:
-            self._rested_s = now_s
-        self._take(state)
-        if len(self._images) >= self._pictures:
-            return self._seen()
-        waited_s = now_s - self._rested_s
-        if waited_s > SETTLE_S + PATIENCE_S:
-            frozen = marked("engine", "frozen: it repeats earlier pictures")
-            what = frozen if self._frame_check.is_repeated else "stalled"
+        if self._rest_start_s is None:
+            self._rest_start_s = now_s
+        self._add_picture(state)
+        if len(self._images) >= self._picture_count:
+            return self._average_pictures()
+        waited_s = now_s - self._rest_start_s
+        if waited_s > SETTLING_TIME_S + CAMERA_TIMEOUT_S:
+            frozen_text = marked("engine", "frozen: it repeats earlier pictures")
+            problem = frozen_text if self._frame_check.is_repeated else "stalled"
             raise MicroscopeError(
-                message(
-                    "engine",
-                    "the camera is {what}; {count} of {pictures} new pictures arrived within "
-                    "{waited_s} s. Nothing moves: check the camera, and start again",
-                ).fill(
-                    what=what,
-                    count=len(self._images),
-                    pictures=self._pictures,
-                    waited_s=fixed(waited_s, 1),
-                )
+                "the camera is {what}; {count} of {pictures} new pictures arrived within "
+                "{waited_s} s. Nothing moves: check the camera, and start again",
+                what=problem,
+                count=len(self._images),
+                pictures=self._picture_count,
+                waited_s=format_fixed(waited_s, 1),
             )
         return None
 
-    def check(self) -> None:
-        """Refuse if motion is no longer permitted; to be called right before every move.
+    def require_motion_permitted(self) -> None:
+        """Raise MicroscopeError if motion is no longer permitted; call it right before every move.
 
-        What is computed from a picture takes a while, in which someone may stop the machine.
+        The evaluation of a picture takes a while, during which someone may stop the machine.
 
         Raises
         ------
         MicroscopeError
-            As :meth:`step`.
+            See :meth:`step`.
         """
-        self._refuse_if_broken(self._session.snapshot())
+        self._require_motion_possible(self._session.snapshot())
 
     def _restart(self) -> None:
-        self._rested_s = None
+        self._rest_start_s = None
         self._images: list[Image] = []
         self._commands: list[FloatArray] = []
         self._measured: list[FloatArray] = []
-        self._latest: Frame | None = None
+        self._latest_frame: CameraFrame | None = None
 
-    def _take(self, state: SessionState) -> None:
-        """Keep the newest picture, if it is a new one that was taken at rest."""
-        frame = self._newest()
-        assert self._rested_s is not None
-        if frame is None or frame.host_time_s < self._rested_s + SETTLE_S:
+    def _add_picture(self, state: SessionState) -> None:
+        frame = self._newest_frame()
+        assert self._rest_start_s is not None
+        if frame is None or frame.host_time_s < self._rest_start_s + SETTLING_TIME_S:
             return
-        before, self._latest = self._latest, frame
-        if before is not None and frame.number == before.number:
+        previous, self._latest_frame = self._latest_frame, frame
+        if previous is not None and frame.number == previous.number:
             return
         if self._region is not None and frame.region != self._region:
             raise MicroscopeError(
-                message(
-                    "engine",
-                    "the camera shows {size}, but showed {before} at the start; keep its "
-                    "settings, and start again",
-                ).fill(size=_size(frame.region), before=_size(self._region))
+                "the camera shows {size}, but showed {before} at the start; keep its "
+                "settings, and start again",
+                size=_format_size(frame.region),
+                before=_format_size(self._region),
             )
         self._region = frame.region
-        if self._frame_check.judge(frame) is PictureState.BLACK:
+        if self._frame_check.classify(frame) is PictureState.BLACK:
             raise MicroscopeError(
-                message(
-                    "engine",
-                    "the picture is black; check lamp, shutter and exposure. Nothing moves",
-                )
+                "the picture is black; check lamp, shutter and exposure. Nothing moves"
             )
         if self._frame_check.is_repeated:
             return
         axes = self._session.driver.axes
-        self._images.append(grey(frame.pixels))
+        self._images.append(to_grey(frame.pixels))
         self._commands.append(np.array([state.command[axis] for axis in axes]))
         self._measured.append(np.array([state.measured[axis] for axis in axes]))
 
-    def _seen(self) -> SettledFrame:
+    def _average_pictures(self) -> SettledFrame:
         return SettledFrame(
             image=np.mean(self._images, axis=0, dtype=np.float32),
             command=np.mean(self._commands, axis=0),
             measured=np.mean(self._measured, axis=0),
         )
 
-    def _refuse_if_broken(self, state: SessionState) -> None:
-        if not self.permit.valid:
-            raise MicroscopeError(message("engine", "the machine was stopped; it stays in place"))
-        if state.connection is not Connection.CONNECTED or state.fault is not None:
-            reason = state.fault or state.locked or message("engine", "it is not connected")
-            raise MicroscopeError(
-                message("engine", "the machine no longer moves: {reason}").fill(reason=reason)
-            )
-        if state.locked is not None:
-            raise MicroscopeError(
-                message("engine", "motion is locked: {locked}").fill(locked=state.locked)
-            )
+    def _require_motion_possible(self, state: SessionState) -> None:
+        if not self.permit.is_valid:
+            raise MicroscopeError("the machine was stopped; it stays in place")
+        if state.connection is not ConnectionState.CONNECTED or state.fault is not None:
+            reason = state.fault or state.lock_reason or message("engine", "it is not connected")
+            raise MicroscopeError("the machine no longer moves: {reason}", reason=reason)
+        if state.lock_reason is not None:
+            raise MicroscopeError("motion is locked: {locked}", locked=state.lock_reason)
 
 
-def _size(region: Region) -> str:
+def _format_size(region: SensorRegion) -> str:
     return message("engine", "{width} × {height} px from {left}, {top}").fill(
         width=region.width, height=region.height, left=region.left, top=region.top
     )

@@ -3,23 +3,21 @@
 from dataclasses import dataclass, field
 from enum import StrEnum
 
-from rotemina.app.cameras.feed import FeedView
+from rotemina.app.cameras import FeedView
 from rotemina.app.microscope.calibration_file import MicroscopeCalibration
-from rotemina.app.microscope.calibration_run import CalibrationStatus
+from rotemina.app.microscope.calibration_run import StageCalibrationStatus
 from rotemina.app.microscope.click_corrections import VisitStatus
 from rotemina.app.microscope.click_target import PlannedMove
 from rotemina.app.microscope.focus_run import FocusStatus
 from rotemina.app.microscope.stack_run import StackStatus
-from rotemina.app.microscope.targets import Target
-from rotemina.drivers.cameras.camera import CameraIdentity
+from rotemina.app.microscope.targets import MarkedTarget
+from rotemina.drivers.cameras import CameraIdentity
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.vision.background_drift import Drift
-from rotemina.sim.vision.cell import CellOutline, MembraneAhead
-from rotemina.sim.vision.tip_fit import Depth
+from rotemina.sim.vision import BackgroundDrift, CellOutline, MembraneAhead, TipDepth
 
 
-class Activity(StrEnum):
-    """What the microscope moves something for; one at a time."""
+class MicroscopeActivity(StrEnum):
+    """The kind of run that is under way; there is at most one run."""
 
     NONE = "none"
     CALIBRATION = "calibration"
@@ -47,50 +45,54 @@ class ScaleSource(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class TipSeen:
+class TipStatus:
     """The tracked tip.
 
     Attributes
     ----------
     state : TipState
     pixel, sigma_px : (2,) or None, float or None
-        Where it is, or was seen last, and the standard deviation along the worst direction.
+        Current or last seen pixel, and the standard deviation in its least certain direction.
     direction : float or None
-        Where its body leads, rad, from columns towards rows.
-    depth : Depth or None
-        From focus, m; with its uncertainty.
-    place_m, sigma_m : (2,) or None
-        x and y by the calibration of the tables, and their standard deviations; None without one.
+        Direction from the tip along the body, rad: the angle from the +column direction towards
+        the +row direction.
+    depth : TipDepth or None
+        Distance from focus, m, with its uncertainty.
+    position_m, sigma_m : (2,) or None
+        x and y by the calibration of the micro stage, and their standard deviations; None without
+        that calibration.
     quality : float
         0 to 1.
     reason : str
-        Why it is lost or was not found.
+        Why the tip is lost or was not found.
     """
 
     state: TipState = TipState.OFF
     pixel: FloatArray | None = None
     sigma_px: float | None = None
     direction: float | None = None
-    depth: Depth | None = None
-    place_m: FloatArray | None = None
+    depth: TipDepth | None = None
+    position_m: FloatArray | None = None
     sigma_m: FloatArray | None = None
     quality: float = 0.0
     reason: str = ""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class CellSeen:
+class CellStatus:
     """The outline of a cell, and the position of the tip relative to it.
 
     Attributes
     ----------
     outline : CellOutline or None
     ahead : MembraneAhead or None
-        Along the pipette's own direction, px and rad; None without a tip, or where that way misses.
+        The membrane in the direction in which the pipette points, px and rad; None without a tip,
+        or if that line misses the cell.
     distance_m, sigma_m : float or None
-        Of the membrane from the tip, and its standard deviation; None without a scale.
+        Distance of the membrane from the tip, and its standard deviation; None if the size of a
+        pixel is unknown.
     reason : str
-        Why none was found.
+        Why no outline was found.
     """
 
     outline: CellOutline | None = None
@@ -101,19 +103,19 @@ class CellSeen:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Measured:
+class MeasuredLine:
     """A line that was drawn in the picture.
 
     Attributes
     ----------
     begin, end : (2,)
-        px.
+        Ends of the line, px.
     length_px : float
     length_m : float or None
-        None without a scale.
+        None if the size of a pixel is unknown.
     angle : float
-        rad, from columns towards rows.
-    to_body : float or None
+        Angle from the +column direction towards the +row direction, rad.
+    angle_to_pipette : float or None
         Angle to the pipette's body, rad, 0 to π/2; None without a tip.
     """
 
@@ -122,21 +124,21 @@ class Measured:
     length_px: float
     length_m: float | None
     angle: float
-    to_body: float | None
+    angle_to_pipette: float | None
 
 
 @dataclass(frozen=True, slots=True)
 class FocusAxis:
-    """Something that can be focused with: the microscope's drive, or an axis of the machine.
+    """A drive for focusing: the microscope's focus drive, or an axis of the machine.
 
     Attributes
     ----------
     name : str
-        ``focus`` for the drive, else the axis.
+        ``focus`` for the microscope's drive, otherwise the name of the axis.
     position : float or None
-        m.
+        Current position, m; None if it is unknown.
     low, high : float
-        How far it goes, m.
+        Range, m.
     """
 
     name: str
@@ -146,60 +148,66 @@ class FocusAxis:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class DriftSeen:
-    """Displacement of the background since it was last taken; None if not monitored."""
+class DriftStatus:
+    """Status of the drift monitoring.
 
-    watched: bool = False
-    drift: Drift | None = None
+    ``drift`` is the displacement of the background since the monitoring began; None if nothing is
+    monitored or measured yet.
+    """
+
+    is_watched: bool = False
+    drift: BackgroundDrift | None = None
     reason: str = ""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MicroscopeStatus:
-    """All that a view shows. Pixels are (column, row) of the picture in ``feed``.
+    """Everything that a view shows. Pixels are (column, row) of the picture in ``feed``.
 
     Attributes
     ----------
     cameras : tuple of CameraIdentity
-        That are there now.
+        Cameras that are available now.
     camera_problems : dict source -> str
-        Why a source finds nothing.
+        Why a source finds no cameras.
     camera : CameraIdentity or None
-        The one in use.
+        The camera in use.
     feed : FeedView
-        Its newest picture and how it is doing.
+        State and newest picture of the camera in use.
     objective : str
-        The one in use; ``objectives`` are those with a calibration, and this one.
+        The objective in use; ``objectives`` are all those chosen since the start.
     calibration : MicroscopeCalibration or None
-        What is known of camera and objective.
+        Calibration of camera and objective.
     calibration_problem : str
-        Why what is kept cannot be used.
+        Why the stored calibration cannot be used.
     pixel_m, scale_source : float or None, ScaleSource
-        Size of a pixel in the specimen, m, and who says so.
-    activity : Activity
-        What is under way now.
-    calibrating, visiting, focusing, stacking : status or None
-        Of the latest of each, also after it has ended: with phase, progress, residuals, reasons.
-    stopped : str
-        Why the latest run was ended from here (camera, lost tip, operator); empty if it was not.
-    planned : PlannedMove or None
-        What :meth:`Microscope.go` would do; its ``ghost`` is where the tip would be.
-    path : (n, 2) or None
-        Where the tip went in the picture, the latest last, px.
-    tip : TipSeen
-    cell : CellSeen
-    measured : Measured or None
-    targets : tuple of Target
+        Size of a pixel in the specimen, m, and its source.
+    activity : MicroscopeActivity
+        Kind of the run that is under way.
+    calibration_status, visit_status, focus_status, stack_status : status or None
+        Status of the latest run of each kind, also after its end: phase, progress, residuals,
+        reasons.
+    abort_reason : str
+        Why the latest run was aborted (camera, lost tip, operator); empty if it was not.
+    planned_move : PlannedMove or None
+        The move that :meth:`Microscope.go` would make; ``ghost`` is the pixel of the tip after it.
+    tip_path : (n, 2) or None
+        Path of the tip in the picture, px, newest point last.
+    tip : TipStatus
+    cell : CellStatus
+    measured_line : MeasuredLine or None
+    targets : tuple of MarkedTarget
     nano_limits : (n, 2) or None
-        Closed polygon of where the nano stage can bring the tip, px; None without calibration.
+        Closed polygon around the pixels that the nano stage can reach; None without calibration.
     focus_axes : tuple of FocusAxis
-    drift : DriftSeen
-    background : bool
-        Whether tracking has a picture of what lies beneath the tip.
+    drift : DriftStatus
+    has_background : bool
+        Whether tracking used a picture of the background beneath the tip.
     frames_processed, frames_skipped : int
-        By the tracker since it was switched on: it takes the newest one, and never a backlog.
-    truth : str
-        Why the simulated microscope cannot show this machine; empty where it can, or is not used.
+        Numbers of pictures since tracking was switched on. The tracker always takes the newest
+        picture, and skips the pictures in between.
+    simulation_problem : str
+        Why the simulated microscope cannot show this machine; empty if it can, or is not used.
     """
 
     cameras: tuple[CameraIdentity, ...] = ()
@@ -212,22 +220,22 @@ class MicroscopeStatus:
     calibration_problem: str = ""
     pixel_m: float | None = None
     scale_source: ScaleSource = ScaleSource.NONE
-    activity: Activity = Activity.NONE
-    calibrating: CalibrationStatus | None = None
-    visiting: VisitStatus | None = None
-    focusing: FocusStatus | None = None
-    stacking: StackStatus | None = None
-    stopped: str = ""
-    planned: PlannedMove | None = None
-    path: FloatArray | None = None
-    tip: TipSeen = field(default_factory=TipSeen)
-    cell: CellSeen = field(default_factory=CellSeen)
-    measured: Measured | None = None
-    targets: tuple[Target, ...] = ()
+    activity: MicroscopeActivity = MicroscopeActivity.NONE
+    calibration_status: StageCalibrationStatus | None = None
+    visit_status: VisitStatus | None = None
+    focus_status: FocusStatus | None = None
+    stack_status: StackStatus | None = None
+    abort_reason: str = ""
+    planned_move: PlannedMove | None = None
+    tip_path: FloatArray | None = None
+    tip: TipStatus = field(default_factory=TipStatus)
+    cell: CellStatus = field(default_factory=CellStatus)
+    measured_line: MeasuredLine | None = None
+    targets: tuple[MarkedTarget, ...] = ()
     nano_limits: FloatArray | None = None
     focus_axes: tuple[FocusAxis, ...] = ()
-    drift: DriftSeen = field(default_factory=DriftSeen)
-    background: bool = False
+    drift: DriftStatus = field(default_factory=DriftStatus)
+    has_background: bool = False
     frames_processed: int = 0
     frames_skipped: int = 0
-    truth: str = ""
+    simulation_problem: str = ""

@@ -1,24 +1,23 @@
-"""Targets marked in the picture, and their visit in order."""
+"""Targets marked in the picture, which the tip visits in order."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from rotemina.app.microscope.click_corrections import ClickRun, Visit
-from rotemina.app.microscope.errors import MicroscopeError
+from rotemina.app.errors import MicroscopeError
+from rotemina.app.microscope.click_corrections import VisitRun, VisitState
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.messages import message
 
 
 @dataclass(frozen=True, slots=True)
-class Target:
-    """A marked point, px, and its outcome."""
+class MarkedTarget:
+    """A marked point, px, and the state of the visit to it; ``visit`` is None before it."""
 
     column: float
     row: float
-    visit: Visit | None = None
-    note: str = ""
+    visit: VisitState | None = None
+    reason: str = ""
 
     @property
     def pixel(self) -> FloatArray:
@@ -30,49 +29,49 @@ class Target:
 class TargetSequence:
     """Targets in the order in which they were marked.
 
-    ``begin`` makes the run that goes to a pixel; the next target is gone to when someone calls
-    :meth:`next`, so that there is time for what is to be done at each.
+    ``begin_visit`` starts a run that moves the tip to a pixel, and returns it. The tip moves to the
+    next target only when :meth:`visit_next` is called. This leaves time to work at each target.
     """
 
-    begin: Callable[[FloatArray], ClickRun]
-    targets: list[Target] = field(default_factory=list)
-    _present: int | None = None
-    _run: ClickRun | None = None
+    begin_visit: Callable[[FloatArray], VisitRun]
+    targets: list[MarkedTarget] = field(default_factory=list)
+    _current_index: int | None = None
+    _run: VisitRun | None = None
 
     def mark(self, pixel: FloatArray) -> None:
-        """Add a target behind the others."""
-        self.targets.append(Target(float(pixel[0]), float(pixel[1])))
+        """Add a target at the end of the list."""
+        self.targets.append(MarkedTarget(float(pixel[0]), float(pixel[1])))
 
     def clear(self) -> None:
-        """Forget all targets.
+        """Remove all targets.
 
         Raises
         ------
         MicroscopeError
-            On the way to one.
+            If the tip is on its way to a target.
         """
-        self._refuse_under_way()
+        self._refuse_during_visit()
         self.targets.clear()
-        self._present = self._run = None
+        self._current_index = self._run = None
 
-    def next(self) -> Target:
-        """Go to the first unvisited target.
+    def visit_next(self) -> MarkedTarget:
+        """Start the move to the first unvisited target.
 
         Raises
         ------
         MicroscopeError
-            If there is none, or the tip is on its way to another.
+            If no target is left, or the tip is on its way to another one.
         InputError
-            If the move is refused; the target stays to be visited.
+            If the move is refused; the target stays unvisited.
         """
-        self._refuse_under_way()
+        self._refuse_during_visit()
         for index, target in enumerate(self.targets):
             if target.visit is None:
-                self._run = self.begin(target.pixel)
-                self._present = index
-                self._note()
+                self._run = self.begin_visit(target.pixel)
+                self._current_index = index
+                self._update_target()
                 return self.targets[index]
-        raise MicroscopeError(message("engine", "every target has been visited; mark further ones"))
+        raise MicroscopeError("every target has been visited; mark more targets")
 
     @property
     def ended(self) -> bool:
@@ -80,45 +79,45 @@ class TargetSequence:
         return self._run is None or self._run.ended
 
     def remove(self, index: int) -> None:
-        """Forget one target.
+        """Remove one target.
 
         Raises
         ------
         MicroscopeError
-            If there is no such one, or on the way to one.
+            If there is no target with this index, or the tip is on its way to a target.
         """
-        self._refuse_under_way()
+        self._refuse_during_visit()
         if not 0 <= index < len(self.targets):
             raise MicroscopeError(
-                message("engine", "there is no target {index}; there are {count}").fill(
-                    index=index + 1, count=len(self.targets)
-                )
+                "there is no target {index}; there are {count}",
+                index=index + 1,
+                count=len(self.targets),
             )
         del self.targets[index]
-        self._present = self._run = None
+        self._current_index = self._run = None
 
     def abort(self, reason: str) -> None:
-        """Stop the machine and end the present visit."""
+        """Stop the machine and end the current visit."""
         if self._run is not None:
             self._run.abort(reason)
-            self._note()
+            self._update_target()
 
-    def step(self, now_s: float) -> Target | None:
-        """Continue with the present visit; return its target, or None before the first."""
-        if self._run is None or self._present is None:
+    def step(self, now_s: float) -> MarkedTarget | None:
+        """Advance the current visit; return its target, or None before the first visit."""
+        if self._run is None or self._current_index is None:
             return None
         self._run.step(now_s)
-        self._note()
-        return self.targets[self._present]
+        self._update_target()
+        return self.targets[self._current_index]
 
-    def _note(self) -> None:
+    def _update_target(self) -> None:
         assert self._run is not None
-        assert self._present is not None
-        target, status = self.targets[self._present], self._run.status
-        self.targets[self._present] = Target(target.column, target.row, status.visit, status.reason)
+        assert self._current_index is not None
+        target, status = self.targets[self._current_index], self._run.status
+        self.targets[self._current_index] = MarkedTarget(
+            target.column, target.row, status.state, status.reason
+        )
 
-    def _refuse_under_way(self) -> None:
+    def _refuse_during_visit(self) -> None:
         if not self.ended:
-            raise MicroscopeError(
-                message("engine", "the tip is moving to a target; wait, or stop it first")
-            )
+            raise MicroscopeError("the tip is moving to a target; wait, or stop it first")

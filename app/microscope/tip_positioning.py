@@ -1,30 +1,30 @@
-"""Moves of the tip to clicks and marked targets: planned, executed, and corrected."""
+"""Moves of the tip to clicked points and marked targets."""
 
 import numpy as np
 
+from rotemina.app.errors import MicroscopeError
 from rotemina.app.microscope.camera_in_use import CameraInUse
-from rotemina.app.microscope.click_corrections import ClickRun
-from rotemina.app.microscope.click_target import ClickToMove, PlannedMove
-from rotemina.app.microscope.errors import MicroscopeError
+from rotemina.app.microscope.click_corrections import VisitRun
+from rotemina.app.microscope.click_target import ClickMover, PlannedMove
 from rotemina.app.microscope.optical_setup import OpticalSetup
-from rotemina.app.microscope.runs import Runs
-from rotemina.app.microscope.settled_frame import SETTLE_S
-from rotemina.app.microscope.status import Activity
+from rotemina.app.microscope.runs import MicroscopeRunner
+from rotemina.app.microscope.settled_frame import SETTLING_TIME_S
+from rotemina.app.microscope.status import MicroscopeActivity
 from rotemina.app.microscope.targets import TargetSequence
 from rotemina.app.microscope.tip_tracker import TipTracker
 from rotemina.app.motion.session import MotionSession
-from rotemina.drivers.clock import Clock
-from rotemina.drivers.gate import Permit
+from rotemina.drivers.contract import Clock, Permit
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.kinematics.chain import ChainError
+from rotemina.sim.errors import ChainError
 from rotemina.sim.messages import message
-from rotemina.sim.vision.image import grey
+from rotemina.sim.vision import to_grey
 
-LOST_S = 1.0  # that a tip may be lost on its way to a click
+# Longest time for which tracking may lose the tip during a move before the run is aborted.
+MAX_LOST_S = 1.0
 
 
 class TipPositioning:
-    """Brings the tracked tip to pixels, one run at a time.
+    """Plans and starts moves of the tracked tip to pixels, one run at a time.
 
     Parameters
     ----------
@@ -32,7 +32,7 @@ class TipPositioning:
     camera : CameraInUse
     setup : OpticalSetup
     tracker : TipTracker
-    runs : Runs
+    runner : MicroscopeRunner
     clock : callable
     """
 
@@ -42,123 +42,127 @@ class TipPositioning:
         camera: CameraInUse,
         setup: OpticalSetup,
         tracker: TipTracker,
-        runs: Runs,
+        runner: MicroscopeRunner,
         clock: Clock,
     ) -> None:
         self._session, self._camera, self._setup = session, camera, setup
-        self._tracker, self._runs, self._clock = tracker, runs, clock
-        self.planned: PlannedMove | None = None
-        #: The present visit, or the latest one.
-        self.run: ClickRun | None = None
-        self._permit: Permit | None = None  # of the visit that is being begun
-        self.sequence = TargetSequence(
-            lambda pixel: self._visit(self._thought(pixel, None), confirmed=True)
+        self._tracker, self._runner, self._clock = tracker, runner, clock
+        self.planned_move: PlannedMove | None = None
+        #: The current visit, or the latest one.
+        self.visit_run: VisitRun | None = None
+        # Permit for the next visit.
+        self._permit: Permit | None = None
+        self.target_sequence = TargetSequence(
+            lambda pixel: self._make_visit(self._plan_move(pixel, None), confirmed=True)
         )
 
     def plan(self, pixel: FloatArray, stage: str | None) -> PlannedMove:
-        """Plan the move for a click; nothing moves. Raises as :meth:`ClickToMove.plan`."""
-        self.planned = None
-        self.planned = self._thought(pixel, stage)
-        return self.planned
+        """Plan the move for a click; nothing moves. For errors see :meth:`ClickMover.plan`."""
+        self.planned_move = None
+        self.planned_move = self._plan_move(pixel, stage)
+        return self.planned_move
 
     def go(self, *, confirmed: bool, permit: Permit) -> None:
-        """Make the planned move, look, and correct until the tip is there.
+        """Make the planned move, and correct it until the tip is at the goal.
 
-        ``permit`` is that of the request: no stop that came after it lets anything move.
+        ``permit`` was issued with the request. If the machine was stopped since then, the permit is
+        no longer valid and nothing moves.
 
         Raises
         ------
         MicroscopeError
-            If nothing is planned, the tip is not tracked, or a large move is not confirmed.
+            If no move is planned, the tip is not tracked, or a large move is not confirmed.
         InputError
-            As :meth:`ClickToMove.go` and :meth:`Runs.begin`.
+            See :meth:`ClickMover.go` and :meth:`MicroscopeRunner.begin`.
         """
-        move = self.planned
+        move = self.planned_move
         if move is None:
-            raise MicroscopeError(
-                message("engine", "no move is planned; click in the picture first")
-            )
+            raise MicroscopeError("no move is planned; click in the picture first")
         self._permit = permit
-        self._runs.begin(Activity.CLICK, lambda: self._visit(move, confirmed=confirmed))
-        self.planned = None
+        self._runner.begin(
+            MicroscopeActivity.CLICK, lambda: self._make_visit(move, confirmed=confirmed)
+        )
+        self.planned_move = None
 
-    def next(self, *, confirmed: bool, permit: Permit) -> None:
-        """Go to the next target; ``permit`` as in :meth:`go`.
+    def visit_next(self, *, confirmed: bool, permit: Permit) -> None:
+        """Move to the next target; ``permit`` as in :meth:`go`.
 
         Raises
         ------
         MicroscopeError
-            If there is none, or the way is so large that it must be confirmed.
+            If no target is left, or the move is so large that it needs a confirmation.
         InputError
-            As :meth:`go`.
+            See :meth:`go`.
         """
-        waiting = next((one for one in self.sequence.targets if one.visit is None), None)
-        if waiting is not None and not confirmed:
-            self._clicks().check(self._thought(waiting.pixel, None))
+        unvisited = next(
+            (target for target in self.target_sequence.targets if target.visit is None), None
+        )
+        if unvisited is not None and not confirmed:
+            self._make_mover().require_confirmation(self._plan_move(unvisited.pixel, None))
 
         self._permit = permit
 
-        def make() -> TargetSequence:
-            self.sequence.next()
-            return self.sequence
+        def start_next_visit() -> TargetSequence:
+            self.target_sequence.visit_next()
+            return self.target_sequence
 
-        self._runs.begin(Activity.TARGETS, make)
+        self._runner.begin(MicroscopeActivity.TARGETS, start_next_visit)
 
-    def doubt(self, activity: Activity) -> str:
-        """Return why the tracked tip must not be used for motion, or None."""
-        tracked = self._tracker.tracked
-        if activity not in (Activity.CLICK, Activity.TARGETS) or tracked.lost_since_s is None:
+    def find_tracking_problem(self, activity: MicroscopeActivity) -> str:
+        """Return why the tracked tip must not guide this activity, or an empty text."""
+        result = self._tracker.result
+        if (
+            activity not in (MicroscopeActivity.CLICK, MicroscopeActivity.TARGETS)
+            or result.lost_since_s is None
+        ):
             return ""
-        if tracked.frame is None or tracked.frame.host_time_s - tracked.lost_since_s < LOST_S:
+        if result.frame is None or result.frame.host_time_s - result.lost_since_s < MAX_LOST_S:
             return ""
-        return message("engine", "the tip is lost: {reason}").fill(reason=tracked.reason)
+        return message("engine", "the tip is lost: {reason}").fill(reason=result.reason)
 
-    def _clicks(self) -> ClickToMove:
+    def _make_mover(self) -> ClickMover:
         try:
-            return ClickToMove(self._session, self._setup.calibration)
+            return ClickMover(self._session, self._setup.calibration)
         except ChainError as error:
             raise MicroscopeError(
-                message("engine", "no tip can be moved by a click: {error}").fill(error=str(error))
+                "a click cannot move the tip: {error}", error=str(error)
             ) from error
 
-    def _thought(self, pixel: FloatArray, stage: str | None) -> PlannedMove:
-        return self._clicks().plan(
+    def _plan_move(self, pixel: FloatArray, stage: str | None) -> PlannedMove:
+        return self._make_mover().plan(
             np.asarray(pixel, dtype=np.float64),
             stage=stage,
-            tip_px=self._seen_at_rest(),
-            frame=self._camera.newest,
+            tip_px=self._find_tip_at_rest(),
+            frame=self._camera.newest_frame,
         )
 
-    def _seen_at_rest(self) -> FloatArray | None:
-        """Return the tip's pixel (2,), unless its picture may be older than the latest motion.
+    def _find_tip_at_rest(self) -> FloatArray | None:
+        """Return the tip's pixel (2,), or None if its picture may be older than the latest motion.
 
-        The targets of a move begin at the present command, so the picture must show that place.
+        A move starts at the current command, so the picture must show the tip at that position.
         """
-        tip, frame = self._tracker.tip, self._tracker.tracked.frame
-        moved_s = self._session.snapshot().moved_s
-        if tip is None or frame is None or frame.host_time_s < moved_s + SETTLE_S:
+        tip, frame = self._tracker.tip, self._tracker.result.frame
+        last_motion_s = self._session.snapshot().last_motion_s
+        if tip is None or frame is None or frame.host_time_s < last_motion_s + SETTLING_TIME_S:
             return None
         return tip.pixel
 
-    def _visit(self, move: PlannedMove, *, confirmed: bool) -> ClickRun:
-        tip, frame = self._tracker.tip, self._tracker.tracked.frame
+    def _make_visit(self, move: PlannedMove, *, confirmed: bool) -> VisitRun:
+        tip, frame = self._tracker.tip, self._tracker.result.frame
         if tip is None or frame is None:
             raise MicroscopeError(
-                message(
-                    "engine",
-                    "the tip is not tracked; turn on tracking, so that the move can be checked",
-                )
+                "the tip is not tracked; turn on tracking, so that the move can be checked"
             )
-        ground = self._tracker.ground_about(move.pixel)
-        self.run = ClickRun(
-            self._clicks(),
-            lambda: self._camera.newest,
+        background = self._tracker.get_background(move.pixel)
+        self.visit_run = VisitRun(
+            self._make_mover(),
+            lambda: self._camera.newest_frame,
             move,
             tip,
             now_s=self._clock(),
-            before=grey(frame.pixels) if ground is None else ground,
-            clear=ground is not None,
+            earlier_image=to_grey(frame.pixels) if background is None else background,
+            earlier_is_clear=background is not None,
             confirmed=confirmed,
             permit=self._permit,
         )
-        return self.run
+        return self.visit_run

@@ -1,4 +1,4 @@
-"""Tracks the tip in the newest picture, skipping pictures rather than building a backlog."""
+"""Tracking of the tip in the newest picture; pictures are skipped, never queued."""
 
 import threading
 from collections import deque
@@ -8,286 +8,335 @@ from enum import StrEnum
 
 import numpy as np
 
-from rotemina.app.cameras.feed import FeedState, FeedView
+from rotemina.app.cameras import FeedState, FeedView
 from rotemina.app.microscope.status import TipState
-from rotemina.drivers.cameras.frame import Frame
+from rotemina.drivers.cameras import CameraFrame
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
-from rotemina.sim.vision.background import Ground
-from rotemina.sim.vision.body_fit import BodyPart
-from rotemina.sim.vision.image import Image, grey
-from rotemina.sim.vision.pipette import Pipette
-from rotemina.sim.vision.tip import find_body, find_tip
-from rotemina.sim.vision.tracking import TipTrack, begin_track, follow, learn
+from rotemina.sim.vision import (
+    BackgroundImage,
+    BodyPart,
+    Image,
+    Pipette,
+    TipTrack,
+    begin_track,
+    find_tip,
+    find_tip_in_any_direction,
+    follow_tip,
+    learn_body,
+    to_grey,
+)
 
-GROUND_S = 0.5  # between two pictures that a background is made of
-LEARNT = 30  # pictures from which a body is known well enough
-_AGAIN_S = 0.5  # between two searches of the whole picture
-_PATH, _PATH_STEP_PX = 2000, 1.0
-_NEAR_PX = 150.0  # about a click that says where the tip is
-_LANDED_PX = 100.0  # about where a tip is looked for after a move
-_TRUSTED = (FeedState.LIVE, FeedState.WAITING)
+BACKGROUND_PERIOD_S = 0.5
+# Number of pictures after which the appearance of the pipette's body is known well enough.
+MIN_LEARNT_PICTURES = 30
+_SEARCH_PERIOD_S = 0.5
+_MAX_PATH_POINTS, _MIN_PATH_STEP_PX = 2000, 1.0
+# Half the side of the square that is searched around a clicked pixel.
+_SEARCH_RADIUS_PX = 150.0
+# Half the side of the square around the goal of a move in which the background is needed.
+_LANDING_RADIUS_PX = 100.0
+_TRUSTED_STATES = (FeedState.LIVE, FeedState.WAITING)
 
 
-class Pressing(StrEnum):
+class TipContact(StrEnum):
     """Whether the tip presses on a cell."""
 
     NO = "no"
-    SOON = "soon"  # it stands above the cell, and is going to
+    # The tip is above the cell and will press on it next.
+    SOON = "soon"
     YES = "yes"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Tracked:
-    """The tracking result of a picture.
+class TrackingResult:
+    """The result of tracking in one picture.
 
     Attributes
     ----------
     state : TipState
     track : TipTrack or None
-        None before it was found.
-    frame : Frame or None
-        In which it was looked for last.
+        None until the tip is found.
+    frame : CameraFrame or None
+        The latest picture that was searched.
     reason : str
-        Why it is not found, or lost.
+        Why the tip was not found, or is lost.
     processed, skipped : int
-        Pictures since tracking was switched on.
+        Numbers of pictures since tracking was switched on.
     lost_since_s : float or None
-        Host time of the first picture that did not show it.
-    ground : bool
-        Whether what lies beneath it was taken off.
+        Host time of the first picture without the tip; None while the tip is tracked.
+    has_background : bool
+        Whether the background beneath the tip was removed.
     """
 
     state: TipState = TipState.OFF
     track: TipTrack | None = None
-    frame: Frame | None = None
+    frame: CameraFrame | None = None
     reason: str = ""
     processed: int = 0
     skipped: int = 0
     lost_since_s: float | None = None
-    ground: bool = False
+    has_background: bool = False
 
 
 class TipTracker:
-    """Tracks when switched on; one thread steps, any may ask.
+    """Tracks the tip. One thread calls :meth:`step`; any thread may use all other members.
 
     Parameters
     ----------
-    view : callable
-        Return how the camera is doing, with its newest picture.
-    shape : callable
-        Return the pipette and whether its direction is known; raises InputError where it cannot.
-    expected : callable
-        Return where the tip should be by commands and calibration, px, or None.
-    pressing : callable
-        Return whether the tip presses on a cell.
-    told : callable
-        Gets every result that a picture gave.
+    read_feed : callable
+        Returns the state and the newest picture of the camera.
+    make_pipette : callable
+        Returns the pipette, and whether its direction is known. Raises InputError if the shape of
+        the pipette is unknown.
+    predict_pixel : callable
+        Returns the tip's pixel (2,) predicted from command and calibration, or None.
+    read_contact : callable
+        Returns whether the tip presses on a cell.
+    on_result : callable
+        Called with the result of every picture.
     """
 
     def __init__(
         self,
-        view: Callable[[], FeedView],
-        shape: Callable[[], tuple[Pipette, bool]],
-        expected: Callable[[], FloatArray | None],
-        pressing: Callable[[], Pressing],
-        told: Callable[[Tracked], None] = lambda _: None,
+        read_feed: Callable[[], FeedView],
+        make_pipette: Callable[[], tuple[Pipette, bool]],
+        predict_pixel: Callable[[], FloatArray | None],
+        read_contact: Callable[[], TipContact],
+        on_result: Callable[[TrackingResult], None] = lambda _: None,
     ) -> None:
-        self._view, self._shape, self._expected = view, shape, expected
-        self._pressing, self._told = pressing, told
-        self._lock = threading.Lock()  # guards wishes; never held while anybody waits
-        self._on = False
-        self._anew = False
-        self._near: FloatArray | None = None
-        self._ground_wanted = False
-        self._tracked = Tracked()  # exchanged as a whole, by the thread alone
-        self._ground: Ground | None = None
-        self._ground_s = 0.0
-        self._about: object = None
-        self._searched_s = -np.inf
-        self._was: FloatArray | None = None
-        self._path: deque[tuple[float, float]] = deque(maxlen=_PATH)
-
-    # --- any thread -------------------------------------------------------------------------------
+        self._read_feed, self._make_pipette, self._predict_pixel = (
+            read_feed,
+            make_pipette,
+            predict_pixel,
+        )
+        self._read_contact, self._on_result = read_contact, on_result
+        # Guards the requests; never held during a wait.
+        self._lock = threading.Lock()
+        self._is_on = False
+        self._must_restart = False
+        self._search_centre: FloatArray | None = None
+        self._is_background_requested = False
+        # Replaced by a new object for each picture, only by the thread that calls :meth:`step`.
+        self._result = TrackingResult()
+        self._background: BackgroundImage | None = None
+        self._last_background_s = 0.0
+        self._view_settings: object = None
+        self._last_search_s = -np.inf
+        self._last_prediction: FloatArray | None = None
+        self._path: deque[tuple[float, float]] = deque(maxlen=_MAX_PATH_POINTS)
 
     @property
-    def tracked(self) -> Tracked:
+    def result(self) -> TrackingResult:
         """The result of the newest picture."""
-        return self._tracked
+        return self._result
 
     @property
     def tip(self) -> TipTrack | None:
         """The tip, while it is tracked."""
-        tracked = self._tracked
-        return tracked.track if tracked.state is TipState.TRACKED else None
+        result = self._result
+        return result.track if result.state is TipState.TRACKED else None
 
     @property
     def path(self) -> FloatArray | None:
-        """Where the tip went (n, 2), px."""
+        """Path of the tip (n, 2), px; None while it has fewer than two points."""
         path = tuple(self._path)
         return np.array(path) if len(path) > 1 else None
 
-    def ground_about(self, pixel: FloatArray) -> Image | None:
-        """Return the picture without the tip, if it is known about ``pixel`` (2,)."""
-        ground = self._ground
-        if ground is None or not ground.known(pixel - _LANDED_PX, pixel + _LANDED_PX):
+    def get_background(self, pixel: FloatArray) -> Image | None:
+        """Return the picture without the tip, or None if it is unknown around ``pixel`` (2,)."""
+        background = self._background
+        if background is None or not background.is_known(
+            pixel - _LANDING_RADIUS_PX, pixel + _LANDING_RADIUS_PX
+        ):
             return None
-        return ground.image
+        return background.image
 
-    def switch(self, on: bool, near: FloatArray | None = None) -> None:
-        """Begin to look for the tip, in the whole picture or about ``near`` (2,), px; or end."""
+    def switch(self, on: bool, search_px: FloatArray | None = None) -> None:
+        """Turn tracking on or off.
+
+        Tracking begins with a search around the pixel ``near`` (2,), or in the whole picture if
+        that is None.
+        """
         with self._lock:
-            self._on, self._anew = on, True
-            self._near = None if near is None else np.asarray(near, dtype=np.float64)
+            self._is_on, self._must_restart = on, True
+            self._search_centre = (
+                None if search_px is None else np.asarray(search_px, dtype=np.float64)
+            )
 
-    def take_ground(self) -> None:
-        """Replace the background by the present picture, except under the pipette."""
+    def take_background(self) -> None:
+        """Replace the background with the current picture, except under the pipette."""
         with self._lock:
-            self._ground_wanted = True
-
-    # --- the thread that steps --------------------------------------------------------------------
+            self._is_background_requested = True
 
     def step(self) -> None:
-        """Process the newest picture, unless it was already processed."""
+        """Process the newest picture, unless it has been processed before."""
         with self._lock:
-            on, anew, self._anew = self._on, self._anew, False
-        if anew:
+            is_on, must_restart, self._must_restart = self._is_on, self._must_restart, False
+        if must_restart:
             self._path.clear()
-            self._searched_s, self._was = -np.inf, None
-            self._tracked = Tracked(TipState.SEARCHED if on else TipState.OFF)
-        view, before = self._view(), self._tracked
+            self._last_search_s, self._last_prediction = -np.inf, None
+            self._result = TrackingResult(TipState.SEARCHED if is_on else TipState.OFF)
+        view, previous = self._read_feed(), self._result
         frame = view.frame
-        if not on or frame is None:
+        if not is_on or frame is None:
             return
-        if frame is before.frame:
-            if view.state not in _TRUSTED and before.state is TipState.TRACKED:
-                self._tracked = self._lost(before, _untrusted(view))
+        if frame is previous.frame:
+            if view.state not in _TRUSTED_STATES and previous.state is TipState.TRACKED:
+                self._result = self._mark_lost(previous, _describe_camera_problem(view))
             return
-        self._mind(frame)
-        passed = before.skipped
-        if before.frame is not None:
-            passed += max(frame.number - before.frame.number - 1, 0)
-        state = replace(
-            before, frame=frame, skipped=passed, processed=before.processed + 1, ground=False
+        self._drop_outdated(frame)
+        skipped = previous.skipped
+        if previous.frame is not None:
+            skipped += max(frame.number - previous.frame.number - 1, 0)
+        result = replace(
+            previous,
+            frame=frame,
+            skipped=skipped,
+            processed=previous.processed + 1,
+            has_background=False,
         )
-        if view.state not in _TRUSTED:
-            self._tracked = self._lost(state, _untrusted(view))
-        elif state.track is None:
-            self._tracked = self._found(state, frame)
+        if view.state not in _TRUSTED_STATES:
+            self._result = self._mark_lost(result, _describe_camera_problem(view))
+        elif result.track is None:
+            self._result = self._search_tip(result, frame)
         else:
-            self._tracked = self._followed(state, state.track, frame)
-        self._keep_path()
-        self._make_ground(frame)
-        self._told(self._tracked)
+            self._result = self._follow_tip(result, result.track, frame)
+        self._extend_path()
+        self._update_background(frame)
+        self._on_result(self._result)
 
-    def _mind(self, frame: Frame) -> None:
-        """Forget the background of another view, and the tip in a picture of another size."""
-        about = (frame.region, frame.exposure_s, frame.metadata.get("focus_m"), frame.colour)
-        if about != self._about:
-            self._about, self._ground = about, None
-        if self._tracked.frame is not None and self._tracked.frame.region != frame.region:
-            self._tracked = replace(self._tracked, track=None, state=TipState.SEARCHED)
+    def _drop_outdated(self, frame: CameraFrame) -> None:
+        """Discard the background if the view has changed, and the tip if the region has changed."""
+        view_settings = (
+            frame.region,
+            frame.exposure_s,
+            frame.metadata.get("focus_m"),
+            frame.is_colour,
+        )
+        if view_settings != self._view_settings:
+            self._view_settings, self._background = view_settings, None
+        if self._result.frame is not None and self._result.frame.region != frame.region:
+            self._result = replace(self._result, track=None, state=TipState.SEARCHED)
 
-    def _found(self, state: Tracked, frame: Frame) -> Tracked:
-        """Look for it in the whole picture, or about where someone pointed."""
-        if frame.host_time_s - self._searched_s < _AGAIN_S:
-            return state
-        self._searched_s = frame.host_time_s
+    def _search_tip(self, result: TrackingResult, frame: CameraFrame) -> TrackingResult:
+        if frame.host_time_s - self._last_search_s < _SEARCH_PERIOD_S:
+            return result
+        self._last_search_s = frame.host_time_s
         try:
-            pipette, known = self._shape()
-            image, low = self._part(grey(frame.pixels))
-            finding = find_tip if known else find_body
-            fit = finding(image, pipette)
-            aimed = replace(pipette, direction=fit.direction)
-            track = begin_track(image, aimed, turning=False)
+            pipette, is_direction_known = self._make_pipette()
+            image, corner = self._cut_search_area(to_grey(frame.pixels))
+            search = find_tip if is_direction_known else find_tip_in_any_direction
+            fit = search(image, pipette)
+            aligned_pipette = replace(pipette, direction=fit.direction)
+            track = begin_track(image, aligned_pipette, turning=False)
         except InputError as error:
-            return replace(state, reason=str(error))
-        self._was = self._expected()
-        track = replace(track, pixel=track.pixel + low)
-        return replace(state, state=TipState.TRACKED, track=track, reason="", lost_since_s=None)
+            return replace(result, reason=str(error))
+        self._last_prediction = self._predict_pixel()
+        track = replace(track, pixel=track.pixel + corner)
+        return replace(result, state=TipState.TRACKED, track=track, reason="", lost_since_s=None)
 
-    def _part(self, image: Image) -> tuple[Image, FloatArray]:
-        near = self._near
-        if near is None:
+    def _cut_search_area(self, image: Image) -> tuple[Image, FloatArray]:
+        """Return the part of the picture to search, and the pixel (2,) of its upper left corner."""
+        centre = self._search_centre
+        if centre is None:
             return image, np.zeros(2)
-        low = np.maximum(np.rint(near - _NEAR_PX).astype(int), 0)
-        high = np.minimum(np.rint(near + _NEAR_PX).astype(int), image.shape[::-1])
+        low = np.maximum(np.rint(centre - _SEARCH_RADIUS_PX).astype(int), 0)
+        high = np.minimum(np.rint(centre + _SEARCH_RADIUS_PX).astype(int), image.shape[::-1])
         return np.ascontiguousarray(image[low[1] : high[1], low[0] : high[0]]), low.astype(float)
 
-    def _followed(self, state: Tracked, track: TipTrack, frame: Frame) -> Tracked:
-        image = frame.pixels if not frame.colour else grey(frame.pixels)
-        expected, was = self._expected(), self._was
-        moved = None if expected is None or was is None else expected - was
-        self._was = expected
-        pressing = self._pressing()
-        track = replace(track, dimple=pressing is Pressing.YES)
-        ground = self._usable(track, pressing)
-        if pressing is Pressing.SOON and track.learnt < LEARNT and not track.lost:
-            track = learn(track, image, background=ground)
+    def _follow_tip(
+        self, result: TrackingResult, track: TipTrack, frame: CameraFrame
+    ) -> TrackingResult:
+        image = frame.pixels if not frame.is_colour else to_grey(frame.pixels)
+        prediction, last_prediction = self._predict_pixel(), self._last_prediction
+        displacement = (
+            None if prediction is None or last_prediction is None else prediction - last_prediction
+        )
+        self._last_prediction = prediction
+        contact = self._read_contact()
+        track = replace(track, dimple=contact is TipContact.YES)
+        background = self._find_usable_background(track, contact)
+        if (
+            contact is TipContact.SOON
+            and track.learnt_frames < MIN_LEARNT_PICTURES
+            and not track.lost
+        ):
+            track = learn_body(track, image, background=background)
         else:
-            if pressing is Pressing.NO and track.learnt:
-                track = replace(track, learnt=0, offset=np.zeros(2))
-            track = follow(track, image, background=ground, moved=moved)
+            if contact is TipContact.NO and track.learnt_frames:
+                track = replace(track, learnt_frames=0, offset=np.zeros(2))
+            track = follow_tip(track, image, background=background, moved=displacement)
         if track.lost:
-            return self._lost(replace(state, track=track), track.reason)
+            return self._mark_lost(replace(result, track=track), track.reason)
         return replace(
-            state,
+            result,
             state=TipState.TRACKED,
             track=track,
             reason="",
             lost_since_s=None,
-            ground=ground is not None,
+            has_background=background is not None,
         )
 
-    def _usable(self, track: TipTrack, pressing: Pressing) -> Image | None:
-        """Return the background, if it is known wherever it is going to be divided by."""
-        ground, way = self._ground, track.pipette.direction
-        if ground is None:
+    def _find_usable_background(self, track: TipTrack, contact: TipContact) -> Image | None:
+        """Return the background, or None if it is unknown in the region that needs it."""
+        background, direction = self._background, track.pipette.direction
+        if background is None:
             return None
-        middle, half = track.pixel, _NEAR_PX
-        if pressing is not Pressing.NO:
+        centre, half_side = track.pixel, _SEARCH_RADIUS_PX
+        if contact is not TipContact.NO:
             body = BodyPart.of(track.pipette)
-            middle = middle + body.ahead * np.array([np.cos(way), np.sin(way)])
-            half = float(body.half)
-        return ground.image if ground.known(middle - half, middle + half) else None
+            centre = centre + body.ahead * np.array([np.cos(direction), np.sin(direction)])
+            half_side = float(body.half)
+        return (
+            background.image
+            if background.is_known(centre - half_side, centre + half_side)
+            else None
+        )
 
-    def _lost(self, state: Tracked, reason: str) -> Tracked:
-        assert state.frame is not None
-        since_s = state.lost_since_s
-        since_s = state.frame.host_time_s if since_s is None else since_s
-        kind = TipState.SEARCHED if state.track is None else TipState.LOST
-        return replace(state, state=kind, reason=reason, lost_since_s=since_s)
+    def _mark_lost(self, result: TrackingResult, reason: str) -> TrackingResult:
+        assert result.frame is not None
+        since_s = result.lost_since_s
+        since_s = result.frame.host_time_s if since_s is None else since_s
+        state = TipState.SEARCHED if result.track is None else TipState.LOST
+        return replace(result, state=state, reason=reason, lost_since_s=since_s)
 
-    def _keep_path(self) -> None:
-        track = self._tracked.track
-        if track is None or self._tracked.state is not TipState.TRACKED:
+    def _extend_path(self) -> None:
+        track = self._result.track
+        if track is None or self._result.state is not TipState.TRACKED:
             return
-        here = float(track.pixel[0]), float(track.pixel[1])
-        if not self._path or float(np.hypot(*np.subtract(here, self._path[-1]))) > _PATH_STEP_PX:
-            self._path.append(here)
+        pixel = float(track.pixel[0]), float(track.pixel[1])
+        if (
+            not self._path
+            or float(np.hypot(*np.subtract(pixel, self._path[-1]))) > _MIN_PATH_STEP_PX
+        ):
+            self._path.append(pixel)
 
-    def _make_ground(self, frame: Frame) -> None:
-        """Add a picture to the background now and then, while the tip presses on nothing."""
+    def _update_background(self, frame: CameraFrame) -> None:
+        """Add the picture to the background when due, unless the tip presses on a cell."""
         with self._lock:
-            wanted = self._ground_wanted
-        track, due = self._tracked.track, frame.host_time_s - self._ground_s >= GROUND_S
-        if self._tracked.state is not TipState.TRACKED or track is None:
+            is_requested = self._is_background_requested
+        track, is_due = (
+            self._result.track,
+            frame.host_time_s - self._last_background_s >= BACKGROUND_PERIOD_S,
+        )
+        if self._result.state is not TipState.TRACKED or track is None:
             return
-        if self._pressing() is Pressing.YES or not (wanted or due):
+        if self._read_contact() is TipContact.YES or not (is_requested or is_due):
             return
         with self._lock:
-            self._ground_wanted = False
-        image = frame.pixels if not frame.colour else grey(frame.pixels)
-        if wanted or self._ground is None:
+            self._is_background_requested = False
+        image = frame.pixels if not frame.is_colour else to_grey(frame.pixels)
+        if is_requested or self._background is None:
             rows, columns = image.shape[:2]
-            self._ground = Ground.empty((rows, columns))
-        away = track.depth.distance
-        self._ground = self._ground.seen(image, track.pipette, track.pixel, away)
-        self._ground_s = frame.host_time_s
+            self._background = BackgroundImage.empty((rows, columns))
+        depth_m = track.depth.distance
+        self._background = self._background.with_picture(image, track.pipette, track.pixel, depth_m)
+        self._last_background_s = frame.host_time_s
 
 
-def _untrusted(view: FeedView) -> str:
+def _describe_camera_problem(view: FeedView) -> str:
     return message("engine", "the camera is {state}: {reason}").fill(
         state=view.state, reason=view.reason
     )

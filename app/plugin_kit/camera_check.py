@@ -1,42 +1,50 @@
-"""Check of a camera source: whether it and its first camera keep the contract."""
+"""Check of a camera source and its first camera against the contract.
+
+The name of each check function is the name of the check in the output, and its docstring is the
+printed requirement.
+"""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 
-from rotemina.app.plugin_kit.findings import results
-from rotemina.drivers.cameras.camera import Camera, CameraIdentity
-from rotemina.drivers.cameras.errors import CameraLostError
-from rotemina.drivers.cameras.frame import Frame
-from rotemina.drivers.cameras.settings import CameraSettings, Trigger
-from rotemina.drivers.cameras.source import CameraSource
-from rotemina.drivers.clock import Clock, VirtualClock
-from rotemina.drivers.conformance.check import Result
-from rotemina.drivers.conformance.findings import Inapplicable, Unmet, demand
-from rotemina.drivers.errors import StateError
+from rotemina.app.plugin_kit.findings import run_plugin_checks
+from rotemina.drivers.cameras import (
+    Camera,
+    CameraFrame,
+    CameraIdentity,
+    CameraSettings,
+    CameraSource,
+    CameraTrigger,
+)
+from rotemina.drivers.conformance import (
+    CheckNotApplicable,
+    DriverCheckResult,
+    RequirementNotMet,
+    require_that,
+)
+from rotemina.drivers.contract import CameraLostError, Clock, StateError, VirtualClock
 
-_TRIES, _TIMEOUT_S = 20, 0.2
-_PICTURES = 3
+_MAX_GRABS, _GRAB_TIMEOUT_S = 20, 0.2
+_PICTURE_COUNT = 3
 
 
 @dataclass(frozen=True, slots=True)
-class _Bench:
-    """A source of its own, and its clock."""
-
+class _CameraBench:
     source: CameraSource
     clock: Clock
 
-    def camera(self) -> Camera:
+    def make_camera(self) -> Camera:
         """Return the first camera, not yet open."""
-        there = self.source.devices()
-        if not there:
-            raise Inapplicable(self.source.problem or "there is no camera")
-        return self.source.camera(there[0])
+        identities = self.source.devices()
+        if not identities:
+            raise CheckNotApplicable(self.source.problem or "there is no camera")
+        return self.source.camera(identities[0])
 
     @contextmanager
-    def opened(self) -> Iterator[Camera]:
+    def open_camera(self) -> Iterator[Camera]:
         """Open the first camera, and close it afterwards."""
-        camera = self.camera()
+        camera = self.make_camera()
         camera.open()
         try:
             yield camera
@@ -49,86 +57,100 @@ def check_cameras(
     *,
     clock: Clock | None = None,
     wait: Callable[[float], None] | None = None,
-) -> tuple[Result, ...]:
-    """Check a source and the first of its cameras, on a clock set by hand or on one that is given.
+) -> tuple[DriverCheckResult, ...]:
+    """Check a source and the first of its cameras.
 
     Parameters
     ----------
     source : type of CameraSource
     clock, wait : callable, optional
-        The host's time, s, and what lets so many seconds of it pass; both or none.
+        ``clock`` returns the host's time, s, and ``wait`` waits for a number of seconds. Give both
+        or neither; by default a virtual clock is used.
     """
 
     @contextmanager
-    def bench() -> Iterator[_Bench]:
-        by_hand = VirtualClock(1234.5)
-        own = clock or by_hand
-        yield _Bench(source(clock=own, wait=wait or by_hand.advance), own)
+    def open_bench() -> Iterator[_CameraBench]:
+        virtual_clock = VirtualClock(1234.5)
+        source_clock = clock or virtual_clock
+        yield _CameraBench(
+            source(clock=source_clock, wait=wait or virtual_clock.advance), source_clock
+        )
 
-    return results((listed, untouched, pictures, triggered, closed), bench)
-
-
-def listed(bench: _Bench) -> None:
-    """Say which cameras are there, each with a key of source, colon and address."""
-    there = bench.source.devices()
-    wrong = [one for one in there if not isinstance(one, CameraIdentity)]
-    demand(not wrong, f"devices() answered {wrong}", "each a CameraIdentity")
-    keys = [one.key for one in there]
-    demand(len(set(keys)) == len(keys), f"keys {keys}", "no key twice")
-    odd = [one.key for one in there if not one.key.startswith(f"{one.source}:")]
-    demand(not odd, f"keys {odd}", "the source, a colon and the address")
+    return run_plugin_checks((listed, untouched, pictures, triggered, closed), open_bench)
 
 
-def untouched(bench: _Bench) -> None:
-    """Open nothing when a camera is made: it is closed and refuses to be asked."""
-    camera = bench.camera()
+def listed(bench: _CameraBench) -> None:
+    """List the available cameras, each with a key of source, colon and address."""
+    identities = bench.source.devices()
+    invalid_identities = [
+        identity for identity in identities if not isinstance(identity, CameraIdentity)
+    ]
+    require_that(
+        not invalid_identities, f"devices() answered {invalid_identities}", "each a CameraIdentity"
+    )
+    keys = [identity.key for identity in identities]
+    require_that(len(set(keys)) == len(keys), f"keys {keys}", "no key twice")
+    invalid_keys = [
+        identity.key
+        for identity in identities
+        if not identity.key.startswith(f"{identity.source}:")
+    ]
+    require_that(not invalid_keys, f"keys {invalid_keys}", "the source, a colon and the address")
+
+
+def untouched(bench: _CameraBench) -> None:
+    """Open nothing when a camera is made: it is closed, and a grab raises StateError."""
+    camera = bench.make_camera()
     try:
         camera.grab(0.0)
     except StateError:
         return
-    demand(False, "it could be grabbed from before it was opened", "StateError")
+    require_that(False, "a picture could be grabbed before the camera was opened", "StateError")
 
 
-def pictures(bench: _Bench) -> None:
-    """Take pictures of the size that it says, in order, with times of the host's clock."""
-    with bench.opened() as camera:
-        frames = [_next(camera) for _ in range(_PICTURES)]
+def pictures(bench: _CameraBench) -> None:
+    """Take pictures of the described size, in order, with times of the host's clock."""
+    with bench.open_camera() as camera:
+        frames = [_grab_picture(camera) for _ in range(_PICTURE_COUNT)]
         times = [frame.host_time_s for frame in frames]
-        demand(times == sorted(times), f"times {times}", "in order")
-        demand(times[-1] <= bench.clock() + 1e-9, f"a time of {times[-1]:g} s", "no time to come")
+        require_that(times == sorted(times), f"times {times}", "in order")
+        require_that(
+            times[-1] <= bench.clock() + 1e-9, f"a time of {times[-1]:g} s", "no time in the future"
+        )
         numbers = [frame.number for frame in frames]
-        demand(sorted(set(numbers)) == numbers, f"numbers {numbers}", "each greater than the last")
+        require_that(
+            sorted(set(numbers)) == numbers, f"numbers {numbers}", "each greater than the last"
+        )
 
 
-def triggered(bench: _Bench) -> None:
-    """With a software trigger take one picture when it is requested, and none unasked."""
-    with bench.opened() as camera:
-        if Trigger.SOFTWARE not in camera.description.triggers:
-            raise Inapplicable("it has no software trigger")
-        camera.configure(CameraSettings(trigger=Trigger.SOFTWARE))
-        demand(camera.grab(0.0) is None, "a picture that nobody asked for", "none")
+def triggered(bench: _CameraBench) -> None:
+    """With a software trigger, take a picture only when one is requested."""
+    with bench.open_camera() as camera:
+        if CameraTrigger.SOFTWARE not in camera.description.triggers:
+            raise CheckNotApplicable("it has no software trigger")
+        camera.configure(CameraSettings(trigger=CameraTrigger.SOFTWARE))
+        require_that(camera.grab(0.0) is None, "a picture without a trigger", "none")
         camera.trigger()
-        _next(camera)
+        _grab_picture(camera)
 
 
-def closed(bench: _Bench) -> None:
-    """Close twice without harm, and open again."""
-    with bench.opened() as camera:
+def closed(bench: _CameraBench) -> None:
+    """Close twice without an error, and open again."""
+    with bench.open_camera() as camera:
         camera.close()
         camera.close()
         camera.open()
-        _next(camera)
+        _grab_picture(camera)
 
 
-def _next(camera: Camera) -> Frame:
-    """Return the next picture; the camera's base class has looked at its size."""
-    for _ in range(_TRIES):
+def _grab_picture(camera: Camera) -> CameraFrame:
+    for _ in range(_MAX_GRABS):
         try:
-            frame = camera.grab(_TIMEOUT_S)
+            frame = camera.grab(_GRAB_TIMEOUT_S)
         except CameraLostError as error:
-            # What failed at every read is what the author of the plugin needs to know.
+            # The original error of the failed reads tells the author of the plugin what went wrong.
             raise error.__cause__ or error from None
         if frame is not None:
             return frame
-    waited_s = _TRIES * _TIMEOUT_S
-    raise Unmet(f"no picture in {waited_s:g} s; expected: one")
+    total_wait_s = _MAX_GRABS * _GRAB_TIMEOUT_S
+    raise RequirementNotMet(f"no picture in {total_wait_s:g} s; expected: one")

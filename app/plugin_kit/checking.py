@@ -1,4 +1,4 @@
-"""Check of an installed plugin of any kind: its import, its interface, then its own kit."""
+"""Check of an installed plugin of any kind: its import, then the checks of its kind."""
 
 import time
 from collections.abc import Iterator
@@ -6,71 +6,72 @@ from importlib.metadata import EntryPoint
 
 from rotemina.app.plugin_kit.camera_check import check_cameras
 from rotemina.app.plugin_kit.input_check import check_inputs
-from rotemina.app.plugin_kit.plugin_kinds import Kind, Plugin, installed_plugins
-from rotemina.drivers.conformance.bench import bench_of
-from rotemina.drivers.conformance.check import Result, Verdict
-from rotemina.drivers.conformance.suite import run_checks
-from rotemina.sim.plugin_import import import_fault
-from rotemina.sim.robot.model import Robot
-from rotemina.sim.simulation.effect_check import check_effect
+from rotemina.app.plugin_kit.plugin_kinds import InstalledPlugin, PluginKind, load_installed_plugins
+from rotemina.drivers.conformance import CheckVerdict, DriverCheckResult, make_bench, run_checks
+from rotemina.sim.plugin_points import find_import_fault
+from rotemina.sim.robot import Robot
+from rotemina.sim.simulation import check_effect
 
-_LOADED = "be imported, and be written for this version of the interface"
+_LOADING_REQUIREMENT = "be importable, and be written for this version of the interface"
 
 
-def check_plugin(kind: Kind, point: EntryPoint, robot: Robot) -> Iterator[Result]:
-    """Check a plugin; its import is tried again, whatever came of it before.
+def check_plugin(kind: PluginKind, point: EntryPoint, robot: Robot) -> Iterator[DriverCheckResult]:
+    """Check a plugin; it is imported again even if the result of an earlier import is stored.
 
-    A device in real time is not moved: only what moves no axis is checked of its driver.
+    For the driver of a real device, only checks without motion run.
 
     Parameters
     ----------
-    kind : Kind
+    kind : PluginKind
     point : EntryPoint
     robot : Robot
-        What a driver is to be.
+        The robot that a driver is checked with.
     """
-    import_fault(point, anew=True)
+    find_import_fault(point, again=True)
     plugin = next(
-        one
-        for one in installed_plugins(kind)
-        if one.name == point.name and one.value == point.value
+        candidate
+        for candidate in load_installed_plugins(kind)
+        if candidate.name == point.name and candidate.value == point.value
     )
     if plugin.loaded is None:
-        yield Result("loading", _LOADED, Verdict.FAILED, plugin.refused)
+        yield DriverCheckResult(
+            "loading", _LOADING_REQUIREMENT, CheckVerdict.FAILED, plugin.refusal
+        )
         return
-    yield Result("loading", _LOADED, Verdict.PASSED)
-    yield from _checks(plugin, robot)
+    yield DriverCheckResult("loading", _LOADING_REQUIREMENT, CheckVerdict.PASSED)
+    yield from _run_kind_checks(plugin, robot)
 
 
-def _checks(plugin: Plugin, robot: Robot) -> Iterator[Result]:
+def _run_kind_checks(plugin: InstalledPlugin, robot: Robot) -> Iterator[DriverCheckResult]:
     match plugin.kind:
-        case Kind.DRIVER:
-            bench = bench_of(plugin.loaded, robot)
+        case PluginKind.DRIVER:
+            bench = make_bench(plugin.loaded, robot)
             yield from run_checks(bench, may_move=plugin.loaded.virtual_time)
-        case Kind.EFFECT:
-            yield from _effect_results(plugin.name)
-        case Kind.PANEL:
-            # Qt is loaded only when it is wanted: the other kinds do without its libraries.
+        case PluginKind.EFFECT:
+            yield from _run_effect_checks(plugin.name)
+        case PluginKind.PANEL:
+            # Qt is imported only here, because the other kinds work without its libraries.
             from rotemina.app.plugin_kit.panel_check import check_panel
 
             yield from check_panel(plugin.loaded)
-        case Kind.CAMERA:
+        case PluginKind.CAMERA:
             yield from check_cameras(plugin.loaded, clock=time.monotonic, wait=time.sleep)
-        case Kind.INPUT:
+        case PluginKind.INPUT:
             yield from check_inputs(plugin.loaded, clock=time.monotonic, wait=time.sleep)
 
 
-def _effect_results(effect_id: str) -> Iterator[Result]:
-    """Yield what the effects' own kit found, each thing once for all axes."""
+def _run_effect_checks(effect_id: str) -> Iterator[DriverCheckResult]:
+    """Run the checks of an effect, and yield one result per check, which covers all axes."""
     checks = check_effect(effect_id, clock=time.perf_counter).checks
     for name in dict.fromkeys(check.name for check in checks):
-        these = [check for check in checks if check.name == name]
-        failed = [check for check in these if check.passed is False]
-        if failed:
-            where = " ".join(part for part in (failed[0].formulation, failed[0].place) if part)
-            note = f"{len(failed)} of {len(these)}; {where}: {failed[0].note}"
-            yield Result(name, name, Verdict.FAILED, note)
-        elif any(check.passed for check in these):
-            yield Result(name, name, Verdict.PASSED)
+        same_checks = [check for check in checks if check.name == name]
+        failed_checks = [check for check in same_checks if check.passed is False]
+        if failed_checks:
+            first = failed_checks[0]
+            location = " ".join(part for part in (first.formulation, first.place) if part)
+            note = f"{len(failed_checks)} of {len(same_checks)}; {location}: {first.note}"
+            yield DriverCheckResult(name, name, CheckVerdict.FAILED, note)
+        elif any(check.passed for check in same_checks):
+            yield DriverCheckResult(name, name, CheckVerdict.PASSED)
         else:
-            yield Result(name, name, Verdict.SKIPPED, these[0].note)
+            yield DriverCheckResult(name, name, CheckVerdict.SKIPPED, same_checks[0].note)

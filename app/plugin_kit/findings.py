@@ -1,40 +1,47 @@
-"""Checks of plugins other than drivers and effects: their demands and findings."""
+"""Run the checks of plugins other than drivers and effects."""
 
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
 from typing import TypeVar
 
-from rotemina.drivers.conformance.check import Result, Verdict
-from rotemina.drivers.conformance.findings import Inapplicable, Unmet
+from rotemina.drivers.conformance import (
+    CheckNotApplicable,
+    CheckVerdict,
+    DriverCheckResult,
+    RequirementNotMet,
+)
 
 Bench = TypeVar("Bench")
 
 
-def results(
-    demands: Sequence[Callable[[Bench], None]],
+def run_plugin_checks(
+    checks: Sequence[Callable[[Bench], None]],
     bench: Callable[[], AbstractContextManager[Bench]],
-) -> tuple[Result, ...]:
-    """Put what is checked to each demand, on a bench of its own.
+) -> tuple[DriverCheckResult, ...]:
+    """Run each check on a new bench.
 
-    A demand is a function, named and described by its name and docstring, that raises
-    :class:`Unmet` where it is not met and :class:`Inapplicable` where it makes no sense. Whatever
-    else the plugin raises is a failure.
+    A check is a function. Its name becomes the name of the result, and its docstring the
+    requirement. It raises :class:`RequirementNotMet` if the requirement is not met, and
+    :class:`CheckNotApplicable` if it does not apply. Any other exception is a failure as well.
     """
-    return tuple(_result(demand, bench) for demand in demands)
+    return tuple(_run_check(check, bench) for check in checks)
 
 
-def _result(
-    demand: Callable[[Bench], None], bench: Callable[[], AbstractContextManager[Bench]]
-) -> Result:
-    name = demand.__name__.replace("_", "-")
-    text = " ".join((demand.__doc__ or "").split())
+def _run_check(
+    check: Callable[[Bench], None], bench: Callable[[], AbstractContextManager[Bench]]
+) -> DriverCheckResult:
+    name = check.__name__.replace("_", "-")
+    requirement = " ".join((check.__doc__ or "").split())
     try:
-        with bench() as made:
-            demand(made)
-    except Inapplicable as reason:
-        return Result(name, text, Verdict.SKIPPED, str(reason))
-    except Unmet as found:
-        return Result(name, text, Verdict.FAILED, str(found))
-    except (Exception, SystemExit) as error:  # a plugin under test may raise anything
-        return Result(name, text, Verdict.FAILED, f"it raised {type(error).__name__}: {error}")
-    return Result(name, text, Verdict.PASSED)
+        with bench() as open_bench:
+            check(open_bench)
+    except CheckNotApplicable as reason:
+        return DriverCheckResult(name, requirement, CheckVerdict.SKIPPED, str(reason))
+    except RequirementNotMet as failure:
+        return DriverCheckResult(name, requirement, CheckVerdict.FAILED, str(failure))
+    # A plugin under test may raise anything.
+    except (Exception, SystemExit) as error:
+        return DriverCheckResult(
+            name, requirement, CheckVerdict.FAILED, f"it raised {type(error).__name__}: {error}"
+        )
+    return DriverCheckResult(name, requirement, CheckVerdict.PASSED)

@@ -1,35 +1,40 @@
-"""Check of an input-device source: whether it keeps the contract."""
+"""Check of a source of input devices against the contract.
+
+The name of each check function is the name of the check in the output, and its docstring is the
+printed requirement.
+"""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from math import isnan
 
-from rotemina.app.plugin_kit.findings import results
-from rotemina.drivers.clock import Clock, VirtualClock
-from rotemina.drivers.conformance.check import Result
-from rotemina.drivers.conformance.findings import Inapplicable, demand
-from rotemina.drivers.errors import DriverError, StateError
-from rotemina.drivers.inputs.device import InputDevice, InputIdentity, InputReading, InputSource
+from rotemina.app.plugin_kit.findings import run_plugin_checks
+from rotemina.drivers.conformance import CheckNotApplicable, DriverCheckResult, require_that
+from rotemina.drivers.contract import Clock, DriverError, StateError, VirtualClock
+from rotemina.drivers.inputs import (
+    InputDevice,
+    InputIdentity,
+    InputReading,
+    InputSource,
+)
 
-_READS, _PAUSE_S = 50, 0.02
+_READ_COUNT, _READ_PAUSE_S = 50, 0.02
 
 
 @dataclass(frozen=True, slots=True)
-class _Bench:
-    """A source of its own, and how time passes for it."""
-
+class _InputBench:
     source: InputSource
     clock: Clock
     wait: Callable[[float], None]
 
     @contextmanager
-    def opened(self) -> Iterator[InputDevice]:
-        """Open the first device that is plugged in, and close it afterwards."""
-        there = self.source.devices()
-        if not there:
-            raise Inapplicable(self.source.problem or "nothing is plugged in")
-        device = self.source.open(there[0])
+    def open_device(self) -> Iterator[InputDevice]:
+        """Open the first connected device, and close it afterwards."""
+        identities = self.source.devices()
+        if not identities:
+            raise CheckNotApplicable(self.source.problem or "nothing is plugged in")
+        device = self.source.open(identities[0])
         try:
             yield device
         finally:
@@ -41,80 +46,95 @@ def check_inputs(
     *,
     clock: Clock | None = None,
     wait: Callable[[float], None] | None = None,
-) -> tuple[Result, ...]:
-    """Check a source and the first of its devices, on a clock set by hand or on one that is given.
+) -> tuple[DriverCheckResult, ...]:
+    """Check a source and the first of its devices.
 
     Parameters
     ----------
     source : type of InputSource
     clock, wait : callable, optional
-        The host's time, s, and what lets so many seconds of it pass; both or none.
+        ``clock`` returns the host's time, s, and ``wait`` waits for a number of seconds. Give both
+        or neither; by default a virtual clock is used.
     """
 
     @contextmanager
-    def bench() -> Iterator[_Bench]:
-        by_hand = VirtualClock(1234.5)
-        own = clock or by_hand
-        yield _Bench(source(clock=own), own, wait or by_hand.advance)
+    def open_bench() -> Iterator[_InputBench]:
+        virtual_clock = VirtualClock(1234.5)
+        source_clock = clock or virtual_clock
+        yield _InputBench(source(clock=source_clock), source_clock, wait or virtual_clock.advance)
 
-    return results((listed, read, closed, strange), bench)
-
-
-def listed(bench: _Bench) -> None:
-    """Say what is plugged in, each device with a key of its own."""
-    there = bench.source.devices()
-    wrong = [one for one in there if not isinstance(one, InputIdentity)]
-    demand(not wrong, f"devices() answered {wrong}", "each an InputIdentity")
-    keys = [one.key for one in there]
-    demand(len(set(keys)) == len(keys), f"keys {keys}", "no key twice")
+    return run_plugin_checks((listed, read, closed, strange), open_bench)
 
 
-def read(bench: _Bench) -> None:
-    """Hand out readings in the order of time, as long as the names and within −1 to 1."""
-    began_s = before_s = bench.clock()
-    with bench.opened() as device:
-        for _ in range(_READS):
-            bench.wait(_PAUSE_S)
+def listed(bench: _InputBench) -> None:
+    """List the connected devices, each with a unique key."""
+    identities = bench.source.devices()
+    invalid_identities = [
+        identity for identity in identities if not isinstance(identity, InputIdentity)
+    ]
+    require_that(
+        not invalid_identities, f"devices() answered {invalid_identities}", "each an InputIdentity"
+    )
+    keys = [identity.key for identity in identities]
+    require_that(len(set(keys)) == len(keys), f"keys {keys}", "no key twice")
+
+
+def read(bench: _InputBench) -> None:
+    """Return readings in order of time, one value per named axis and button, axes from −1 to 1."""
+    start_s = previous_s = bench.clock()
+    with bench.open_device() as device:
+        for _ in range(_READ_COUNT):
+            bench.wait(_READ_PAUSE_S)
             for reading in device.read():
-                _judge(device, reading)
+                _check_reading(device, reading)
                 time_s = reading.host_time_s
                 now_s = bench.clock()
-                demand(
-                    before_s - 1e-9 <= time_s <= now_s + 1e-9,
-                    f"a reading of {time_s - began_s:.3f} s after {before_s - began_s:.3f} s, "
-                    f"{now_s - began_s:.3f} s after opening",
-                    "times of the host's clock that never go back, none to come",
+                require_that(
+                    previous_s - 1e-9 <= time_s <= now_s + 1e-9,
+                    f"a reading of {time_s - start_s:.3f} s after {previous_s - start_s:.3f} s, "
+                    f"{now_s - start_s:.3f} s after opening",
+                    "times of the host's clock that never decrease and are not in the future",
                 )
-                before_s = time_s
+                previous_s = time_s
 
 
-def closed(bench: _Bench) -> None:
-    """Close twice without harm, and refuse to be read afterwards by StateError."""
-    with bench.opened() as device:
+def closed(bench: _InputBench) -> None:
+    """Close twice without an error, and raise StateError if read afterwards."""
+    with bench.open_device() as device:
         device.close()
         device.close()
         try:
             device.read()
         except StateError:
             return
-        demand(False, "it could be read when it was closed", "StateError")
+        require_that(False, "it could be read when it was closed", "StateError")
 
 
-def strange(bench: _Bench) -> None:
-    """Refuse a device that is not plugged in by InputLostError or another DriverError."""
+def strange(bench: _InputBench) -> None:
+    """Refuse a device that is not connected by InputLostError or another DriverError."""
     try:
         bench.source.open(InputIdentity("nobody:0", "nobody's device", "nobody"))
     except DriverError:
         return
-    demand(False, "it opened a device that it never listed", "InputLostError")
+    require_that(False, "it opened a device that it never listed", "InputLostError")
 
 
-def _judge(device: InputDevice, reading: InputReading) -> None:
-    for what, names, values in (
+def _check_reading(device: InputDevice, reading: InputReading) -> None:
+    for kind, names, values in (
         ("axes", device.axes, reading.axes),
         ("buttons", device.buttons, reading.buttons),
     ):
-        seen = f"{len(values)} {what} in a reading"
-        demand(len(names) == len(values), seen, f"{len(names)}, as in {what} of the device")
-    beyond = [at for at in reading.axes if not isnan(at) and not -1.0 <= at <= 1.0]
-    demand(not beyond, f"deflections {beyond}", "−1 to 1, or NaN where nothing is known")
+        description = f"{len(values)} {kind} in a reading"
+        require_that(
+            len(names) == len(values), description, f"{len(names)}, as in {kind} of the device"
+        )
+    out_of_range = [
+        deflection
+        for deflection in reading.axes
+        if not isnan(deflection) and not -1.0 <= deflection <= 1.0
+    ]
+    require_that(
+        not out_of_range,
+        f"deflections {out_of_range}",
+        "−1 to 1, or NaN where the deflection is unknown",
+    )

@@ -1,4 +1,4 @@
-"""The five kinds of plugins, and which are installed."""
+"""The five kinds of plugins, and the installed plugins."""
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
@@ -6,17 +6,18 @@ from enum import StrEnum
 from importlib.metadata import EntryPoint, entry_points
 from typing import Any
 
-from rotemina.drivers.cameras.source import CameraSource
-from rotemina.drivers.inputs.device import InputSource
-from rotemina.drivers.registry import discover, discover_drivers
-from rotemina.sim.effects.registry import all_effects
+from rotemina.drivers.cameras import CameraSource
+from rotemina.drivers.contract import discover_drivers, discover_plugins
+from rotemina.drivers.inputs import InputSource
+from rotemina.sim.effects import load_all_effects
 from rotemina.sim.plugin_points import API_VERSIONS
 
-Found = tuple[Mapping[str, Any], Mapping[str, str]]
+#: Loaded plugins by name, and for each plugin that is left out, the reason.
+FoundPlugins = tuple[Mapping[str, Any], Mapping[str, str]]
 
 
-class Kind(StrEnum):
-    """What a plugin can be; the entry-point groups are called after it."""
+class PluginKind(StrEnum):
+    """Kind of a plugin; the group of its entry points is named after it."""
 
     DRIVER = "driver"
     PANEL = "panel"
@@ -31,82 +32,90 @@ class Kind(StrEnum):
 
     @property
     def api_version(self) -> int:
-        """The version of its interface that this program has."""
+        """The version of the kind's interface in this program."""
         return API_VERSIONS[self.group]
 
 
 @dataclass(frozen=True, slots=True)
-class Plugin:
-    """One entry point, as it was found.
+class InstalledPlugin:
+    """An entry point of an installed package, loaded if possible.
 
     Attributes
     ----------
-    kind : Kind
+    kind : PluginKind
     name, value : str
-        Of the entry point.
+        Name and value of the entry point.
     package, version : str
-        The package that brings it, and that package's version; empty where none is known.
+        The package that contains the plugin, and its version; empty if they are unknown.
     loaded : object
-        The class or effect; None where it was left out.
-    refused : str
-        Why it was left out; empty where it was not.
+        The plugin's class or effect; None if the plugin was left out.
+    refusal : str
+        Why the plugin was left out; empty if it was loaded.
     """
 
-    kind: Kind
+    kind: PluginKind
     name: str
     value: str
     package: str
     version: str
     loaded: Any = None
-    refused: str = ""
+    refusal: str = ""
 
     @property
     def api_version(self) -> int | None:
-        """The version of the interface that it was written for; None where it was left out."""
+        """The version of the interface that the plugin was written for; None if it was left out."""
         return None if self.loaded is None else int(self.loaded.api_version)
 
 
-def installed_plugins(kind: Kind) -> Iterator[Plugin]:
-    """Load all plugins of a kind, sorted by name; those that are left out are there too."""
-    found, broken = _FINDERS[kind]()
+def load_installed_plugins(kind: PluginKind) -> Iterator[InstalledPlugin]:
+    """Load all plugins of a kind; yield them sorted by name, including those left out."""
+    plugins, refusals = _FINDERS[kind]()
     for point in sorted(
         entry_points(group=kind.group), key=lambda point: (point.name, point.value)
     ):
-        own = point.dist
-        about = (point.name, point.value, own.name if own else "", own.version if own else "")
-        refused = broken.get(f"{point.name} ({point.value})") or broken.get(point.name, "")
-        yield Plugin(kind, *about, None if refused else found.get(point.name), refused)
+        package = point.dist
+        description = (
+            point.name,
+            point.value,
+            package.name if package else "",
+            package.version if package else "",
+        )
+        refusal = refusals.get(f"{point.name} ({point.value})") or refusals.get(point.name, "")
+        loaded = None if refusal else plugins.get(point.name)
+        yield InstalledPlugin(kind, *description, loaded, refusal)
 
 
-def named_points(name: str) -> list[tuple[Kind, EntryPoint]]:
-    """Return the entry points of a name, of every kind; nothing is imported."""
-    return [(kind, point) for kind in Kind for point in entry_points(group=kind.group, name=name)]
+def find_entry_points(name: str) -> list[tuple[PluginKind, EntryPoint]]:
+    """Return the entry points with a name, of every kind, without importing them."""
+    return [
+        (kind, point) for kind in PluginKind for point in entry_points(group=kind.group, name=name)
+    ]
 
 
-def _panels() -> Found:
-    # Qt is loaded only when it is wanted: the other kinds do without its libraries.
+def _find_panels() -> FoundPlugins:
+    # Qt is imported only here, because the other kinds of plugins work without it.
     try:
         from rotemina.app.panel import Panel
     except ImportError as error:
         reason = f"Qt cannot be loaded here: {error}"
-        return {}, {point.name: reason for point in entry_points(group=Kind.PANEL.group)}
-    return _classes(Kind.PANEL, Panel)
+        return {}, {point.name: reason for point in entry_points(group=PluginKind.PANEL.group)}
+    return _find_classes(PluginKind.PANEL, Panel)
 
 
-def _classes(kind: Kind, base: type) -> Found:
-    discovery = discover(kind.group, base)
-    return discovery.found, discovery.broken
+def _find_classes(kind: PluginKind, base: type) -> FoundPlugins:
+    discovery = discover_plugins(kind.group, base)
+    return discovery.plugins, discovery.problems
 
 
-def _drivers() -> Found:
+def _find_drivers() -> FoundPlugins:
     discovery = discover_drivers()
-    return discovery.found, discovery.broken
+    return discovery.plugins, discovery.problems
 
 
-_FINDERS: Mapping[Kind, Callable[[], Found]] = {
-    Kind.DRIVER: _drivers,
-    Kind.PANEL: _panels,
-    Kind.EFFECT: all_effects,
-    Kind.CAMERA: lambda: _classes(Kind.CAMERA, CameraSource),
-    Kind.INPUT: lambda: _classes(Kind.INPUT, InputSource),
+_FINDERS: Mapping[PluginKind, Callable[[], FoundPlugins]] = {
+    PluginKind.DRIVER: _find_drivers,
+    PluginKind.PANEL: _find_panels,
+    PluginKind.EFFECT: load_all_effects,
+    PluginKind.CAMERA: lambda: _find_classes(PluginKind.CAMERA, CameraSource),
+    PluginKind.INPUT: lambda: _find_classes(PluginKind.INPUT, InputSource),
 }

@@ -1,4 +1,4 @@
-"""Writes the package of a new plugin from templates, completely or not at all."""
+"""Write the package of a new plugin from templates, completely or not at all."""
 
 import re
 from collections.abc import Mapping
@@ -10,25 +10,17 @@ from uuid import uuid4
 
 from jinja2 import BaseLoader, Environment, StrictUndefined, TemplateNotFound
 
-from rotemina.app.plugin_kit.plugin_kinds import Kind
-from rotemina.sim.errors import InputError, reason_of
-from rotemina.sim.messages import message
+from rotemina.app.errors import PluginNameError, PluginWriteError
+from rotemina.app.plugin_kit.plugin_kinds import PluginKind
+from rotemina.sim.errors import (
+    describe_exception,
+)
 
-_NAME = re.compile(r"[a-z][a-z0-9]*(_[a-z0-9]+)*")
-_LONGEST = 30
-
-
-class PluginNameError(InputError):
-    """A name that a plugin cannot have."""
+_NAME_PATTERN = re.compile(r"[a-z][a-z0-9]*(_[a-z0-9]+)*")
+_MAX_NAME_LENGTH = 30
 
 
-class PluginWriteError(InputError):
-    """A package that cannot be written where it was to be."""
-
-
-class _Templates(BaseLoader):
-    """The templates among the program's own files."""
-
+class _TemplateLoader(BaseLoader):
     def get_source(self, environment: Environment, template: str) -> tuple[str, str, None]:
         """Return a template's text."""
         file = files("rotemina.resources.templates").joinpath(f"{template}.jinja")
@@ -37,100 +29,98 @@ class _Templates(BaseLoader):
         return file.read_text("utf-8"), template, None
 
 
-def new_plugin(kind: Kind, name: str, folder: Path) -> Path:
-    """Write a package with a plugin into a new folder ``rotemina-NAME`` and return that.
+def write_plugin(kind: PluginKind, name: str, folder: Path) -> Path:
+    """Write a package with a plugin into a new folder ``rotemina-NAME``; return the folder.
 
     Parameters
     ----------
-    kind : Kind
+    kind : PluginKind
     name : str
-        Of the entry point: small letters, digits and single underscores, a letter first.
+        Name of the entry point: small letters, digits and single underscores, a letter first.
     folder : Path
-        Where the package's own folder goes; it must be there.
+        Existing parent folder of the new one.
 
     Raises
     ------
     PluginNameError
-        If a plugin cannot be called that, or one of this kind is.
+        If the name is invalid, or another plugin of this kind has it.
     PluginWriteError
-        If the package is there already, or nothing can be written there.
+        If the new folder exists already, or cannot be written.
     """
     check_name(kind, name)
     if not folder.is_dir():
         raise PluginWriteError(
-            message("engine", "{folder}: folder not found; create it, or name another one").fill(
-                folder=folder
-            )
+            "{folder}: folder not found; create it, or name another one", folder=folder
         )
-    place = folder / f"rotemina-{name.replace('_', '-')}"
-    if place.exists() or place.is_symlink():
+    package_folder = folder / f"rotemina-{name.replace('_', '-')}"
+    if package_folder.exists() or package_folder.is_symlink():
         raise PluginWriteError(
-            message(
-                "engine",
-                "{place} already exists and is not overwritten; choose another name or folder",
-            ).fill(place=place)
+            "{place} already exists and is not overwritten; choose another name or folder",
+            place=package_folder,
         )
-    draft = folder / f".{place.name}.{uuid4().hex}.part"
+    draft = folder / f".{package_folder.name}.{uuid4().hex}.part"
     try:
-        for inside, text in rendered(kind, name).items():
-            file = draft / inside
+        for relative_path, text in render_package(kind, name).items():
+            file = draft / relative_path
             file.parent.mkdir(parents=True, exist_ok=True)
             file.write_text(text, "utf-8", newline="\n")
-        draft.rename(place)  # fails where anything but an empty folder has come meanwhile
+        # This fails if another program has meanwhile created the folder and put files into it.
+        draft.rename(package_folder)
     except OSError as error:
         raise PluginWriteError(
-            message(
-                "engine",
-                "{place} cannot be written ({reason}); choose another folder, or free disk space",
-            ).fill(place=place, reason=reason_of(error))
+            "{place} cannot be written ({reason}); choose another folder, or free disk space",
+            place=package_folder,
+            reason=describe_exception(error),
         ) from error
     finally:
         rmtree(draft, ignore_errors=True)
-    return place
+    return package_folder
 
 
-def check_name(kind: Kind, name: str) -> None:
-    """Refuse what cannot be the name of a new plugin, with :class:`PluginNameError`."""
-    if not _NAME.fullmatch(name) or len(name) > _LONGEST:
+def check_name(kind: PluginKind, name: str) -> None:
+    """Raise :class:`PluginNameError` if a new plugin cannot have this name."""
+    if not _NAME_PATTERN.fullmatch(name) or len(name) > _MAX_NAME_LENGTH:
         raise PluginNameError(
-            message(
-                "engine",
-                "{name} cannot be the name of a plugin: it must have small letters, digits "
-                "and single underscores, a letter first, at most {longest} characters, such "
-                "as 'glass_stage'",
-            ).fill(name=repr(name), longest=_LONGEST)
+            "{name} cannot be the name of a plugin: it must have small letters, digits "
+            "and single underscores, a letter first, at most {longest} characters, such "
+            "as 'glass_stage'",
+            name=repr(name),
+            longest=_MAX_NAME_LENGTH,
         )
     for point in entry_points(group=kind.group, name=name):
         package = f" (of the package {point.dist.name})" if point.dist else ""
         raise PluginNameError(
-            message(
-                "engine", "the {kind} {name} already exists{package}; choose another name"
-            ).fill(kind=kind, name=repr(name), package=package)
+            "the {kind} {name} already exists{package}; choose another name",
+            kind=kind,
+            name=repr(name),
+            package=package,
         )
 
 
-def rendered(kind: Kind, name: str) -> Mapping[str, str]:
-    """Return the files of a new package: path in its folder -> text."""
+def render_package(kind: PluginKind, name: str) -> Mapping[str, str]:
+    """Return the text of each file of a new package, by its path in the package folder."""
     module = f"rotemina_{name}"
     words = name.replace("_", " ")
     environment = Environment(
-        loader=_Templates(),
+        loader=_TemplateLoader(),
         undefined=StrictUndefined,
         keep_trailing_newline=True,
         trim_blocks=True,
         lstrip_blocks=True,
-        autoescape=False,  # noqa: S701 - Python and TOML, of a checked name, are written
+        autoescape=False,  # noqa: S701 - the output is Python and TOML, with a checked name
     )
-    camel = "".join(part.capitalize() for part in name.split("_"))
-    about = {
+    class_prefix = "".join(part.capitalize() for part in name.split("_"))
+    fields = {
         "kind": str(kind),
         "name": name,
         "words": words,
         "title": words.capitalize(),
         "module": module,
         "distribution": module.replace("_", "-"),
-        "object": name.upper() if kind is Kind.EFFECT else f"{camel}{_ENDINGS[kind]}",
-        "camel": camel,
+        "object": name.upper()
+        if kind is PluginKind.EFFECT
+        else f"{class_prefix}{_CLASS_SUFFIXES[kind]}",
+        "camel": class_prefix,
         "group": kind.group,
         "api_version": kind.api_version,
         "rotemina_version": version("rotemina"),
@@ -144,14 +134,14 @@ def rendered(kind: Kind, name: str) -> Mapping[str, str]:
         f"tests/test_{name}_{kind}.py": f"{kind}_test.py",
     }
     return {
-        place: environment.get_template(template).render(about)
-        for place, template in templates.items()
+        path: environment.get_template(template).render(fields)
+        for path, template in templates.items()
     }
 
 
-_ENDINGS: Mapping[Kind, str] = {
-    Kind.DRIVER: "Driver",
-    Kind.PANEL: "Panel",
-    Kind.CAMERA: "Source",
-    Kind.INPUT: "Source",
+_CLASS_SUFFIXES: Mapping[PluginKind, str] = {
+    PluginKind.DRIVER: "Driver",
+    PluginKind.PANEL: "Panel",
+    PluginKind.CAMERA: "Source",
+    PluginKind.INPUT: "Source",
 }

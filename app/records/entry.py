@@ -1,4 +1,4 @@
-"""One record of the library: its location, origin, name and note; and finding some by words."""
+"""An entry of the record library, and the search for entries by words."""
 
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
@@ -7,20 +7,21 @@ from enum import StrEnum
 from functools import cached_property
 from pathlib import Path
 
-NEW = 0  # the id of what is not in the library yet
+#: Id of an entry that is not yet stored in the library.
+NEW_ID = 0
 
 
-class Kind(StrEnum):
-    """Where a record comes from."""
+class RecordKind(StrEnum):
+    """Origin of a record; ``FILE`` is a file that was opened from another folder."""
 
     PLAYBACK = "playback"
     RECORDING = "recording"
-    FILE = "file"  # opened from elsewhere
+    FILE = "file"
 
 
 @dataclass(frozen=True, slots=True)
 class WorstGap:
-    """The gap of the axis that departs most from the model in use, rms in m or rad (``unit``)."""
+    """Gap of the axis that deviates most from the model in use; ``rms`` in ``unit``, m or rad."""
 
     axis: str
     rms: float
@@ -28,49 +29,49 @@ class WorstGap:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Entry:
-    """A record, of which the file may have gone or changed.
+class LibraryEntry:
+    """A record of the library; its file may have changed or disappeared since it was examined.
 
     Attributes
     ----------
     id : int
-        The library's own; :data:`NEW` before it has one.
+        Number in the library; :data:`NEW_ID` before the entry is stored.
     path : Path
-        Absolute.
-    kind : Kind
+        Absolute path of the file.
+    kind : RecordKind
     size, stamp : int
-        Bytes, and time of the last change (ns), as they were looked at last.
+        Size, bytes, and time of the last change, ns, when the file was last examined.
     digest : str
-        Tells its contents from others.
+        Digest that identifies the contents of the file.
     began : datetime, optional
-        When, with the offset of the place where it was recorded.
+        Start of the record, with the UTC offset of the place where it was recorded.
     duration_s : float, optional
-        None where nobody knows.
+        None if it is unknown.
     robot, machine, driver : str
-        The robot's name, the digest of its file, and the driver.
+        Name of the robot, digest of its file, and name of the driver.
     model : str
-        Id of the model in use meanwhile.
+        Id of the model that was in use.
     effects : str
-        Those that were on, on a simulated machine.
+        Active effects of a simulated machine.
     run, operator, sample : str
-        As the operator set them.
+        Texts that the operator entered before the run.
     gap : WorstGap, optional
-        From the model in use when it was recorded or first opened.
+        Gap from the model in use when the record was made or first opened.
     events : int
-        Of a recording: those that matter to someone who looks for what happened.
+        Number of important events of a recording.
     name, note : str
-        Which anyone may change.
+        Texts that the user may change.
     problem : str
-        Why it cannot be opened; then nothing else is known.
+        Why the file cannot be opened; then the facts above are unknown.
     changed : bool
-        Whether its contents have changed since it came into the library.
+        Whether the contents have changed since the record was added to the library.
     missing : bool
-        Whether there is no file at its place.
+        Whether the file does not exist.
     """
 
     path: Path
-    kind: Kind
-    id: int = NEW
+    kind: RecordKind
+    id: int = NEW_ID
     size: int = 0
     stamp: int = 0
     digest: str = ""
@@ -93,19 +94,19 @@ class Entry:
     missing: bool = False
 
     @property
-    def usable(self) -> bool:
-        """Whether its file is there and can be opened."""
+    def is_usable(self) -> bool:
+        """Whether the file exists and can be opened."""
         return not (self.missing or self.problem)
 
     @cached_property
-    def age(self) -> tuple[float, str]:
-        """What sorts the library: the time of the record, else that of its file."""
-        at_s = self.stamp / 1e9 if self.began is None else self.began.timestamp()
-        return at_s, self.path.name
+    def sort_key(self) -> tuple[float, str]:
+        """The start of the record, or else its file's modification time, s, and the file name."""
+        time_s = self.stamp / 1e9 if self.began is None else self.began.timestamp()
+        return time_s, self.path.name
 
     @cached_property
-    def searched(self) -> str:
-        """All that a search looks through, in small letters."""
+    def search_text(self) -> str:
+        """All texts that a search examines, in lower case."""
         texts = (
             self.name,
             self.note,
@@ -122,15 +123,17 @@ class Entry:
         return "\n".join(texts).casefold()
 
 
-def search(
-    entries: Iterable[Entry], text: str = "", kinds: Collection[Kind] = frozenset(Kind)
-) -> tuple[Entry, ...]:
-    """Return the entries of some kinds that hold every word of a text, in their order.
+def search_entries(
+    entries: Iterable[LibraryEntry],
+    text: str = "",
+    kinds: Collection[RecordKind] = frozenset(RecordKind),
+) -> tuple[LibraryEntry, ...]:
+    """Return the entries of some kinds that contain every word of a text, in the given order.
 
-    A word may stand anywhere in name, note, run, operator, sample, machine, driver, model,
-    effects, date and file name; capital letters do not matter.
+    A word may occur anywhere in name, note, run, operator, sample, robot, driver, model, effects,
+    date or file name. Upper and lower case are equivalent.
     """
-    found = [one for one in entries if one.kind in kinds]
+    matches = [entry for entry in entries if entry.kind in kinds]
     for word in text.casefold().split():
-        found = [one for one in found if word in one.searched]
-    return tuple(found)
+        matches = [entry for entry in matches if word in entry.search_text]
+    return tuple(matches)

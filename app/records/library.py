@@ -1,8 +1,8 @@
-"""The library of records: the program's own folders, and files opened from elsewhere."""
+"""The catalogue of records: those in the program's own folders, and files opened elsewhere."""
 
 import re
 import threading
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import replace
 from datetime import datetime
@@ -11,77 +11,80 @@ from pathlib import Path
 
 import numpy as np
 
-from rotemina.app.motion.compared_run import Run, worst
-from rotemina.app.motion.recording.exporting import record_of, trajectory
-from rotemina.app.motion.recording.recording_reader import Recording
-from rotemina.app.motion.recording.recovery import SUFFIX
-from rotemina.app.records.database import DamagedLibraryError, LibraryError, RecordStore
-from rotemina.app.records.entry import Entry, Kind, WorstGap
-from rotemina.app.records.file_facts import digest, of_record, with_facts
-from rotemina.sim.errors import reason_of
-from rotemina.sim.messages import message
-from rotemina.sim.records.reading import read_record
-from rotemina.sim.records.record import Record
-from rotemina.sim.robot.model import Robot
+from rotemina.app.errors import DamagedLibraryError, LibraryError
+from rotemina.app.motion.playback import ComparedRun, find_worst_axis
+from rotemina.app.motion.recording import RECORDING_SUFFIX, Recording, make_record, make_trajectory
+from rotemina.app.records.database import RecordStore
+from rotemina.app.records.entry import LibraryEntry, RecordKind, WorstGap
+from rotemina.app.records.file_facts import add_facts, compute_digest, extract_record_facts
+from rotemina.sim.errors import describe_exception
+from rotemina.sim.records import Record, read_record
+from rotemina.sim.robot import Robot
 
-PLAYED, RECORDINGS = "played", "recordings"
-_TEXTS = (".csv", ".csv.gz")
-_STAMP = re.compile(r"(\d{4}-\d\d-\d\d_\d\d-\d\d-\d\d-\d{6})_?")  # that our files begin with
-_STAMPED = "%Y-%m-%d_%H-%M-%S-%f"
-MOST_ROWS = 2_000_000  # of a recording that is taken as one record: half an hour at 1 kHz
-_AT_A_TIME = 50  # files that are looked into before what is known of them is kept
+PLAYBACK_FOLDER, RECORDING_FOLDER = "played", "recordings"
+_TEXT_SUFFIXES = (".csv", ".csv.gz")
+# The names of files that this program writes begin with the time.
+_TIME_STAMP_PATTERN = re.compile(r"(\d{4}-\d\d-\d\d_\d\d-\d\d-\d\d-\d{6})_?")
+_TIME_STAMP_FORMAT = "%Y-%m-%d_%H-%M-%S-%f"
+#: A recording with more samples cannot be loaded as one record. Half an hour at 1 kHz.
+MAX_RECORD_ROWS = 2_000_000
+# Entries are stored after every this many files, so that an interruption loses little.
+_FILES_PER_COMMIT = 50
 
 
-class Library:
-    """The library of all records; :attr:`entries` may be read by any thread.
+class RecordCatalogue:
+    """The catalogue of all records; any thread may read :attr:`entries`.
 
-    Methods that touch the disk are for a thread that may wait. The library never deletes a record
-    by itself.
+    Methods that access the disk may block. The catalogue never deletes a record unless
+    :meth:`delete` is called.
 
     Parameters
     ----------
     folder : Path
-        Of the user's data: the library's own file, and the folders of playbacks and recordings.
-    played : Path, optional
+        Folder of the user's data, with the database and the folders of playbacks and recordings.
+    playback_folder : Path, optional
         The folder of playbacks, if it has another name.
 
     Attributes
     ----------
-    entries : tuple of Entry
+    entries : tuple of LibraryEntry
         All records, newest first; replaced as a whole.
     """
 
-    def __init__(self, folder: Path, played: Path | None = None) -> None:
+    def __init__(self, folder: Path, playback_folder: Path | None = None) -> None:
         folder = folder.absolute()
-        self.played = folder / PLAYED if played is None else played.absolute()
-        self.recordings = folder / RECORDINGS
-        self.entries: tuple[Entry, ...] = ()
+        self.playback_folder = (
+            folder / PLAYBACK_FOLDER if playback_folder is None else playback_folder.absolute()
+        )
+        self.recording_folder = folder / RECORDING_FOLDER
+        self.entries: tuple[LibraryEntry, ...] = ()
         self._store = RecordStore(folder)
         self._lock = threading.Lock()
-        self._ended = threading.Event()
+        self._stop_event = threading.Event()
 
     def close(self) -> None:
-        """Look into no further file; what runs ends soon."""
-        self._ended.set()
+        """Stop a running refresh after its current file."""
+        self._stop_event.set()
 
     @property
-    def played_bytes(self) -> int:
-        """How much room all playbacks take."""
+    def playback_bytes(self) -> int:
+        """Size of all playbacks, bytes."""
         return sum(
-            one.size for one in self.entries if one.kind is Kind.PLAYBACK and not one.missing
+            entry.size
+            for entry in self.entries
+            if entry.kind is RecordKind.PLAYBACK and not entry.missing
         )
 
-    # --- looking ----------------------------------------------------------------------------------
-
     def refresh(self) -> None:
-        """Find out what there is now: files that are new, have gone, moved, or changed.
+        """Update the entries: find new, missing, moved and changed files.
 
         Raises
         ------
         LibraryError
-            If the library's file cannot be read or written; what is known stays.
+            If the database cannot be read or written; the entries then stay as they are.
         DamagedLibraryError
-            If it was damaged, after all that can be found again has been listed again.
+            If the database was damaged. Before this is raised, a new database lists all files that
+            can be found.
         """
         try:
             self._refresh()
@@ -91,260 +94,295 @@ class Library:
 
     def _refresh(self) -> None:
         with self._lock:
-            known = {one.path: one for one in self._store.all()}
-            there = {**dict(self._own_files()), **_stats(known)}
-            missing = {one.digest: one for one in known.values() if one.path not in there}
-            changes: list[Entry] = []
-            kept = 0
-            for path, about in there.items():
-                if self._ended.is_set():
+            known_entries = {entry.path: entry for entry in self._store.read_all()}
+            present_files = {**dict(self._list_own_files()), **_read_stats(known_entries)}
+            missing_by_digest = {
+                entry.digest: entry
+                for entry in known_entries.values()
+                if entry.path not in present_files
+            }
+            changes: list[LibraryEntry] = []
+            stored_count = 0
+            for path, status in present_files.items():
+                if self._stop_event.is_set():
                     break
-                with suppress(OSError):  # it has just gone
-                    found = self._entry_of(path, about, known.get(path), missing)
-                    changes += [] if found is None else [found]
-                if len(changes) >= _AT_A_TIME:
-                    kept += len(self._store.put(changes))
+                # A file may disappear at any time.
+                with suppress(OSError):
+                    changed_entry = self._make_entry(
+                        path, status, known_entries.get(path), missing_by_digest
+                    )
+                    changes += [] if changed_entry is None else [changed_entry]
+                if len(changes) >= _FILES_PER_COMMIT:
+                    stored_count += len(self._store.put(changes))
                     changes.clear()
             if changes:
-                kept += len(self._store.put(changes))
-            entries = self._store.all() if kept else known.values()
-            before = {one.id: one for one in self.entries}
-            now = [replace(one, missing=one.path not in there) for one in entries]
-            # What is the same stays the same object, which knows what it is searched by.
-            self._sort(before[one.id] if before.get(one.id) == one else one for one in now)
+                stored_count += len(self._store.put(changes))
+            entries = self._store.read_all() if stored_count else known_entries.values()
+            old_entries = {entry.id: entry for entry in self.entries}
+            new_entries = [
+                replace(entry, missing=entry.path not in present_files) for entry in entries
+            ]
+            # Unchanged entries remain the same objects, because these cache their search texts.
+            self._set_entries(
+                old_entries[entry.id] if old_entries.get(entry.id) == entry else entry
+                for entry in new_entries
+            )
 
-    def _entry_of(
-        self, path: Path, about: stat_result, one: Entry | None, missing: dict[str, Entry]
-    ) -> Entry | None:
-        """Return an entry as it is now to be kept; None where nothing is new of it."""
-        if one is None:
-            moved = missing.pop(digest(path), None)
-            if moved is not None:
-                return replace(moved, path=path, stamp=about.st_mtime_ns)
-            one = with_facts(Entry(path=path, kind=self._kind_of(path)))
-            stamp = _STAMP.match(path.name)
-            if stamp is not None and one.began is None:
-                one = replace(one, began=datetime.strptime(stamp[1], _STAMPED).astimezone())
-            return _named(one, path.name[stamp.end() :] if stamp else path.name)
-        if (one.size, one.stamp) == (about.st_size, about.st_mtime_ns):
+    def _make_entry(
+        self,
+        path: Path,
+        status: stat_result,
+        entry: LibraryEntry | None,
+        missing_by_digest: dict[str, LibraryEntry],
+    ) -> LibraryEntry | None:
+        """Return the new or changed entry of a file; None if nothing has changed."""
+        if entry is None:
+            moved_entry = missing_by_digest.pop(compute_digest(path), None)
+            if moved_entry is not None:
+                return replace(moved_entry, path=path, stamp=status.st_mtime_ns)
+            entry = add_facts(LibraryEntry(path=path, kind=self._find_kind(path)))
+            stamp = _TIME_STAMP_PATTERN.match(path.name)
+            if stamp is not None and entry.began is None:
+                entry = replace(
+                    entry, began=datetime.strptime(stamp[1], _TIME_STAMP_FORMAT).astimezone()
+                )
+            return _with_default_name(entry, path.name[stamp.end() :] if stamp else path.name)
+        if (entry.size, entry.stamp) == (status.st_size, status.st_mtime_ns):
             return None
-        if digest(path) == one.digest:  # touched, or copied here
-            return replace(one, stamp=about.st_mtime_ns)
-        return with_facts(replace(one, gap=None, changed=True))
+        # The file was only touched, or replaced with a copy of itself.
+        if compute_digest(path) == entry.digest:
+            return replace(entry, stamp=status.st_mtime_ns)
+        return add_facts(replace(entry, gap=None, changed=True))
 
-    def _kind_of(self, path: Path) -> Kind:
-        folders = {self.played: Kind.PLAYBACK, self.recordings: Kind.RECORDING}
-        return folders.get(path.parent, Kind.FILE)
+    def _find_kind(self, path: Path) -> RecordKind:
+        folders = {
+            self.playback_folder: RecordKind.PLAYBACK,
+            self.recording_folder: RecordKind.RECORDING,
+        }
+        return folders.get(path.parent, RecordKind.FILE)
 
-    def _own_files(self) -> Iterator[tuple[Path, stat_result]]:
-        for folder, ends in ((self.played, _TEXTS), (self.recordings, (SUFFIX,))):
+    def _list_own_files(self) -> Iterator[tuple[Path, stat_result]]:
+        for folder, suffixes in (
+            (self.playback_folder, _TEXT_SUFFIXES),
+            (self.recording_folder, (RECORDING_SUFFIX,)),
+        ):
             for path in folder.iterdir() if folder.is_dir() else ():
-                if path.name.endswith(ends) and not path.name.startswith("."):
+                if path.name.endswith(suffixes) and not path.name.startswith("."):
                     with suppress(OSError):
                         yield path, path.stat()
 
-    # --- what comes into it -----------------------------------------------------------------------
-
     def add(self, path: Path, record: Record, title: str) -> None:
-        """Take a record in that has just been written, or opened.
+        """Add a record that was just written or opened, unless the library contains it already.
 
-        ``title`` is what it is called unless it is known already.
+        The name of the entry is made from ``title``.
 
         Raises
         ------
         LibraryError
-            If it cannot be kept.
+            If it cannot be stored.
         OSError
-            If the file has gone.
+            If the file does not exist.
         """
         path = path.absolute()
-        about = path.stat()
+        status = path.stat()
         with self._lock:
-            entry = Entry(
+            entry = LibraryEntry(
                 path=path,
-                kind=self._kind_of(path),
-                size=about.st_size,
-                stamp=about.st_mtime_ns,
-                digest=digest(path),
-                **of_record(record),
+                kind=self._find_kind(path),
+                size=status.st_size,
+                stamp=status.st_mtime_ns,
+                digest=compute_digest(path),
+                **extract_record_facts(record),
             )
-            before = next((one for one in self.entries if one.path == path), None)
-            if before is not None and before.digest == entry.digest:
+            known_entry = next((known for known in self.entries if known.path == path), None)
+            if known_entry is not None and known_entry.digest == entry.digest:
                 return
-            (entry,) = self._store.put([_named(entry, title)])
-            self._sort([*(one for one in self.entries if one.path != path), entry])
+            (entry,) = self._store.put([_with_default_name(entry, title)])
+            self._set_entries([*(known for known in self.entries if known.path != path), entry])
 
-    def set_gap(self, path: Path, run: Run, robot: Robot) -> None:
-        """Keep the gap of a record from the model in use, unless one is known of it.
+    def set_gap(self, path: Path, run: ComparedRun, robot: Robot) -> None:
+        """Store the gap between a record and the model in use, unless a gap is already stored.
 
         Raises
         ------
         LibraryError
-            If it cannot be kept.
+            If it cannot be stored.
         """
-        path, gap = path.absolute(), worst_gap(run, robot)
+        path, gap = path.absolute(), find_worst_gap(run, robot)
         with self._lock:
-            one = next((each for each in self.entries if each.path == path), None)
-            if one is None or one.gap is not None or gap is None:
+            entry = next((known for known in self.entries if known.path == path), None)
+            if entry is None or entry.gap is not None or gap is None:
                 return
-            told = replace(one, gap=gap, model=run.model_id)
-            self._store.put([told])
-            self._sort([*(each for each in self.entries if each is not one), told])
-
-    def call(self, number: int, *, name: str | None = None, note: str | None = None) -> None:
-        """Give an entry another name, another note, or both.
-
-        Raises
-        ------
-        LibraryError
-            If that cannot be kept.
-        """
-        with self._lock:
-            one = next(each for each in self.entries if each.id == number)
-            called = replace(
-                one,
-                name=one.name if name is None else name,
-                note=one.note if note is None else note,
+            changed_entry = replace(entry, gap=gap, model=run.model_id)
+            self._store.put([changed_entry])
+            self._set_entries(
+                [*(known for known in self.entries if known is not entry), changed_entry]
             )
-            self._store.call(number, name=name, note=note)
-            self._sort([*(each for each in self.entries if each is not one), called])
 
-    def found_at(self, number: int, path: Path) -> None:
-        """Say where the file of an entry is now; others that were beside it are looked for there.
+    def set_texts(self, number: int, *, name: str | None = None, note: str | None = None) -> None:
+        """Change the name of an entry, its note, or both.
 
         Raises
         ------
         LibraryError
-            If it is another file, or that cannot be kept.
+            If the change cannot be stored.
         """
         with self._lock:
-            entry = next(one for one in self.entries if one.id == number)
-            if digest(path) != entry.digest:
+            entry = next(known for known in self.entries if known.id == number)
+            changed_entry = replace(
+                entry,
+                name=entry.name if name is None else name,
+                note=entry.note if note is None else note,
+            )
+            self._store.set_texts(number, name=name, note=note)
+            self._set_entries(
+                [*(known for known in self.entries if known is not entry), changed_entry]
+            )
+
+    def set_path(self, number: int, path: Path) -> None:
+        """Set the new path of a moved file.
+
+        Other missing files of its old folder are searched for in the new folder as well.
+
+        Raises
+        ------
+        LibraryError
+            If the file has other contents, or the change cannot be stored.
+        """
+        with self._lock:
+            entry = next(known for known in self.entries if known.id == number)
+            if compute_digest(path) != entry.digest:
                 raise LibraryError(
-                    message(
-                        "engine",
-                        "{path}: its contents are not those of the record {name}; choose the "
-                        "file that was moved",
-                    ).fill(path=path, name=repr(entry.name))
+                    "{path}: its contents are not those of the record {name}; choose the "
+                    "file that was moved",
+                    path=path,
+                    name=repr(entry.name),
                 )
-            beside = [
-                one for one in self.entries if one.missing and one.path.parent == entry.path.parent
+            missing_neighbours = [
+                known
+                for known in self.entries
+                if known.missing and known.path.parent == entry.path.parent
             ]
-            taken = {one.path for one in self.entries}
-            moved = [replace(entry, path=path, missing=False)]
-            for one in beside:
-                place = path.parent / one.path.name
+            known_paths = {known.path for known in self.entries}
+            moved_entries = [replace(entry, path=path, missing=False)]
+            for known in missing_neighbours:
+                candidate = path.parent / known.path.name
                 with suppress(OSError):
-                    if one.id != number and place not in taken and digest(place) == one.digest:
-                        moved.append(replace(one, path=place, missing=False))
-            self._store.put(moved)
-            others = [one for one in self.entries if one.id not in {each.id for each in moved}]
-            self._sort([*others, *moved])
+                    if (
+                        known.id != number
+                        and candidate not in known_paths
+                        and compute_digest(candidate) == known.digest
+                    ):
+                        moved_entries.append(replace(known, path=candidate, missing=False))
+            self._store.put(moved_entries)
+            moved_ids = {moved_entry.id for moved_entry in moved_entries}
+            other_entries = [known for known in self.entries if known.id not in moved_ids]
+            self._set_entries([*other_entries, *moved_entries])
 
     def delete(self, numbers: Collection[int]) -> None:
-        """Delete records of the program's own folders, and forget others.
+        """Remove entries, and delete their files if these are in the program's own folders.
 
         Raises
         ------
         LibraryError
-            If a file cannot be deleted: then its entry stays, and those after it.
+            If a file cannot be deleted; its entry and the entries after it are then kept.
         """
         with self._lock:
-            gone = []
+            deleted_ids = []
             try:
-                for one in [each for each in self.entries if each.id in numbers]:
-                    if one.kind is not Kind.FILE:
-                        _unlink(one.path)
-                    gone.append(one.id)
+                for entry in [known for known in self.entries if known.id in numbers]:
+                    if entry.kind is not RecordKind.FILE:
+                        _delete_file(entry.path)
+                    deleted_ids.append(entry.id)
             finally:
-                self._store.remove(gone)
-                self._sort(one for one in self.entries if one.id not in gone)
+                self._store.remove(deleted_ids)
+                self._set_entries(known for known in self.entries if known.id not in deleted_ids)
 
-    def _sort(self, entries: Iterable[Entry]) -> None:
-        ordered = tuple(sorted(entries, key=lambda one: one.age, reverse=True))
-        for one in ordered:
-            _ = one.searched  # worked out here, where nobody waits for it
+    def _set_entries(self, entries: Iterable[LibraryEntry]) -> None:
+        ordered = tuple(sorted(entries, key=lambda entry: entry.sort_key, reverse=True))
+        for entry in ordered:
+            # Cache the text now, so that the first search is fast.
+            _ = entry.search_text
         self.entries = ordered
 
 
-def read(entry: Entry, robot: Robot) -> Record:
-    """Read the record of an entry, a recording from begin to end.
+def read_entry(entry: LibraryEntry, robot: Robot) -> Record:
+    """Read the record of an entry; a recording is read completely.
 
     Raises
     ------
     InputError
-        If it cannot be read, or is none of this robot's axes.
+        If it cannot be read, or its axes are not those of the robot.
     """
-    if entry.path.suffix == SUFFIX:
+    if entry.path.suffix == RECORDING_SUFFIX:
         recording = Recording.open(entry.path)
-        require_length(recording)
-        return record_of(recording)
+        check_length(recording)
+        return make_record(recording)
     return read_record(entry.path, robot=robot)
 
 
-def require_length(recording: Recording) -> None:
-    """Refuse a recording that is too long to be held in memory.
+def check_length(recording: Recording) -> None:
+    """Refuse a recording that is too long to load.
 
     Raises
     ------
     LibraryError
+        If it has more than :data:`MAX_RECORD_ROWS` samples.
     """
-    if recording.count > MOST_ROWS:
+    if recording.count > MAX_RECORD_ROWS:
         raise LibraryError(
-            message(
-                "engine",
-                "{path}: {rows} samples are too many for one record (at most {most}); export "
-                "a section in the panel Recorder",
-            ).fill(path=recording.path, rows=recording.count, most=MOST_ROWS)
+            "{path}: {rows} samples are too many for one record (at most {most}); export "
+            "a section in the panel Recorder",
+            path=recording.path,
+            rows=recording.count,
+            most=MAX_RECORD_ROWS,
         )
 
 
-def commands(entry: Entry, robot: Robot, period_s: float) -> Record:
-    """Return what an entry can be played again by: of a recording, the axes that moved.
+def read_commands(entry: LibraryEntry, robot: Robot, period_s: float) -> Record:
+    """Return the commands that play an entry again; for a recording, only of axes that moved.
 
-    ``period_s`` is that of a recording's commands.
+    ``period_s`` is the period of the commands from a recording.
 
     Raises
     ------
     InputError
-        As :func:`read`; of a recording, if an axis moves at its begin or its end as well.
+        If :func:`read_entry` raises it, or an axis moves at the start or end of a recording.
     """
-    if entry.path.suffix != SUFFIX:
-        return read(entry, robot)
+    if entry.path.suffix != RECORDING_SUFFIX:
+        return read_entry(entry, robot)
     recording = Recording.open(entry.path)
-    return trajectory(recording, -np.inf, np.inf, period_s, robot).commands
+    return make_trajectory(recording, -np.inf, np.inf, period_s, robot).commands
 
 
-def worst_gap(run: Run, robot: Robot) -> WorstGap | None:
-    """Return the gap of a run's axis that departs most, in floors of its sensor."""
-    found = worst(run.gaps, robot)
-    if found is None:
+def find_worst_gap(run: ComparedRun, robot: Robot) -> WorstGap | None:
+    """Return the gap of the axis with the largest gap relative to its sensor's noise floor."""
+    worst_axis = find_worst_axis(run.gaps, robot)
+    if worst_axis is None:
         return None
-    axis, figure = found
+    axis, figure = worst_axis
     return WorstGap(axis, figure.rms, run.record.units[axis])
 
 
-def _named(entry: Entry, title: str) -> Entry:
-    """Return an entry that is called after its run, and the file or motion that it is of."""
-    stem = title.removesuffix(".gz").removesuffix(".csv").removesuffix(SUFFIX)
+def _with_default_name(entry: LibraryEntry, title: str) -> LibraryEntry:
+    stem = title.removesuffix(".gz").removesuffix(".csv").removesuffix(RECORDING_SUFFIX)
     return replace(entry, name=": ".join(filter(None, (entry.run, stem))) or entry.path.stem)
 
 
-def _stats(known: Mapping[Path, Entry]) -> dict[Path, stat_result]:
-    found = {}
-    for path in known:
+def _read_stats(paths: Iterable[Path]) -> dict[Path, stat_result]:
+    statuses = {}
+    for path in paths:
         with suppress(OSError):
-            found[path] = path.stat()
-    return found
+            statuses[path] = path.stat()
+    return statuses
 
 
-def _unlink(path: Path) -> None:
+def _delete_file(path: Path) -> None:
     try:
         path.unlink(missing_ok=True)
     except OSError as error:
         raise LibraryError(
-            message(
-                "engine",
-                "{path} cannot be deleted ({reason}); give this user permission to write there",
-            ).fill(path=path, reason=reason_of(error))
+            "{path} cannot be deleted ({reason}); give this user permission to write there",
+            path=path,
+            reason=describe_exception(error),
         ) from error

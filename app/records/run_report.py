@@ -1,4 +1,4 @@
-"""The report of a run: one HTML page about a record of the library."""
+"""The run report: an HTML page about a record of the library."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -12,33 +12,55 @@ from markupsafe import Markup
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from rotemina.app.display_units import duration_text
-from rotemina.app.motion.compared_run import Run
-from rotemina.app.motion.penetration.run_log import PenetrationRun
-from rotemina.app.motion.recording.recording_reader import Recording
-from rotemina.app.recorded_events import Severity, TimelineEvent, timeline_events
-from rotemina.app.records.entry import Entry
-from rotemina.app.records.file_facts import moment
-from rotemina.app.records.library import require_length
-from rotemina.sim.arrays import FloatArray
-from rotemina.sim.comparison.gap import GapFigure, gap_figure, gap_text, moving
-from rotemina.sim.decimation import envelope
-from rotemina.sim.gap.output.report.frame import environment
-from rotemina.sim.gap.output.report.pictures import Role, legend, picture
-from rotemina.sim.gap.output.report.words import shown, worded
-from rotemina.sim.messages import AxisName, Message, Wording, marked, message
-from rotemina.sim.quantities import Number, fixed, rounded, scale_of
-from rotemina.sim.records.record import Tap
-from rotemina.sim.robot.model import Robot
+from rotemina.app.language import format_duration
+from rotemina.app.motion.penetration import PenetrationRun
+from rotemina.app.motion.playback import ComparedRun
+from rotemina.app.motion.recording import Recording
+from rotemina.app.records.entry import LibraryEntry
+from rotemina.app.records.file_facts import parse_time
+from rotemina.app.records.library import check_length
+from rotemina.app.records.recorded_events import EventSeverity, TimelineEvent, make_timeline_events
+from rotemina.sim.arrays import FloatArray, decimate_to_envelope
+from rotemina.sim.comparison import (
+    GapFigure,
+    compute_gap_figure,
+    find_moving_samples,
+    format_gap,
+)
+from rotemina.sim.gap.output import (
+    ColourRole,
+    add_legend,
+    draw_picture,
+    localize,
+    make_environment,
+    use_wording,
+)
+from rotemina.sim.messages import (
+    AxisName,
+    Message,
+    MessageWording,
+    NumberText,
+    format_fixed,
+    format_rounded,
+    marked,
+    message,
+)
+from rotemina.sim.records import Tap
+from rotemina.sim.robot import Robot
+from rotemina.sim.units import choose_scale
 
-_WIDTH, _HEIGHT = 11.0, 3.8  # inches of a drawing
-_BUCKETS = 500  # in which a curve is drawn
-_MOST_EVENTS = 300
-_MOST_LETTERS = 300  # of a metadatum
-_TOLD_ABOVE = (
+# Size of a drawing, inch.
+_WIDTH_INCH, _HEIGHT_INCH = 11.0, 3.8
+# A curve is drawn through the smallest and largest values in this many intervals.
+_CURVE_BUCKETS = 500
+_MAX_EVENTS = 300
+# Longer metadata are truncated.
+_MAX_METADATA_LENGTH = 300
+# The list of metadata leaves these out, because the page shows them elsewhere.
+_SUMMARY_KEYS = (
     "began", "robot", "robot_file", "driver", "model", "effects", "run", "operator", "sample"
 )  # fmt: skip
-TEXTS = (
+TEMPLATE_TEXTS = (
     marked("engine", "en"),
     marked("engine", "Run report: {name}"),
     marked("engine", "Gap"),
@@ -81,21 +103,21 @@ TEXTS = (
 
 @dataclass(frozen=True, slots=True, eq=False)
 class AxisTraces:
-    """One axis that moved.
+    """Signals and gap of one axis that moved.
 
     Attributes
     ----------
     axis, unit : str
     floor : float or None
-        Of its sensor, m or rad.
+        Noise floor of the axis' sensor, m or rad.
     time_s : (n,)
-        From the begin of the record.
+        Time since the start of the record.
     command, model, measured : (n,)
-        m or rad; NaN where nobody knows.
+        Positions, m or rad; NaN where they are unknown.
     figure : GapFigure or None
-        None where no sample counts.
+        The gap; None if no sample counts.
     nominal_known : bool
-        Whether ``figure.nominal`` is about the nominal model.
+        Whether ``figure.nominal`` is the gap from the nominal model.
     """
 
     axis: str
@@ -111,23 +133,23 @@ class AxisTraces:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RunReport:
-    """The content of the page.
+    """The content of the report page.
 
     Attributes
     ----------
     name, note, file : str
     duration_s : float
     completed : bool
-        False where it is known that it was stopped early.
+        False if the run is known to have been stopped early.
     model : str
-        Id of the model that the figures are from; "" for the robot file's.
+        Id of the model that the gaps refer to; empty for the model of the robot file.
     metadata : mapping
-        Of the record.
+        Metadata of the record.
     courses : tuple of AxisTraces
     events : tuple of TimelineEvent or None
-        None where the record keeps none.
+        None if the record stores no events.
     penetrations : tuple of PenetrationRun
-        Those that were started meanwhile.
+        Penetrations that were started during the record.
     """
 
     name: str
@@ -137,13 +159,13 @@ class RunReport:
     completed: bool
     model: str
     metadata: Mapping[str, str]
-    courses: tuple[AxisTraces, ...]
+    axis_traces: tuple[AxisTraces, ...]
     events: tuple[TimelineEvent, ...] | None = None
     penetrations: tuple[PenetrationRun, ...] = ()
 
     @classmethod
-    def of_run(cls, run: Run, robot: Robot, entry: Entry | None = None) -> Self:
-        """Return that of a playback, or of another text record, beside a model."""
+    def from_run(cls, run: ComparedRun, robot: Robot, entry: LibraryEntry | None = None) -> Self:
+        """Return the report about a playback or another text record, compared with a model."""
         record, response = run.record, run.comparison.response
         courses = []
         for axis in record.axes:
@@ -155,7 +177,7 @@ class RunReport:
                     AxisTraces(
                         axis,
                         record.units[axis],
-                        _floor(robot, axis),
+                        _find_floor(robot, axis),
                         record.time_s - record.time_s[0],
                         command,
                         response.signal(axis, Tap.MEAS),
@@ -171,44 +193,47 @@ class RunReport:
             completed=run.completed,
             model=run.model_id,
             metadata=record.metadata,
-            courses=tuple(courses),
+            axis_traces=tuple(courses),
         )
 
     @classmethod
-    def of_recording(
-        cls, path: Path, entry: Entry | None = None, penetrations: Sequence[PenetrationRun] = ()
+    def from_recording(
+        cls,
+        path: Path,
+        entry: LibraryEntry | None = None,
+        penetrations: Sequence[PenetrationRun] = (),
     ) -> Self:
-        """Return that of a recording, with the model's answers that it keeps.
+        """Return the report about a recording, which contains the positions of the model.
 
         Parameters
         ----------
         path : Path
-        entry : Entry, optional
-            Of the library.
+        entry : LibraryEntry, optional
+            Its entry in the library.
         penetrations : sequence of PenetrationRun
-            Any; those that were under way meanwhile are told of.
+            Known penetrations; the report includes those during the recording.
 
         Raises
         ------
         RecordingError
-            If it cannot be read.
+            If the recording cannot be read.
         LibraryError
             If it is too long.
         """
         recording = Recording.open(path)
-        require_length(recording)
-        robot, samples = recording.robot, recording.samples()
-        counted = moving(samples.host_time_s, samples.command)
+        check_length(recording)
+        robot, samples = recording.robot, recording.read_samples()
+        is_moving = find_moving_samples(samples.host_time_s, samples.command)
         courses = []
         for column, axis in enumerate(recording.axes):
             command, model, measured = (
                 values[:, column] for values in (samples.command, samples.model, samples.measured)
             )
-            known = command[np.isfinite(command)]
-            if len(known) and np.ptp(known) > 0.0:
+            known_command = command[np.isfinite(command)]
+            if len(known_command) and np.ptp(known_command) > 0.0:
                 time_s = samples.host_time_s - recording.began_s
-                figure = gap_figure(counted, measured, model)
-                unit, floor = recording.units[axis], _floor(robot, axis)
+                figure = compute_gap_figure(is_moving, measured, model)
+                unit, floor = recording.units[axis], _find_floor(robot, axis)
                 signals = (time_s, command, model, measured)
                 courses.append(AxisTraces(axis, unit, floor, *signals, figure, nominal_known=False))
         report = cls(
@@ -219,160 +244,174 @@ class RunReport:
             completed=True,
             model=recording.metadata.get("model", ""),
             metadata=recording.metadata,
-            courses=tuple(courses),
+            axis_traces=tuple(courses),
         )
         return report.with_events(recording, penetrations)
 
     def with_events(self, recording: Recording, penetrations: Sequence[PenetrationRun]) -> Self:
-        """Return it with what happened during the recording that it is of."""
-        events = timeline_events(recording.events(), recording.began_s)
-        began, duration_s = recording.metadata.get("began", ""), recording.ended_s
+        """Return a copy with the events and penetrations during a recording."""
+        events = make_timeline_events(recording.read_events(), recording.began_s)
+        duration_s = recording.ended_s - recording.began_s
         return replace(
             self,
-            events=tuple(one for one in events if one.weight is not Severity.DETAIL),
-            penetrations=_meanwhile(penetrations, began, duration_s - recording.began_s),
+            events=tuple(event for event in events if event.severity is not EventSeverity.DETAIL),
+            penetrations=_select_concurrent(
+                penetrations, recording.metadata.get("began", ""), duration_s
+            ),
         )
 
     @property
-    def worst(self) -> AxisTraces | None:
-        """The axis whose gap is largest, in noise floors of its sensor."""
-        known = [one for one in self.courses if one.figure is not None]
-        return max(known, key=_in_floors, default=None)
+    def worst_axis(self) -> AxisTraces | None:
+        """The axis whose gap is largest relative to the noise floor of its sensor."""
+        candidates = [traces for traces in self.axis_traces if traces.figure is not None]
+        return max(candidates, key=_compute_gap_to_floor_ratio, default=None)
 
 
-def report_text(report: RunReport, wording: Wording | None = None) -> str:
-    """Return the page in a language; English unless given."""
-    with worded(wording or Wording()):
-        made = environment(_said)
-        made.filters.update(
-            axis=lambda axis: shown(AxisName(axis)),
-            gap=lambda size, unit: shown(gap_text(size, unit)),
-            drawing=_drawing,
-            seconds=lambda at_s: shown(fixed(at_s, 3)),
-            kind=lambda word: shown(Message("recorder", word)),
-            cut=lambda text: text if len(text) <= _MOST_LETTERS else f"{text[:_MOST_LETTERS]} …",
+def render_report(report: RunReport, wording: MessageWording | None = None) -> str:
+    """Return the page in a language; by default in English."""
+    with use_wording(wording or MessageWording()):
+        template_environment = make_environment(_translate)
+        template_environment.filters.update(
+            axis=lambda axis: localize(AxisName(axis)),
+            gap=lambda size, unit: localize(format_gap(size, unit)),
+            drawing=_draw_axis,
+            seconds=lambda at_s: localize(format_fixed(at_s, 3)),
+            kind=lambda word: localize(Message("recorder", word)),
+            cut=lambda text: (
+                text if len(text) <= _MAX_METADATA_LENGTH else f"{text[:_MAX_METADATA_LENGTH]} …"
+            ),
         )
         template = resources.files(__package__).joinpath("run_report.html").read_text("utf-8")
-        return made.from_string(template).render(
+        return template_environment.from_string(template).render(
             report=report,
-            headline=shown(_headline(report)),
-            remarks=list(map(shown, _remarks(report))),
-            summary=[(_said(name), shown(text)) for name, text in _summary(report) if text],
-            most_events=_MOST_EVENTS,
-            left_out=_TOLD_ABOVE,
+            headline=localize(_make_headline(report)),
+            remarks=list(map(localize, _make_remarks(report))),
+            summary=[
+                (_translate(name), localize(text)) for name, text in _make_summary(report) if text
+            ],
+            most_events=_MAX_EVENTS,
+            left_out=_SUMMARY_KEYS,
             version=version("rotemina"),
         )
 
 
-def _said(template: str, **fields: str | float) -> str:
-    return shown(Message("engine", template, tuple(fields.items())))
+def _translate(template: str, **fields: str | float) -> str:
+    return localize(Message("engine", template, tuple(fields.items())))
 
 
-def _headline(report: RunReport) -> Message:
-    worst = report.worst
-    if worst is None or worst.figure is None:
-        return message("engine", "No axis has a gap: none was seen to move.")
-    gap = gap_text(worst.figure.rms, worst.unit)
-    if not worst.floor:
+def _make_headline(report: RunReport) -> Message:
+    traces = report.worst_axis
+    if traces is None or traces.figure is None:
+        return message("engine", "No axis has a gap: none moved.")
+    gap = format_gap(traces.figure.rms, traces.unit)
+    if not traces.floor:
         return message("engine", "Largest gap: {axis}, {gap}").fill(
-            axis=AxisName(worst.axis), gap=gap
+            axis=AxisName(traces.axis), gap=gap
         )
     return message("engine", "Largest gap: {axis}, {gap} ({floors} × its noise floor)").fill(
-        axis=AxisName(worst.axis),
+        axis=AxisName(traces.axis),
         gap=gap,
-        floors=rounded(worst.figure.rms / worst.floor, 3),
+        floors=format_rounded(traces.figure.rms / traces.floor, 3),
     )
 
 
-def _remarks(report: RunReport) -> list[Message]:
-    told = report.metadata.get("model", "")
+def _make_remarks(report: RunReport) -> list[Message]:
+    model_in_use = report.metadata.get("model", "")
     remarks = []
     if not report.completed:
         remarks.append(message("engine", "The run was stopped early."))
-    if told and report.model and told != report.model:
+    if model_in_use and report.model and model_in_use != report.model:
         remarks.append(
             message(
                 "engine",
-                "The figures are from the model {model}; {told} was in use during the run.",
-            ).fill(model=report.model, told=told)
+                "The gaps refer to the model {model}; {told} was in use during the run.",
+            ).fill(model=report.model, told=model_in_use)
         )
     return remarks
 
 
-def _summary(report: RunReport) -> list[tuple[str, str]]:
-    told = report.metadata
-    began = moment(told.get("began", ""))
+def _make_summary(report: RunReport) -> list[tuple[str, str]]:
+    metadata = report.metadata
+    began = parse_time(metadata.get("began", ""))
     return [
         (
             marked("engine", "date"),
             "" if began is None else began.isoformat(sep=" ", timespec="seconds"),
         ),
-        (marked("engine", "duration"), Number(duration_text(report.duration_s, 1))),
-        (marked("engine", "robot"), told.get("robot", "")),
-        (marked("engine", "driver"), told.get("driver", "")),
-        (marked("engine", "model in use"), told.get("model", "") or report.model),
-        (marked("engine", "effects"), told.get("effects", "")),
-        (marked("engine", "run"), told.get("run", "")),
-        (marked("engine", "operator"), told.get("operator", "")),
-        (marked("engine", "sample"), told.get("sample", "")),
+        (marked("engine", "duration"), NumberText(format_duration(report.duration_s, 1))),
+        (marked("engine", "robot"), metadata.get("robot", "")),
+        (marked("engine", "driver"), metadata.get("driver", "")),
+        (marked("engine", "model in use"), metadata.get("model", "") or report.model),
+        (marked("engine", "effects"), metadata.get("effects", "")),
+        (marked("engine", "run"), metadata.get("run", "")),
+        (marked("engine", "operator"), metadata.get("operator", "")),
+        (marked("engine", "sample"), metadata.get("sample", "")),
     ]
 
 
-def _drawing(one: AxisTraces) -> Markup:
-    """Draw what was commanded, answered and measured, and the gap below."""
-    scale = scale_of(one.unit, float(np.nanmax(np.abs(one.command), initial=0.0)))
-    gap = one.measured - one.model
-    known = np.abs(gap[np.isfinite(gap)])
-    fine = scale_of(one.unit, max(float(known.max(initial=0.0)), one.floor or 0.0))
+def _draw_axis(traces: AxisTraces) -> Markup:
+    scale = choose_scale(traces.unit, float(np.nanmax(np.abs(traces.command), initial=0.0)))
+    gap = traces.measured - traces.model
+    gap_sizes = np.abs(gap[np.isfinite(gap)])
+    gap_scale = choose_scale(
+        traces.unit, max(float(gap_sizes.max(initial=0.0)), traces.floor or 0.0)
+    )
 
     def draw(figure: Figure) -> None:
-        above, below = figure.subplots(2, 1, sharex=True, height_ratios=(3.0, 2.0))
+        signal_axes, gap_axes = figure.subplots(2, 1, sharex=True, height_ratios=(3.0, 2.0))
         for values, role, dashes, width, name in (
-            (one.measured, Role.REAL, "-", 1.6, _said(marked("engine", "measured"))),
-            (one.model, Role.CORRECTED, "-", 1.0, _said(marked("engine", "model in use"))),
-            (one.command, Role.QUIET, "--", 0.8, _said(marked("engine", "command"))),
+            (traces.measured, ColourRole.REAL, "-", 1.6, _translate(marked("engine", "measured"))),
+            (
+                traces.model,
+                ColourRole.CORRECTED,
+                "-",
+                1.0,
+                _translate(marked("engine", "model in use")),
+            ),
+            (traces.command, ColourRole.QUIET, "--", 0.8, _translate(marked("engine", "command"))),
         ):
-            _line(above, one.time_s, scale(values), role, dashes, width, name)
-        _line(below, one.time_s, fine(gap), Role.INK, "-", 0.8, "")
-        if one.floor:
-            edge = one.floor * fine.per_si
-            below.axhspan(-edge, edge, color=Role.FLOOR, alpha=0.25, linewidth=0.0)
-        above.set_ylabel(f"[{scale.symbol}]")
-        below.set_ylabel(_said(marked("engine", "gap [{unit}]"), unit=fine.symbol))
-        below.set_xlabel(_said(marked("engine", "time [s]")))
-        legend(figure, above)
+            _draw_line(signal_axes, traces.time_s, scale(values), role, dashes, width, name)
+        _draw_line(gap_axes, traces.time_s, gap_scale(gap), ColourRole.INK, "-", 0.8, "")
+        if traces.floor:
+            edge = traces.floor * gap_scale.per_si
+            gap_axes.axhspan(-edge, edge, color=ColourRole.FLOOR, alpha=0.25, linewidth=0.0)
+        signal_axes.set_ylabel(f"[{scale.symbol}]")
+        gap_axes.set_ylabel(_translate(marked("engine", "gap [{unit}]"), unit=gap_scale.symbol))
+        gap_axes.set_xlabel(_translate(marked("engine", "time [s]")))
+        add_legend(figure, signal_axes)
 
-    about = marked("engine", "Command, model in use and measured of {axis}, and the gap")
-    return picture(_WIDTH, _HEIGHT, draw, _said(about, axis=AxisName(one.axis)))
+    description = marked("engine", "Command, model in use and measured of {axis}, and the gap")
+    return draw_picture(
+        _WIDTH_INCH, _HEIGHT_INCH, draw, _translate(description, axis=AxisName(traces.axis))
+    )
 
 
-def _line(
+def _draw_line(
     axes: Axes,
     time_s: FloatArray,
     values: FloatArray,
-    role: Role,
+    role: ColourRole,
     dashes: str,
     width: float,
     name: str,
 ) -> None:
-    known = np.isfinite(values)
-    if known.any():
-        curve = envelope(time_s[known], values[known], _BUCKETS)
+    is_known = np.isfinite(values)
+    if is_known.any():
+        curve = decimate_to_envelope(time_s[is_known], values[is_known], _CURVE_BUCKETS)
         axes.plot(*curve, dashes, color=role, linewidth=width, label=name)
 
 
-def _floor(robot: Robot, axis: str) -> float | None:
-    described = robot.axes.get(axis)
-    return described.sensor.noise_floor if described and described.sensor else None
+def _find_floor(robot: Robot, axis: str) -> float | None:
+    robot_axis = robot.axes.get(axis)
+    return robot_axis.sensor.noise_floor if robot_axis and robot_axis.sensor else None
 
 
-def _in_floors(one: AxisTraces) -> float:
-    return 0.0 if one.figure is None else one.figure.rms / (one.floor or 1.0)
+def _compute_gap_to_floor_ratio(traces: AxisTraces) -> float:
+    return 0.0 if traces.figure is None else traces.figure.rms / (traces.floor or 1.0)
 
 
-def _meanwhile(
+def _select_concurrent(
     runs: Sequence[PenetrationRun], began: str, duration_s: float
 ) -> tuple[PenetrationRun, ...]:
-    """Return the penetrations that were under way during a recording."""
-    first = moment(began)
-    return () if first is None else tuple(one for one in runs if one.during(first, duration_s))
+    start = parse_time(began)
+    return () if start is None else tuple(run for run in runs if run.overlaps(start, duration_s))

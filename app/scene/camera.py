@@ -1,32 +1,35 @@
-"""The camera of a viewer that draws by itself: projection of points to pixels."""
+"""The camera of a viewer that draws without a GPU; projects points to pixels."""
 
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
-from rotemina.app.scene.scene import Command
+from rotemina.app.scene.scene import SceneCommand
 from rotemina.sim.arrays import FloatArray
 
-_HALF_HEIGHT = np.tan(np.radians(62.0) / 2)  # of the picture, at unit distance
-_STEEPEST = np.radians(89.9)  # exactly upright has no heading
-_NEAREST_M, _FARTHEST_M = 2e-5, 2.0
+# Half the height of the picture at unit distance, for a vertical field of view of 62°.
+_HALF_HEIGHT_RATIO = np.tan(np.radians(62.0) / 2)
+# A camera that looks straight down or up has no defined heading.
+_MAX_PITCH_RAD = np.radians(89.9)
+_MIN_DISTANCE_M, _MAX_DISTANCE_M = 2e-5, 2.0
 
 
 @dataclass(frozen=True, eq=False)
-class Camera:
-    """Looks at ``target`` from ``offset`` away from it, both (3,), m, z up.
+class SceneCamera:
+    """A perspective camera at ``target`` + ``offset`` that looks at ``target``.
 
-    What is closer to the eye than ``near``, m, is not drawn.
+    ``target`` and ``offset`` are (3,), m, with z up. Points closer to the eye than ``near_m``, m,
+    are not drawn.
     """
 
     target: FloatArray
     offset: FloatArray
-    near: float
+    near_m: float
 
     @classmethod
-    def of(cls, command: Command) -> "Camera":
-        """Return the camera that a ``view`` command asks for."""
+    def from_command(cls, command: SceneCommand) -> "SceneCamera":
+        """Return the camera of a ``view`` command."""
         target, offset = np.array(command["target"]), np.array(command["eye"])
         return cls(target, offset, command["near"])
 
@@ -37,47 +40,54 @@ class Camera:
 
     @cached_property
     def axes(self) -> FloatArray:
-        """Right, up and ahead, the rows of (3, 3)."""
-        ahead = -self.offset / np.linalg.norm(self.offset)
-        right = np.cross(ahead, [0.0, 0.0, 1.0])
+        """Unit vectors to the right, upwards and forwards, as the rows of a matrix (3, 3)."""
+        forward = -self.offset / np.linalg.norm(self.offset)
+        right = np.cross(forward, [0.0, 0.0, 1.0])
         right /= np.linalg.norm(right)
-        return np.array([right, np.cross(right, ahead), ahead])
+        return np.array([right, np.cross(right, forward), forward])
 
-    def seen(self, points: FloatArray) -> FloatArray:
-        """Return points (n, 3), m, of the room along the camera's axes, from the eye."""
+    def to_camera_frame(self, points: FloatArray) -> FloatArray:
+        """Convert points (n, 3), m, from scene coordinates to camera coordinates.
+
+        The origin of the camera coordinates is the eye; the axes point right, up and forward.
+        """
         return (points - self.eye) @ self.axes.T
 
-    def turned(self, right: float, up: float) -> "Camera":
-        """Return the camera after it went about its target, rad."""
+    def orbit(self, right: float, up: float) -> "SceneCamera":
+        """Return the camera after a rotation around its target by two angles, rad."""
         x, y, z = self.offset
-        flat = np.hypot(x, y)
+        horizontal = np.hypot(x, y)
         heading = np.arctan2(y, x) + right
-        pitch = np.clip(np.arctan2(z, flat) + up, -_STEEPEST, _STEEPEST)
+        pitch = np.clip(np.arctan2(z, horizontal) + up, -_MAX_PITCH_RAD, _MAX_PITCH_RAD)
         distance = np.linalg.norm(self.offset)
-        along = np.array([np.cos(heading), np.sin(heading)]) * np.cos(pitch)
-        return replace(self, offset=distance * np.array([*along, np.sin(pitch)]))
+        horizontal_direction = np.array([np.cos(heading), np.sin(heading)]) * np.cos(pitch)
+        return replace(self, offset=distance * np.array([*horizontal_direction, np.sin(pitch)]))
 
-    def nearer(self, factor: float) -> "Camera":
-        """Return the camera that many times as near to its target, within bounds."""
+    def zoom(self, factor: float) -> "SceneCamera":
+        """Return the camera at 1/``factor`` of its distance from the target, within bounds."""
         distance = float(np.linalg.norm(self.offset))
-        goal = float(np.clip(distance / factor, _NEAREST_M, _FARTHEST_M))
-        ratio = goal / distance
-        return replace(self, offset=ratio * self.offset, near=ratio * self.near)
+        new_distance = float(np.clip(distance / factor, _MIN_DISTANCE_M, _MAX_DISTANCE_M))
+        ratio = new_distance / distance
+        return replace(self, offset=ratio * self.offset, near_m=ratio * self.near_m)
 
-    def shifted(self, right: float, up: float, height: float) -> "Camera":
-        """Return the camera moved by pixels at its target, in a picture of this height, px."""
-        scale = np.linalg.norm(self.offset) / focal(height)
+    def pan(self, right: float, up: float, height: float) -> "SceneCamera":
+        """Return the camera shifted by ``right`` and ``up`` pixels of the picture.
+
+        ``height`` is the height of the picture, px.
+        """
+        metres_per_px = np.linalg.norm(self.offset) / compute_focal_length_px(height)
         return replace(
-            self, target=self.target + scale * (right * self.axes[0] + up * self.axes[1])
+            self, target=self.target + metres_per_px * (right * self.axes[0] + up * self.axes[1])
         )
 
 
-def focal(height: float) -> float:
-    """Return the focal length, px, of a picture of this height, px."""
-    return float(height / (2 * _HALF_HEIGHT))
+def compute_focal_length_px(height: float) -> float:
+    """Compute the focal length, px, for a picture of the given height, px."""
+    return float(height / (2 * _HALF_HEIGHT_RATIO))
 
 
-def pixels(seen: FloatArray, width: float, height: float) -> FloatArray:
-    """Return where points (n, 3) along the camera's axes are, (n, 2), px from the upper left."""
-    scale = focal(height) / seen[:, 2]
-    return np.column_stack([width / 2 + scale * seen[:, 0], height / 2 - scale * seen[:, 1]])
+def project_to_pixels(points: FloatArray, width: float, height: float) -> FloatArray:
+    """Project points (n, 3) in camera coordinates to pixels (n, 2) from the upper left corner."""
+    px_per_m = compute_focal_length_px(height) / points[:, 2]
+    x_px, y_px = width / 2 + px_per_m * points[:, 0], height / 2 - px_per_m * points[:, 1]
+    return np.column_stack([x_px, y_px])

@@ -1,12 +1,14 @@
-"""Frames of the chain: the pose of each link in the one that carries it.
+"""Frames of the kinematic chain: the pose of each link in the frame of the link that carries it.
 
-x carries y carries z carries the tilting plate (thx, thy) carries the pin (zn)::
+x carries y, y carries z, z carries the tilting plate (thx, thy), and the plate carries the pin
+(zn)::
 
     base → x: along x → y: along y → z: along z → tilt: R_y(thy) R_x(thx) → pin: zn along its z
 
-The origin of ``z``, ``tilt`` and, at zn = 0, ``pin`` is the pivot; the tip is ``pin_length`` below
-the origin of ``pin``. Multiplied along the chain that is the tip of
-:func:`rotemina.sim.kinematics.forward.tip_position`.
+The pivot is the origin of ``z`` and ``tilt``, and at zn = 0 also of ``pin``. The tip is
+``pin_length`` below the origin of ``pin``. The product of the poses along the chain gives the same
+tip position as
+:func:`rotemina.sim.kinematics.compute_tip_position`.
 """
 
 from types import MappingProxyType
@@ -14,37 +16,43 @@ from types import MappingProxyType
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.kinematics.chain import NANO, Chain
+from rotemina.sim.kinematics import NANO, KinematicChain
 
-#: Each link, with its path below a ghost's own.
-LINKS = MappingProxyType(
+#: Path of each link, relative to the path of its ghost.
+LINK_PATHS = MappingProxyType(
     {"x": "x", "y": "x/y", "z": "x/y/z", "tilt": "x/y/z/tilt", "pin": "x/y/z/tilt/pin"}
 )
 
 
-def frames(joints: FloatArray) -> dict[str, FloatArray]:
-    """Return the matrix (4, 4) of every link in its carrier's frame, for joints (6,)."""
-    placed = {link: np.eye(4) for link in LINKS}
+def compute_link_frames(joints: FloatArray) -> dict[str, FloatArray]:
+    """Compute the pose (4, 4) of every link in the frame of the link before it.
+
+    ``joints`` (6,) are the joint positions, m and rad.
+    """
+    poses = {link: np.eye(4) for link in LINK_PATHS}
     for index, link in enumerate(("x", "y", "z")):
-        placed[link][index, 3] = joints[index]
-    placed["tilt"][:3, :3] = _turn(joints[4], 1) @ _turn(joints[3], 0)
-    placed["pin"][2, 3] = joints[5]
-    return placed
+        poses[link][index, 3] = joints[index]
+    poses["tilt"][:3, :3] = _make_rotation(joints[4], 1) @ _make_rotation(joints[3], 0)
+    poses["pin"][2, 3] = joints[5]
+    return poses
 
 
-def exaggerated(chain: Chain, joints: FloatArray, factor: float) -> FloatArray:
-    """Return joints (..., 6) with the nano stage ``factor`` times as far from its mid-range."""
-    stretched = np.array(joints, dtype=float)
-    middle = chain.centre[NANO]
-    stretched[..., NANO] = middle + factor * (stretched[..., NANO] - middle)
-    return stretched
+def exaggerate_nano_motion(chain: KinematicChain, joints: FloatArray, factor: float) -> FloatArray:
+    """Return a copy of joints (..., 6) with the nano stage ``factor`` times as far from its centre.
+
+    The centre is the middle of the range of each nano axis.
+    """
+    exaggerated_joints = np.array(joints, dtype=float)
+    centre = chain.centre[NANO]
+    exaggerated_joints[..., NANO] = centre + factor * (exaggerated_joints[..., NANO] - centre)
+    return exaggerated_joints
 
 
-def _turn(angle: float, about: int) -> FloatArray:
-    """Return the right-handed rotation (3, 3) about axis 0 (x) or 1 (y), rad."""
+def _make_rotation(angle: float, axis: int) -> FloatArray:
+    """Return the right-handed rotation (3, 3) by an angle, rad, about axis 0 (x) or 1 (y)."""
     cosine, sine = np.cos(angle), np.sin(angle)
-    turn = np.eye(3)
-    one, other = ((1, 2), (2, 0))[about]
-    turn[one, one] = turn[other, other] = cosine
-    turn[one, other], turn[other, one] = -sine, sine
-    return turn
+    rotation = np.eye(3)
+    first, second = ((1, 2), (2, 0))[axis]
+    rotation[first, first] = rotation[second, second] = cosine
+    rotation[first, second], rotation[second, first] = -sine, sine
+    return rotation

@@ -1,51 +1,54 @@
-"""The files of a browser's viewer: our page around the included viewer of meshcat."""
+"""The files of the browser viewer: the program's page, and the viewer of meshcat."""
 
 from dataclasses import dataclass
 from functools import cache
 from importlib import resources
 
-from rotemina.sim.errors import InputError, reason_of
-from rotemina.sim.messages import message
+from rotemina.app.errors import ViewerError
+from rotemina.sim.errors import (
+    describe_exception,
+)
 
-_OWN = {
+_OWN_FILES = {
     "": ("viewer.html", "text/html; charset=utf-8"),
     "viewer.css": ("viewer.css", "text/css; charset=utf-8"),
     "viewer.js": ("viewer.js", "text/javascript; charset=utf-8"),
 }
 
 
-class ViewerError(InputError):
-    """The viewer cannot be served or shown."""
-
-
 @dataclass(frozen=True, slots=True)
 class PageFile:
-    """What is sent under one name."""
+    """A file that the server sends: its content and its MIME type."""
 
     content: bytes
-    kind: str
+    content_type: str
 
 
 @cache
-def page_files() -> dict[str, PageFile]:
-    """Return every file of the viewer by name; there are no others.
+def load_page_files() -> dict[str, PageFile]:
+    """Return all files that the server may send, by name.
 
     Raises
     ------
     ViewerError
-        If one of them is missing.
+        If a file cannot be read.
     """
     folder = resources.files("rotemina.app.scene")
-    sources = {name: (folder.joinpath(file), kind) for name, (file, kind) in _OWN.items()}
+    sources = {
+        name: (folder.joinpath(file), content_type)
+        for name, (file, content_type) in _OWN_FILES.items()
+    }
     viewer = resources.files("rotemina.resources.meshcat").joinpath("main.min.js")
     sources["meshcat.js"] = (viewer, "text/javascript; charset=utf-8")
     try:
-        return {name: PageFile(file.read_bytes(), kind) for name, (file, kind) in sources.items()}
+        return {
+            name: PageFile(file.read_bytes(), content_type)
+            for name, (file, content_type) in sources.items()
+        }
     except OSError as error:
         raise ViewerError(
-            message(
-                "engine",
-                "{filename}: this file of the 3-D view cannot be read: {strerror}; install "
-                "RoTeMiNa again",
-            ).fill(filename=error.filename, strerror=reason_of(error))
+            "{filename}: this file of the 3-D view cannot be read: {strerror}; install "
+            "RoTeMiNa again",
+            filename=error.filename,
+            strerror=describe_exception(error),
         ) from error

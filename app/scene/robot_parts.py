@@ -1,8 +1,8 @@
 """The drawn parts of the robot.
 
-Travel, pin length, lever arm of the piezos and the cell come from the robot file and what is made
-of it. Everything else only lets one recognise the machine: plates of 90 mm for the tables, a dish
-of 35 mm. Nothing is computed from a part.
+Travel, pin length, lever arm of the piezos and the cell come from the robot file. All other
+dimensions are schematic, such as plates of 90 mm for the tables and a dish of 35 mm. They only make
+the machine recognisable, and no computation uses them.
 """
 
 from collections.abc import Iterator
@@ -10,112 +10,160 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rotemina.app.scene.solids import Look, Point, Shape, Solid, box, ellipsoid, tube
+from rotemina.app.scene.solids import (
+    Coordinates,
+    SceneSolid,
+    SolidAppearance,
+    SolidShape,
+    make_box,
+    make_ellipsoid,
+    make_tube,
+)
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.kinematics.chain import TABLES, Chain
-from rotemina.sim.kinematics.forward import tip_position
-from rotemina.sim.microscope.cell import Cell
+from rotemina.sim.kinematics import TABLES, KinematicChain, compute_tip_position
+from rotemina.sim.microscope import SimulatedCell
 
-PLATE = 0.090  # m, side of a table
-_RAIL, _CARRIAGE = 0.025, 0.020  # m, heights of a table's two halves
-_BACK = 0.120  # m, from the pivot back to the middle of the tables: the dish stays free
-_LEVER = 0.045  # m, where a robot file says nothing
-DISH_RADIUS, _DISH_WALL, _GLASS = 0.0175, 0.010, 0.5e-3
+PLATE_SIDE_M = 0.090
+_RAIL_HEIGHT_M, _CARRIAGE_HEIGHT_M = 0.025, 0.020
+# The tables stand this far behind the pivot, so that they do not hide the dish.
+_TABLE_SETBACK_M = 0.120
+# Used if a robot file does not state the lever arm of the piezos.
+_DEFAULT_LEVER_M = 0.045
+DISH_RADIUS_M, _DISH_WALL_HEIGHT_M, _GLASS_THICKNESS_M = 0.0175, 0.010, 0.5e-3
 
 
-class Part(NamedTuple):
-    """A named shape about a point, m, of a link's frame."""
+class RobotPart(NamedTuple):
+    """A named shape whose centre is given in the frame of a link, m."""
 
     link: str
     name: str
-    shape: Shape
-    middle: Point
+    shape: SolidShape
+    centre_m: Coordinates
 
 
-def cell_of(chain: Chain) -> Cell:
-    """Return the cell that the simulated microscope shows, beside the tip in mid-range."""
-    x, y, z = (float(value) for value in tip_position(chain, chain.centre))
-    return Cell.beside((x, y, z))
+def make_cell(chain: KinematicChain) -> SimulatedCell:
+    """Return the cell of the simulated microscope, next to the mid-range position of the tip."""
+    x, y, z = (float(value) for value in compute_tip_position(chain, chain.centre))
+    return SimulatedCell.near_view_centre((x, y, z))
 
 
-def moving_parts(chain: Chain) -> Iterator[Part]:
-    """Give the parts of one ghost, by the link that carries each."""
-    yield from _tables(chain)
-    yield from _nano_stage(chain)
+def make_moving_parts(chain: KinematicChain) -> Iterator[RobotPart]:
+    """Yield the moving parts of one ghost, each in the frame of its link."""
+    yield from _make_table_parts(chain)
+    yield from _make_nano_parts(chain)
 
 
-def fixed_parts(chain: Chain, look: Look) -> dict[str, Solid]:
-    """Return the fixed parts: the base, and the rail of the lowest table."""
+def make_fixed_parts(chain: KinematicChain, appearance: SolidAppearance) -> dict[str, SceneSolid]:
+    """Return the fixed parts by name: the base, and the rail of the lowest table."""
     (x_low, *_), (x_high, *_) = chain.lower[TABLES], chain.upper[TABLES]
-    _, y_middle, _ = chain.centre[TABLES]
-    top = _stack_top(chain) - 2 * (_RAIL + _CARRIAGE)
-    middle_x, width = (x_low + x_high) / 2, PLATE + x_high - x_low
-    back = float(y_middle) + _BACK
-    rail = Solid(box(width, PLATE, _RAIL), (middle_x, back, top + _RAIL / 2), look)
-    base = Solid(box(1.3 * width, 1.8 * PLATE, 0.01), (middle_x, back, top - 0.005), look)
+    _, y_centre, _ = chain.centre[TABLES]
+    base_top = _compute_stack_top(chain) - 2 * (_RAIL_HEIGHT_M + _CARRIAGE_HEIGHT_M)
+    x_centre, width = (x_low + x_high) / 2, PLATE_SIDE_M + x_high - x_low
+    table_y = float(y_centre) + _TABLE_SETBACK_M
+    rail = SceneSolid(
+        make_box(width, PLATE_SIDE_M, _RAIL_HEIGHT_M),
+        (x_centre, table_y, base_top + _RAIL_HEIGHT_M / 2),
+        appearance,
+    )
+    base = SceneSolid(
+        make_box(1.3 * width, 1.8 * PLATE_SIDE_M, 0.01),
+        (x_centre, table_y, base_top - 0.005),
+        appearance,
+    )
     return {"rail": rail, "base": base}
 
 
-def specimen(chain: Chain, floor: float | None, glass: Look, living: Look) -> dict[str, Solid]:
-    """Return dish and cell; the dish's bottom is the tip's ``floor``, m, or just below the cell."""
-    cell = cell_of(chain)
+def make_specimen(
+    chain: KinematicChain,
+    floor: float | None,
+    glass: SolidAppearance,
+    cell_appearance: SolidAppearance,
+) -> dict[str, SceneSolid]:
+    """Return the solids of dish and cell by name.
+
+    The bottom of the dish is at the ``floor`` of the tip, m; if that is None, at the lower side of
+    the cell.
+    """
+    cell = make_cell(chain)
     x, y, z = cell.centre_m
-    bottom = z - cell.radii_m[2] if floor is None else floor
-    centre_x, centre_y, _ = tip_position(chain, chain.centre).tolist()
-    wall = tube(DISH_RADIUS, _DISH_WALL, open_=True)
+    dish_bottom = z - cell.radii_m[2] if floor is None else floor
+    centre_x, centre_y, _ = compute_tip_position(chain, chain.centre).tolist()
+    wall = make_tube(DISH_RADIUS_M, _DISH_WALL_HEIGHT_M, open_=True)
     return {
-        "dish": Solid(tube(DISH_RADIUS, _GLASS), (centre_x, centre_y, bottom - _GLASS / 2), glass),
-        "wall": Solid(wall, (centre_x, centre_y, bottom + _DISH_WALL / 2), glass),
-        "cell": Solid(ellipsoid(cell.radii_m), (x, y, z), living),
+        "dish": SceneSolid(
+            make_tube(DISH_RADIUS_M, _GLASS_THICKNESS_M),
+            (centre_x, centre_y, dish_bottom - _GLASS_THICKNESS_M / 2),
+            glass,
+        ),
+        "wall": SceneSolid(
+            wall, (centre_x, centre_y, dish_bottom + _DISH_WALL_HEIGHT_M / 2), glass
+        ),
+        "cell": SceneSolid(make_ellipsoid(cell.radii_m), (x, y, z), cell_appearance),
     }
 
 
-def bound(chain: Chain, height: float, radius: float, look: Look) -> Solid:
-    """Return a thin disc at a height, m, that bounds the tip; ``radius`` may be infinite."""
-    x, y, _ = tip_position(chain, chain.centre).tolist()
+def make_bound_disc(
+    chain: KinematicChain, height: float, radius: float, appearance: SolidAppearance
+) -> SceneSolid:
+    """Return a thin disc at a height, m, that shows the lower or upper bound of the tip.
+
+    ``radius``, m, may be infinite; then the disc covers the travel of the tables.
+    """
+    x, y, _ = compute_tip_position(chain, chain.centre).tolist()
     travel = (chain.upper - chain.lower)[TABLES]
-    reach = float(np.hypot(travel[0], travel[1]) / 2)
-    return Solid(tube(min(radius, reach), 2e-5), (x, y, height - 1e-5), look)
+    travel_radius = float(np.hypot(travel[0], travel[1]) / 2)
+    disc = make_tube(min(radius, travel_radius), 2e-5)
+    return SceneSolid(disc, (x, y, height - 1e-5), appearance)
 
 
-def _stack_top(chain: Chain) -> float:
-    """Return the height, m, of the y table's plate: below the lowest tip."""
+def _compute_stack_top(chain: KinematicChain) -> float:
+    """Return the height, m, of the plate of the y table, which is the lowest height of the tip."""
     return float(chain.lower[2]) - chain.pin_length
 
 
-def _tables(chain: Chain) -> Iterator[Part]:
+def _make_table_parts(chain: KinematicChain) -> Iterator[RobotPart]:
     travel: FloatArray = (chain.upper - chain.lower)[TABLES]
-    low, middle = chain.lower[TABLES], chain.centre[TABLES]
-    top = _stack_top(chain)
-    plate = box(PLATE, PLATE, _CARRIAGE)
-    rail_height = top - _CARRIAGE - _RAIL / 2
-    # Every table's rail stands in the frame of the carriage below it.
-    yield Part("x", "carriage", plate, (0.0, middle[1] + _BACK, rail_height - 0.0225))
-    rail = box(PLATE, PLATE + float(travel[1]), _RAIL)
-    yield Part("x", "rail", rail, (0.0, middle[1] + _BACK, rail_height))
-    yield Part("y", "carriage", plate, (0.0, _BACK, top - _CARRIAGE / 2))
-    height = PLATE + float(travel[2])
-    column_middle = top + height / 2
-    yield Part("y", "column", box(PLATE, 0.03, height), (0.0, _BACK, column_middle))
-    # At its lowest the z carriage stands at the column's foot.
-    lift = top + PLATE / 2 - float(low[2])
-    yield Part("z", "carriage", box(PLATE, 0.015, PLATE), (0.0, _BACK - 0.0225, lift))
+    low, centre = chain.lower[TABLES], chain.centre[TABLES]
+    stack_top = _compute_stack_top(chain)
+    plate = make_box(PLATE_SIDE_M, PLATE_SIDE_M, _CARRIAGE_HEIGHT_M)
+    rail_height = stack_top - _CARRIAGE_HEIGHT_M - _RAIL_HEIGHT_M / 2
+    # The rail of each table is fixed to the carriage below it.
+    yield RobotPart(
+        "x", "carriage", plate, (0.0, centre[1] + _TABLE_SETBACK_M, rail_height - 0.0225)
+    )
+    rail = make_box(PLATE_SIDE_M, PLATE_SIDE_M + float(travel[1]), _RAIL_HEIGHT_M)
+    yield RobotPart("x", "rail", rail, (0.0, centre[1] + _TABLE_SETBACK_M, rail_height))
+    carriage_height = stack_top - _CARRIAGE_HEIGHT_M / 2
+    yield RobotPart("y", "carriage", plate, (0.0, _TABLE_SETBACK_M, carriage_height))
+    column_length = PLATE_SIDE_M + float(travel[2])
+    column = make_box(PLATE_SIDE_M, 0.03, column_length)
+    column_centre = (0.0, _TABLE_SETBACK_M, stack_top + column_length / 2)
+    yield RobotPart("y", "column", column, column_centre)
+    # At the lower end of its range the z carriage is at the bottom of the column.
+    z_carriage_height = stack_top + PLATE_SIDE_M / 2 - float(low[2])
+    yield RobotPart(
+        "z",
+        "carriage",
+        make_box(PLATE_SIDE_M, 0.015, PLATE_SIDE_M),
+        (0.0, _TABLE_SETBACK_M - 0.0225, z_carriage_height),
+    )
 
 
-def _nano_stage(chain: Chain) -> Iterator[Part]:
-    lever = chain.robot.piezo_lever_arm or _LEVER
-    reach = lever + 0.008
-    front, back = reach - 0.006, _BACK - 0.030
-    arm = box(0.05, back - front, 0.012)
-    yield Part("z", "arm", arm, (0.0, (front + back) / 2, 0.027))
-    yield Part("z", "housing", tube(reach, 0.010), (0.0, 0.0, 0.027))
-    piezo = tube(0.005, 0.014)  # PA 50/14
+def _make_nano_parts(chain: KinematicChain) -> Iterator[RobotPart]:
+    lever = chain.robot.piezo_lever_arm or _DEFAULT_LEVER_M
+    plate_radius = lever + 0.008
+    front, back = plate_radius - 0.006, _TABLE_SETBACK_M - 0.030
+    arm = make_box(0.05, back - front, 0.012)
+    yield RobotPart("z", "arm", arm, (0.0, (front + back) / 2, 0.027))
+    yield RobotPart("z", "housing", make_tube(plate_radius, 0.010), (0.0, 0.0, 0.027))
+    # Size of the piezo actuator PA 50/14.
+    piezo = make_tube(0.005, 0.014)
     for name, x, y in (("piezo zn", 0.0, 0.0), ("piezo thx", 0.0, lever), ("piezo thy", lever, 0)):
-        yield Part("z", name, piezo, (x, float(y), 0.015))
-    yield Part("tilt", "plate", tube(reach, 0.004), (0.0, 0.0, 0.006))
-    yield Part("tilt", "flexure", ellipsoid((0.005, 0.005, 0.005)), (0.0, 0.0, 0.0))
-    length = chain.pin_length
-    holder, glass = 0.45 * length, 0.55 * length
-    yield Part("pin", "holder", tube(0.003, holder), (0.0, 0.0, -holder / 2))
-    pin = tube(0.0008, glass, foot=1e-6)
-    yield Part("pin", "pin", pin, (0.0, 0.0, -holder - glass / 2))
+        yield RobotPart("z", name, piezo, (x, float(y), 0.015))
+    yield RobotPart("tilt", "plate", make_tube(plate_radius, 0.004), (0.0, 0.0, 0.006))
+    yield RobotPart("tilt", "flexure", make_ellipsoid((0.005, 0.005, 0.005)), (0.0, 0.0, 0.0))
+    holder_length, glass_length = 0.45 * chain.pin_length, 0.55 * chain.pin_length
+    holder = make_tube(0.003, holder_length)
+    yield RobotPart("pin", "holder", holder, (0.0, 0.0, -holder_length / 2))
+    pin = make_tube(0.0008, glass_length, foot_radius=1e-6)
+    yield RobotPart("pin", "pin", pin, (0.0, 0.0, -holder_length - glass_length / 2))

@@ -1,8 +1,8 @@
-"""The drawing commands for viewers: the newest of each, numbered by age.
+"""The drawing commands for viewers: the newest one of each kind and path, with its revision.
 
-Commands are those of meshcat's viewer, as it decodes them: ``set_object``, ``set_transform`` and
-``set_property`` on a path of its scene tree; our own page adds ``view`` and ``note``. Somebody who
-comes late, or is slow, gets the newest of each and nothing in between.
+Commands have the form that meshcat's viewer decodes: ``set_object``, ``set_transform`` and
+``set_property`` on a path of its scene tree. The page of this program also decodes ``view``,
+``note`` and ``alive``. A viewer that connects late or is slow receives only the newest commands.
 """
 
 import threading
@@ -12,50 +12,53 @@ from typing import Any
 
 from rotemina.sim.arrays import FloatArray
 
-Command = Mapping[str, Any]
+SceneCommand = Mapping[str, Any]
 
 
 @dataclass(frozen=True, slots=True)
-class Changes:
-    """What is new since an earlier ``revision``, in an order in which it can be drawn."""
+class SceneChanges:
+    """The commands since an earlier revision, in an order in which they can be drawn."""
 
-    commands: tuple[Command, ...]
+    commands: tuple[SceneCommand, ...]
     revision: int
 
 
-class Scene:
-    """Holds the commands; every method may be called from any thread."""
+class SceneCommandStore:
+    """Stores the newest commands; every method may be called from any thread."""
 
     def __init__(self) -> None:
-        self._newest: dict[tuple[str, str, str], tuple[int, Command]] = {}
+        # The newest command and its revision, by kind, path and property.
+        self._newest: dict[tuple[str, str, str], tuple[int, SceneCommand]] = {}
         self._revision = 0
         self._lock = threading.Lock()
 
-    def put(self, *commands: Command, again: bool = False) -> None:
-        """Replace earlier commands on the same path, all at once.
+    def put(self, *commands: SceneCommand, again: bool = False) -> None:
+        """Replace the earlier commands of the same kind and path, all in one step.
 
-        What is no change is left out, unless it is to happen ``again``.
+        A command that changes nothing is ignored, unless ``again`` is true.
         """
         with self._lock:
             for command in commands:
                 key = (command["type"], command.get("path", ""), command.get("property", ""))
-                _, before = self._newest.get(key, (0, None))
-                if again or command != before:
+                _, previous = self._newest.get(key, (0, None))
+                if again or command != previous:
                     self._revision += 1
                     self._newest[key] = (self._revision, command)
 
-    def changes(self, since: int = 0) -> Changes:
-        """Return what came after a revision; since 0, the whole scene."""
+    def get_changes(self, since: int = 0) -> SceneChanges:
+        """Return the commands after a revision; after 0, the whole scene."""
         with self._lock:
-            new = (command for revision, command in self._newest.values() if revision > since)
-            return Changes(tuple(new), self._revision)
+            commands = tuple(
+                command for revision, command in self._newest.values() if revision > since
+            )
+            return SceneChanges(commands, self._revision)
 
 
-def set_transform(path: str, matrix: FloatArray) -> Command:
-    """Place what is at ``path`` in the frame of what it hangs from; ``matrix`` is (4, 4)."""
+def set_transform(path: str, matrix: FloatArray) -> SceneCommand:
+    """Return the command that sets the pose (4, 4) of ``path`` in the frame of its parent."""
     return {"type": "set_transform", "path": path, "matrix": matrix.T.ravel().tolist()}
 
 
-def set_property(path: str, name: str, value: object) -> Command:
-    """Change a property, such as ``visible``, of what is at ``path``."""
+def set_property(path: str, name: str, value: object) -> SceneCommand:
+    """Return the command that changes a property, such as ``visible``, of ``path``."""
     return {"type": "set_property", "path": path, "property": name, "value": value}

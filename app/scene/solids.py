@@ -1,4 +1,4 @@
-"""Solids as three.js reads them: shape, pose and appearance."""
+"""Solids in the format of three.js: shape, pose and appearance."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -6,80 +6,89 @@ from typing import Any
 
 import numpy as np
 
-from rotemina.app.scene.scene import Command
+from rotemina.app.scene.scene import SceneCommand
 from rotemina.sim.arrays import FloatArray
 
-Point = tuple[float, float, float]
+Coordinates = tuple[float, float, float]
 
 
 @dataclass(frozen=True, slots=True)
-class Shape:
-    """A three.js geometry; ``upright`` shapes turn about z here, about y there."""
+class SolidShape:
+    """A geometry of three.js, with its class name ``kind`` and its parameters ``sizes``.
+
+    The axis of symmetry of an ``is_upright`` shape is z in this program, but y in three.js.
+    ``stretch`` scales the shape along x, y and z.
+    """
 
     kind: str
     sizes: Mapping[str, Any]
-    upright: bool = False
-    stretch: Point = (1.0, 1.0, 1.0)
+    is_upright: bool = False
+    stretch: Coordinates = (1.0, 1.0, 1.0)
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
-    """Colour ``#rrggbb`` and opacity.
+class SolidAppearance:
+    """Colour ``#rrggbb`` and opacity of a solid.
 
-    A ``veil`` is drawn over what is at the same place and hides nothing: of two ghosts at one
-    place both are seen.
+    A veil is drawn over solids at the same position and hides nothing, so that two ghosts at the
+    same position are both visible.
     """
 
     colour: str
     opacity: float = 1.0
-    veil: bool = False
+    is_veil: bool = False
 
 
 @dataclass(frozen=True, slots=True)
-class Solid:
-    """A shape about a point of its frame, m."""
+class SceneSolid:
+    """A shape with its appearance; ``centre_m`` is its centre in the frame of its path, m."""
 
-    shape: Shape
-    middle: Point = (0.0, 0.0, 0.0)
-    look: Look = field(default_factory=lambda: Look("#8b95a5"))
+    shape: SolidShape
+    centre_m: Coordinates = (0.0, 0.0, 0.0)
+    appearance: SolidAppearance = field(default_factory=lambda: SolidAppearance("#8b95a5"))
 
 
-def box(width: float, depth: float, height: float) -> Shape:
+def make_box(width: float, depth: float, height: float) -> SolidShape:
     """Return a box with sides along x, y, z, m."""
-    return Shape("BoxGeometry", {"width": width, "height": depth, "depth": height})
+    return SolidShape("BoxGeometry", {"width": width, "height": depth, "depth": height})
 
 
-def tube(radius: float, height: float, *, foot: float | None = None, open_: bool = False) -> Shape:
-    """Return an upright cylinder, m; ``foot`` is another radius at its lower end."""
+def make_tube(
+    radius: float, height: float, *, foot_radius: float | None = None, open_: bool = False
+) -> SolidShape:
+    """Return an upright cylinder or cone, m; ``foot_radius`` is the radius of its lower end.
+
+    An ``open_`` tube has no end faces.
+    """
     sizes = {
         "radiusTop": radius,
-        "radiusBottom": radius if foot is None else foot,
+        "radiusBottom": radius if foot_radius is None else foot_radius,
         "height": height,
         "radialSegments": 48,
         "heightSegments": 1,
         "openEnded": open_,
     }
-    return Shape("CylinderGeometry", sizes, upright=True)
+    return SolidShape("CylinderGeometry", sizes, is_upright=True)
 
 
-def ellipsoid(radii: Point) -> Shape:
-    """Return an ellipsoid with half axes along x, y, z, m."""
+def make_ellipsoid(radii: Coordinates) -> SolidShape:
+    """Return an ellipsoid with semi-axes along x, y, z, m."""
     sizes = {"radius": 1.0, "widthSegments": 32, "heightSegments": 24}
-    return Shape("SphereGeometry", sizes, stretch=radii)
+    return SolidShape("SphereGeometry", sizes, stretch=radii)
 
 
-def set_object(path: str, solid: Solid) -> Command:
-    """Draw a solid at ``path``."""
+def set_object(path: str, solid: SceneSolid) -> SceneCommand:
+    """Return the command that draws a solid at ``path``."""
     material = {
         "uuid": f"{path}:material",
         "type": "MeshLambertMaterial",
-        "color": int(solid.look.colour.removeprefix("#"), 16),
+        "color": int(solid.appearance.colour.removeprefix("#"), 16),
         "side": 2,
-        "transparent": solid.look.opacity < 1.0,
-        "opacity": solid.look.opacity,
-        "depthWrite": not solid.look.veil,
-        # Pushed back a little: a veil at the very same place is then drawn over it.
-        "polygonOffset": not solid.look.veil,
+        "transparent": solid.appearance.opacity < 1.0,
+        "opacity": solid.appearance.opacity,
+        "depthWrite": not solid.appearance.is_veil,
+        # A solid is pushed back a little, so that a veil at the same position is drawn over it.
+        "polygonOffset": not solid.appearance.is_veil,
         "polygonOffsetFactor": 1.0,
         "polygonOffsetUnits": 1.0,
     }
@@ -88,24 +97,30 @@ def set_object(path: str, solid: Solid) -> Command:
         "type": solid.shape.kind,
         **solid.shape.sizes,
     }
-    drawn = {
+    mesh = {
         "uuid": path,
         "type": "Mesh",
         "geometry": geometry["uuid"],
         "material": material["uuid"],
-        "renderOrder": int(solid.look.veil),  # over what it must not hide
-        "matrix": _placement(solid).T.ravel().tolist(),
+        # Veils are drawn last.
+        "renderOrder": int(solid.appearance.is_veil),
+        "matrix": _make_matrix(solid).T.ravel().tolist(),
     }
-    scene = {"metadata": {"version": 4.5, "type": "Object"}, "object": drawn}
-    lists = {"geometries": [geometry], "materials": [material]}
-    return {"type": "set_object", "path": path, "object": {**scene, **lists}}
+    scene_object = {
+        "metadata": {"version": 4.5, "type": "Object"},
+        "object": mesh,
+        "geometries": [geometry],
+        "materials": [material],
+    }
+    return {"type": "set_object", "path": path, "object": scene_object}
 
 
-def _placement(solid: Solid) -> FloatArray:
-    """Return the matrix (4, 4) from three.js' shape to the frame of the solid."""
+def _make_matrix(solid: SceneSolid) -> FloatArray:
+    """Return the matrix (4, 4) from the shape's frame in three.js to the frame of the solid."""
     matrix = np.eye(4)
-    if solid.shape.upright:  # y of the shape is z of the frame
+    if solid.shape.is_upright:
+        # The y axis of the shape becomes the z axis of the frame.
         matrix[:3, :3] = [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]
     matrix[:3, :3] *= np.array(solid.shape.stretch)
-    matrix[:3, 3] = solid.middle
+    matrix[:3, 3] = solid.centre_m
     return matrix

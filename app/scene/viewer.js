@@ -1,11 +1,12 @@
-// The page of the 3-D view: meshcat's viewer, told by one socket what to draw.
+// The page of the 3-D view: meshcat's viewer, which receives drawing commands through one socket.
 "use strict";
 
 (() => {
-  const QUIET_MS = 3000; // without any message after which the picture counts as old
-  const AGAIN_MS = 1000;
+  // Without a message for this time the drawing counts as out of date.
+  const QUIET_MS = 3000;
+  const RETRY_MS = 1000;
   const NO_WEBGL =
-    "This browser offers no WebGL, which the 3-D view is drawn with.\n" +
+    "The 3-D view needs WebGL, which this browser does not offer.\n" +
     "Switch hardware acceleration on in its settings, or open the view in another browser.\n" +
     "Everything else in the program works without it.";
   const pane = document.getElementById("pane");
@@ -14,41 +15,44 @@
 
   let viewer;
   let notes = [];
-  let words = {  // until the first note tells them in the program's language
-    silent: "The program does not answer: what is drawn is old.",
-    quiet: "No news from the program: what is drawn is old.",
+  // These texts apply until the first note brings those in the language of the program.
+  let words = {
+    silent: "The program does not answer: the drawing is out of date.",
+    quiet: "No data from the program: the drawing is out of date.",
   };
-  let old = false;
-  let heard = performance.now();
+  let isOld = false;
+  let lastMessageMs = performance.now();
   let connected = false;
 
-  function fail(text) {
+  function showFailure(text) {
     failure.textContent = text;
   }
 
   function makeViewer() {
     if (typeof MeshCat === "undefined") {
-      fail("The viewer could not be loaded. Open the view again from the program.");
+      showFailure("The viewer could not be loaded. Open the view again from the program.");
       return false;
     }
     try {
       viewer = new MeshCat.Viewer(pane);
     } catch (error) {
       console.error(error);
-      fail(NO_WEBGL);
+      showFailure(NO_WEBGL);
       return false;
     }
     const canvas = viewer.renderer.domElement;
     canvas.addEventListener("webglcontextlost", () => {
-      fail("The graphics driver has dropped the picture. Open the view again from the program.");
+      showFailure(
+        "The graphics driver has dropped the picture. Open the view again from the program.",
+      );
     });
-    fail("");
+    showFailure("");
     return true;
   }
 
-  // The camera lives in three.js' own world, whose y is up: there the scene's (x, y, z) is
-  // (x, z, -y). Its parents stay where they are: OrbitControls would look past them.
-  function look({ target: [x, y, z], eye: [right, back, up], near }) {
+  // The camera is in the coordinates of three.js, whose y axis points up: the point (x, y, z) of
+  // the scene is (x, z, -y) there. Its parents must not be moved, since OrbitControls ignores them.
+  function moveCamera({ target: [x, y, z], eye: [right, back, up], near }) {
     viewer.camera.near = near;
     viewer.camera.far = 1e4 * near;
     viewer.controls.target.set(x, z, -y);
@@ -56,7 +60,7 @@
     viewer.controls.update();
   }
 
-  function note(command) {
+  function showNote(command) {
     for (const ghost of ["model", "real"]) {
       const entry = document.getElementById(ghost);
       entry.hidden = !command.shown.includes(ghost);
@@ -65,22 +69,22 @@
     }
     words = command.words;
     notes = command.warnings;
-    old = command.old;
+    isOld = command.old;
   }
 
-  function obey(command) {
-    if (command.type === "view") look(command);
-    else if (command.type === "note") note(command);
+  function execute(command) {
+    if (command.type === "view") moveCamera(command);
+    else if (command.type === "note") showNote(command);
     else if (command.type !== "alive") viewer.handle_command(command);
   }
 
-  function tellState() {
-    const quiet = performance.now() - heard > QUIET_MS;
+  function showState() {
+    const quiet = performance.now() - lastMessageMs > QUIET_MS;
     const lost = !connected
       ? [words.silent]
       : quiet ? [words.quiet] : [];
     warnings.textContent = [...lost, ...notes].join("\n");
-    pane.className = old || lost.length > 0 ? "old" : "";
+    pane.className = isOld || lost.length > 0 ? "old" : "";
   }
 
   function connect() {
@@ -88,22 +92,23 @@
     const socket = new WebSocket(address);
     socket.onmessage = (message) => {
       connected = true;
-      heard = performance.now();
-      for (const command of JSON.parse(message.data)) obey(command);
+      lastMessageMs = performance.now();
+      for (const command of JSON.parse(message.data)) execute(command);
       viewer.set_dirty();
-      tellState();
-      // The next one comes only after this one was drawn: no backlog, and none out of sight.
+      showState();
+      // The next message is sent only after this one was drawn, so there is no backlog, and a
+      // hidden page receives nothing.
       requestAnimationFrame(() => socket.readyState === WebSocket.OPEN && socket.send("drawn"));
     };
     socket.onclose = () => {
       connected = false;
-      tellState();
-      setTimeout(connect, AGAIN_MS);
+      showState();
+      setTimeout(connect, RETRY_MS);
     };
   }
 
   if (makeViewer()) {
     connect();
-    setInterval(tellState, AGAIN_MS);
+    setInterval(showState, RETRY_MS);
   }
 })();

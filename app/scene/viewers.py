@@ -1,113 +1,115 @@
-"""The connected viewers of the scene, and the rate of updates to each."""
+"""The connected viewers of the scene, and the rate at which each one is updated."""
 
 import asyncio
 from collections.abc import Callable
 from typing import Protocol
 
-from rotemina.app.scene.scene import Command, Scene
+from rotemina.app.scene.scene import SceneCommand, SceneCommandStore
 
-FRAME_S = 1 / 30  # between two messages to one viewer, at least
-MOST = 8  # viewers at a time
+MIN_MESSAGE_INTERVAL_S = 1 / 30
+MAX_VIEWERS = 8
 
 
-class Connection(Protocol):
-    """The line to one viewer."""
+class ViewerConnection(Protocol):
+    """The connection to one viewer."""
 
-    def send(self, commands: tuple[Command, ...]) -> None:
-        """Hand commands on, without waiting."""
+    def send(self, commands: tuple[SceneCommand, ...]) -> None:
+        """Send commands without waiting."""
 
     def end(self) -> None:
-        """Close the line."""
+        """Close the connection."""
 
 
-class Timing(Protocol):
-    """What of an event loop a viewer needs."""
+class EventLoopTimer(Protocol):
+    """The part of an event loop that a viewer needs."""
 
     def time(self) -> float:
-        """Return the time, s."""
+        """Return the time of the loop, s."""
 
     def call_later(self, delay: float, callback: Callable[[], object]) -> asyncio.TimerHandle:
-        """Call back after ``delay``, s."""
+        """Call ``callback`` after ``delay``, s."""
 
 
-class Viewer:
-    """One viewer: gets what is new only after it has drawn what it got before.
+class SceneViewer:
+    """One viewer, which receives a message only after it has drawn the previous one.
 
-    However slow it is, one message at most is on its way, and what it gets next is the newest.
-    A page out of sight draws nothing and so is told nothing.
+    A slow viewer therefore has at most one pending message, and the next message contains the
+    newest state. A hidden page draws nothing, and so receives nothing.
     """
 
-    def __init__(self, scene: Scene, connection: Connection, timing: Timing) -> None:
+    def __init__(
+        self, scene: SceneCommandStore, connection: ViewerConnection, timing: EventLoopTimer
+    ) -> None:
         self.connection = connection
-        self._scene, self._timing = scene, timing
-        self._seen = 0
-        self._drawing = False
-        self._next_s = 0.0
+        self._scene, self._loop = scene, timing
+        self._sent_revision = 0
+        self._is_drawing = False
+        self._next_message_s = 0.0
         self._timer: asyncio.TimerHandle | None = None
 
-    def tell(self) -> None:
-        """Send what is new, now or as soon as this viewer is to have it."""
-        if self._drawing or self._timer is not None:
+    def send_changes(self) -> None:
+        """Send the changes of the scene now, or as soon as the viewer may receive a message."""
+        if self._is_drawing or self._timer is not None:
             return
-        wait_s = self._next_s - self._timing.time()
+        wait_s = self._next_message_s - self._loop.time()
         if wait_s > 0.0:
-            self._timer = self._timing.call_later(wait_s, self._go_on)
+            self._timer = self._loop.call_later(wait_s, self._on_timer)
             return
-        changes = self._scene.changes(self._seen)
+        changes = self._scene.get_changes(self._sent_revision)
         if changes.commands:
-            self._seen, self._drawing = changes.revision, True
-            self._next_s = self._timing.time() + FRAME_S
+            self._sent_revision, self._is_drawing = changes.revision, True
+            self._next_message_s = self._loop.time() + MIN_MESSAGE_INTERVAL_S
             self.connection.send(changes.commands)
 
-    def drawn(self) -> None:
-        """Note that the viewer has drawn everything it received."""
-        self._drawing = False
-        self.tell()
+    def on_drawn(self) -> None:
+        """Register that the viewer has drawn the last message, and send further changes."""
+        self._is_drawing = False
+        self.send_changes()
 
     def end(self) -> None:
-        """End all sending."""
+        """Stop sending to this viewer."""
         if self._timer is not None:
             self._timer.cancel()
-        self._drawing = True
+        self._is_drawing = True
 
-    def _go_on(self) -> None:
+    def _on_timer(self) -> None:
         self._timer = None
-        self.tell()
+        self.send_changes()
 
 
-class Viewers:
-    """All of them; but for ``len``, to be used on the server's thread alone."""
+class ConnectedViewers:
+    """All connected viewers; outside the server's thread only ``len`` may be used."""
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, scene: SceneCommandStore) -> None:
         self._scene = scene
-        self._all: set[Viewer] = set()
+        self._viewers: set[SceneViewer] = set()
 
     def __len__(self) -> int:
-        return len(self._all)
+        return len(self._viewers)
 
     @property
-    def full(self) -> bool:
-        """Whether there is no room for another one."""
-        return len(self._all) >= MOST
+    def is_full(self) -> bool:
+        """Whether the largest number of viewers is connected."""
+        return len(self._viewers) >= MAX_VIEWERS
 
-    def join(self, connection: Connection) -> Viewer:
+    def add(self, connection: ViewerConnection) -> SceneViewer:
         """Add a viewer, and send it the whole scene."""
-        viewer = Viewer(self._scene, connection, asyncio.get_running_loop())
-        self._all.add(viewer)
-        viewer.tell()
+        viewer = SceneViewer(self._scene, connection, asyncio.get_running_loop())
+        self._viewers.add(viewer)
+        viewer.send_changes()
         return viewer
 
-    def leave(self, viewer: Viewer) -> None:
-        """Forget a viewer."""
+    def remove(self, viewer: SceneViewer) -> None:
+        """Remove a viewer."""
         viewer.end()
-        self._all.discard(viewer)
+        self._viewers.discard(viewer)
 
-    def tell(self) -> None:
+    def send_changes(self) -> None:
         """Send the changes to all viewers."""
-        for viewer in tuple(self._all):
-            viewer.tell()
+        for viewer in tuple(self._viewers):
+            viewer.send_changes()
 
     def close(self) -> None:
-        """Close every line."""
-        for viewer in tuple(self._all):
+        """Close every connection."""
+        for viewer in tuple(self._viewers):
             viewer.connection.end()

@@ -4,14 +4,13 @@ from enum import StrEnum
 
 import numpy as np
 
-from rotemina.app.scene.robot_parts import cell_of
-from rotemina.app.scene.scene import Command
-from rotemina.sim.kinematics.chain import Chain
-from rotemina.sim.kinematics.forward import tip_position
+from rotemina.app.scene.robot_parts import make_cell
+from rotemina.app.scene.scene import SceneCommand
+from rotemina.sim.kinematics import KinematicChain, compute_tip_position
 
 
-class View(StrEnum):
-    """The views that a button leads to."""
+class SceneViewpoint(StrEnum):
+    """The viewpoints that an operator can choose."""
 
     ISO = "iso"
     FRONT = "front"
@@ -20,31 +19,38 @@ class View(StrEnum):
     CELL = "cell"
 
 
-# Which way the eye stands from what it looks at, and how far, m. Exactly upright has no heading.
-_EYES = {
-    View.ISO: ((-0.75, -1.0, 0.6), 0.28),
-    View.FRONT: ((0.0, -1.0, 0.0), 0.30),
-    View.TOP: ((0.0, -1e-3, 1.0), 0.28),
-    View.BELOW: ((0.0, -1e-3, -1.0), 0.16),
-    View.CELL: ((-0.75, -1.0, 0.6), 3e-4),
+# Direction from the target to the eye, and its distance, m. TOP and BELOW deviate a little from the
+# vertical, because the heading of a vertical view is undefined.
+_EYE_OFFSETS = {
+    SceneViewpoint.ISO: ((-0.75, -1.0, 0.6), 0.28),
+    SceneViewpoint.FRONT: ((0.0, -1.0, 0.0), 0.30),
+    SceneViewpoint.TOP: ((0.0, -1e-3, 1.0), 0.28),
+    SceneViewpoint.BELOW: ((0.0, -1e-3, -1.0), 0.16),
+    SceneViewpoint.CELL: ((-0.75, -1.0, 0.6), 3e-4),
 }
-_BESIDE_CELL = (22e-6, 0.0, 10e-6)  # m, from the cell: between it and the tip
-_TABLES = (0.0, 0.05, 0.0)  # m, from the tip: between it and the tables
-_NEAREST = 0.02  # of the distance: what is closer to the eye is not drawn
+# Vector from the cell to a target between the cell and the tip.
+_CELL_VIEW_OFFSET_M = (22e-6, 0.0, 10e-6)
+# Vector from the tip to a target between the tip and the tables.
+_TABLE_VIEW_OFFSET_M = (0.0, 0.05, 0.0)
+# Distance of the near clipping plane from the eye, as a fraction of the eye's distance.
+_NEAR_PLANE_RATIO = 0.02
 
 
-def look(chain: Chain, view: View) -> Command:
-    """Return the command that turns the viewer's camera there; ``eye`` is seen from ``target``."""
-    direction, distance = _EYES[view]
-    middle = tip_position(chain, chain.centre)
-    if view is View.CELL:
-        middle = np.array(cell_of(chain).centre_m) + np.array(_BESIDE_CELL)
-    elif view in (View.ISO, View.FRONT, View.TOP):
-        middle = middle + np.array(_TABLES)
+def make_view_command(chain: KinematicChain, view: SceneViewpoint) -> SceneCommand:
+    """Return the command that moves a viewer's camera to a viewpoint.
+
+    ``target`` is in scene coordinates, m, and ``eye`` is relative to ``target``.
+    """
+    direction, distance = _EYE_OFFSETS[view]
+    target = compute_tip_position(chain, chain.centre)
+    if view is SceneViewpoint.CELL:
+        target = np.array(make_cell(chain).centre_m) + np.array(_CELL_VIEW_OFFSET_M)
+    elif view in (SceneViewpoint.ISO, SceneViewpoint.FRONT, SceneViewpoint.TOP):
+        target = target + np.array(_TABLE_VIEW_OFFSET_M)
     eye = np.array(direction) / np.linalg.norm(direction) * distance
     return {
         "type": "view",
-        "target": middle.tolist(),
+        "target": target.tolist(),
         "eye": eye.tolist(),
-        "near": _NEAREST * distance,
+        "near": _NEAR_PLANE_RATIO * distance,
     }

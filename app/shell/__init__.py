@@ -1,4 +1,6 @@
-"""The window (Qt).
+"""The main window (Qt), which hosts the panels.
 
-The window hosts the panels.
+``window`` is the window itself; ``panels``, ``notices``, ``records``, ``help`` and ``support`` are
+its parts. ``startup`` opens it. Panels use ``rotemina.app.workbench`` instead, and of this folder
+only the dialogs in ``records``.
 """

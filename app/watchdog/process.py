@@ -1,8 +1,9 @@
 """The watchdog process; it runs as a single file with only the standard library.
 
-It reads one line of JSON for each beat from standard input. The program's end without a farewell,
-or :data:`SILENT_S` without a beat, is told on the terminal, in a log file, and in a window where
-one can be shown. After an end it writes the boards' stop to every port that nobody else has open.
+It reads one line of JSON for each beat from standard input. If the program ends without a farewell,
+or sends no beat for :data:`MAX_SILENCE_S`, it reports this on the terminal, in a log file, and in a
+window if possible. After the program has ended in this way, the watchdog also writes the stop
+command of the boards to each port that no other process has open.
 """
 
 import contextlib
@@ -16,9 +17,10 @@ import time
 from datetime import datetime
 from pathlib import Path
 
-SILENT_S = 1.0
-STOP = b"\0\0"  # docs/protocol.md, "Stop"
-_WINDOW = """
+MAX_SILENCE_S = 1.0
+# Section "Stop" of docs/protocol.md.
+STOP_MESSAGE = b"\0\0"
+_WINDOW_PROGRAM = """
 import sys, tkinter
 root = tkinter.Tk()
 root.title("RoTeMiNa")
@@ -29,77 +31,90 @@ root.mainloop()
 """
 
 
-def verdict(beat: dict[str, object], ages: dict[str, float], silence_s: float) -> str:
-    """Return the problem by the latest beat and the ages since, or ""."""
-    if silence_s > SILENT_S:
+def find_problem(beat: dict[str, object], ages: dict[str, float], silence_s: float) -> str:
+    """Return the problem, or "" if there is none.
+
+    ``ages`` are the times in the latest beat since the last signs of life of window and worker, s.
+    ``silence_s`` is the time since that beat.
+    """
+    if silence_s > MAX_SILENCE_S:
         return f"RoTeMiNa has hung for {silence_s:.0f} s."
-    for name, what in (("window", "The window"), ("worker", "The thread that steers the machine")):
+    for name, subject in (
+        ("window", "The window"),
+        ("worker", "The thread that controls the machine"),
+    ):
         age_s = ages.get(name)
-        if age_s is not None and age_s > SILENT_S:
-            moves = " while the machine moves" if beat.get("moves") else ""
-            return f"{what} of RoTeMiNa does not answer{moves}."
+        if age_s is not None and age_s > MAX_SILENCE_S:
+            condition = " while the machine moves" if beat.get("moves") else ""
+            return f"{subject} of RoTeMiNa does not answer{condition}."
     return ""
 
 
 def stop_boards(ports: list[str]) -> list[str]:
-    """Write the stop to each available port; return the outcomes.
+    """Write the stop command to each port that can be opened; return a line about each port.
 
-    Line speed and format stay as the program has set them.
+    Bit rate and format of the port stay as the program has set them.
     """
-    told = []
+    outcomes = []
     for port in ports:
         try:
             flags = os.O_WRONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOCTTY", 0)
-            line = os.open(port, flags)
+            descriptor = os.open(port, flags)
         except OSError as error:
-            told.append(f"{port}: the stop could not be sent ({error.strerror})")
+            outcomes.append(f"{port}: the stop could not be sent ({error.strerror})")
             continue
         try:
-            os.write(line, STOP)
-            told.append(f"{port}: the stop was sent")
+            os.write(descriptor, STOP_MESSAGE)
+            outcomes.append(f"{port}: the stop was sent")
         except OSError as error:
-            told.append(f"{port}: the stop could not be sent ({error.strerror})")
+            outcomes.append(f"{port}: the stop could not be sent ({error.strerror})")
         finally:
-            os.close(line)
-    return told
+            os.close(descriptor)
+    return outcomes
 
 
 class Watchdog:
-    """Receives beats, and reports each problem once when it begins."""
+    """Receives beats, and reports each problem once, when it begins."""
 
-    def __init__(self, log: Path, *, shown: bool) -> None:
-        self._log, self._shown = log, shown
+    def __init__(self, log: Path, *, has_screen: bool) -> None:
+        self._log, self._has_screen = log, has_screen
         self._beat: dict[str, object] = {}
-        self._told = ""
+        self._last_problem = ""
         self._window: subprocess.Popen[bytes] | None = None
 
-    def take(self, line: str) -> bool:
-        """Take a beat; return whether the program continues, and has not said farewell."""
-        with contextlib.suppress(ValueError):  # cut off in mid-line
+    def receive_beat(self, line: str) -> bool:
+        """Receive a beat; return False if it is the farewell of the program."""
+        # If the program dies, the last line may be incomplete.
+        with contextlib.suppress(ValueError):
             self._beat = json.loads(line)
         return not self._beat.get("farewell")
 
-    def look(self, silence_s: float) -> None:
-        """Report a new problem."""
-        ages = {name: float(age) for name, age in self._ages().items()}
-        wrong = verdict(self._beat, ages, silence_s)
-        if wrong and not self._told:
+    def check(self, silence_s: float) -> None:
+        """Report a problem if it is new; ``silence_s`` is the time since the last beat."""
+        ages = {name: float(age) for name, age in self._get_ages().items()}
+        problem = find_problem(self._beat, ages, silence_s)
+        if problem and not self._last_problem:
             if self._beat.get("simulated"):
-                self.tell(wrong, window=False)
+                self.report(problem, window=False)
             else:
-                self.tell(f"{wrong} The boards stop by their own watchdog. Look at the machine.")
-        self._told = wrong
+                self.report(
+                    f"{problem} The boards stop by their own watchdog. Look at the machine."
+                )
+        self._last_problem = problem
 
-    def died(self) -> None:
-        """Report an unannounced end, and send the stop where the port is free."""
+    def report_sudden_end(self) -> None:
+        """Report that the program has ended unannounced, and stop the boards."""
         ports = self._beat.get("ports")
-        sent = stop_boards([str(port) for port in ports] if isinstance(ports, list) else [])
-        self.tell("\n".join(["RoTeMiNa has ended without letting go of the machine.", *sent]))
+        outcomes = stop_boards([str(port) for port in ports] if isinstance(ports, list) else [])
+        self.report(
+            "\n".join(["RoTeMiNa has ended without disconnecting from the machine.", *outcomes])
+        )
 
-    def tell(self, text: str, *, window: bool = True) -> None:
-        """Say something on the terminal, in the log and on the screen, wherever that can be.
+    def report(self, text: str, *, window: bool = True) -> None:
+        """Print a text on the terminal, append it to the log, and show it in a window.
 
-        Without ``window`` it is not on the screen: of a simulator that stands in a window's way.
+        Failures are ignored. Without ``window``, no window is shown. This is for
+        problems with simulators, which need no immediate attention.
         """
         line = f"{datetime.now():%Y-%m-%d %H:%M:%S}  watchdog: {text}\n"
         with contextlib.suppress(OSError, ValueError):
@@ -107,42 +122,49 @@ class Watchdog:
             sys.stderr.flush()
         with contextlib.suppress(OSError), self._log.open("a", encoding="utf-8") as log:
             log.write(line)
-        if self._shown and window and (self._window is None or self._window.poll() is not None):
+        if (
+            self._has_screen
+            and window
+            and (self._window is None or self._window.poll() is not None)
+        ):
             with contextlib.suppress(OSError):
                 self._window = subprocess.Popen(
-                    [sys.executable, "-c", _WINDOW, text], stderr=subprocess.DEVNULL
+                    [sys.executable, "-c", _WINDOW_PROGRAM, text], stderr=subprocess.DEVNULL
                 )
 
-    def _ages(self) -> dict[str, float]:
+    def _get_ages(self) -> dict[str, float]:
         ages = self._beat.get("ages")
         return ages if isinstance(ages, dict) else {}
 
 
 def main(arguments: list[str]) -> int:
-    """Watch until the program says farewell or is gone; arguments: log file, and "screen"."""
-    watchdog = Watchdog(Path(arguments[0]), shown="screen" in arguments[1:])
+    """Watch until the program ends.
+
+    The arguments are the log file and, if a window may be shown, "screen".
+    """
+    watchdog = Watchdog(Path(arguments[0]), has_screen="screen" in arguments[1:])
     lines: queue.SimpleQueue[str] = queue.SimpleQueue()
 
-    def read() -> None:
+    def read_lines() -> None:
         for line in sys.stdin:
             lines.put(line)
         lines.put("")
 
-    threading.Thread(target=read, daemon=True).start()
-    heard_s = time.monotonic()
+    threading.Thread(target=read_lines, daemon=True).start()
+    last_beat_s = time.monotonic()
     while True:
         try:
             line = lines.get(timeout=0.25)
         except queue.Empty:
-            watchdog.look(time.monotonic() - heard_s)
+            watchdog.check(time.monotonic() - last_beat_s)
             continue
-        heard_s = time.monotonic()
+        last_beat_s = time.monotonic()
         if not line:
-            watchdog.died()
+            watchdog.report_sudden_end()
             return 1
-        if not watchdog.take(line):
+        if not watchdog.receive_beat(line):
             return 0
-        watchdog.look(0.0)
+        watchdog.check(0.0)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
-"""Widgets shared by window and panels.
+"""Widgets shared by window and panels, in folders by purpose.
 
-They are independent of panels and machine.
+Import from the folder of the purpose: ``controls``, ``drawing``, ``layout``, ``style`` or ``text``.
+Widgets know nothing of the machine: they use only ``app/language`` and the layers below.
 """

@@ -1,8 +1,8 @@
-"""The camera contract: made by a source, opened, configured and read.
+"""The camera contract: a source creates a camera, which is then opened, configured and read.
 
-A camera is made without touching anything; then it is opened, configured, grabbed from and closed
-by one thread, which may wait. Nobody else waits for it:
-:class:`rotemina.app.cameras.feed.CameraFeed` hands its newest picture to everybody.
+Creating a camera does not access the device. One thread then opens, configures, reads and closes
+the camera, and may wait for it. All other threads get the newest picture from
+:class:`rotemina.app.cameras.CameraFeed` and never wait.
 """
 
 import time
@@ -11,39 +11,44 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from math import ceil
 from types import MappingProxyType
-from typing import final
+from typing import TYPE_CHECKING, final
 
-from rotemina.drivers.cameras.errors import CameraLostError, CameraReadError
-from rotemina.drivers.cameras.failed_reads import RETRY_S, FailedReads
-from rotemina.drivers.cameras.frame import Frame, Pixels, Region, Remark
-from rotemina.drivers.cameras.pixels import are_pixels, as_mono8, pixel_type_of
+from rotemina.drivers.cameras.failed_reads import RETRY_DELAY_S, FailedReadCounter
+from rotemina.drivers.cameras.frame import (
+    CameraFrame,
+    MetadataValue,
+    Pixels,
+    PixelType,
+    SensorRegion,
+    convert_to_mono8,
+    find_pixel_type,
+    is_pixel_array,
+)
 from rotemina.drivers.cameras.settings import (
     CameraDescription,
     CameraSettings,
-    PixelType,
-    Trigger,
-    check,
+    CameraTrigger,
+    check_settings,
 )
-from rotemina.drivers.clock import Clock
-from rotemina.drivers.errors import StateError
-from rotemina.sim.messages import message
+from rotemina.drivers.contract import CameraLostError, CameraReadError, Clock, StateError
+from rotemina.sim.compatibility import serve_former_names
 
-#: Waits for so many seconds.
+#: Waits for a number of seconds.
 Wait = Callable[[float], None]
 
 
 @dataclass(frozen=True, slots=True)
 class CameraIdentity:
-    """Which camera it is: ``key`` stays the same over restarts and replugging.
+    """Identity of a camera. The ``key`` stays the same when the camera is restarted or replugged.
 
     Attributes
     ----------
     key : str
-        The source, a colon, and what the source finds it by: ``opencv:0``.
+        The source, a colon, and the address within the source, such as ``opencv:0``.
     name : str
-        For screens.
+        Name for display.
     source : str
-        The entry point of its source.
+        Name of the source's entry point.
     """
 
     key: str
@@ -52,36 +57,37 @@ class CameraIdentity:
 
     @property
     def address(self) -> str:
-        """What the source finds it by."""
+        """The address by which the source finds the camera."""
         return self.key.partition(":")[2]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Picture:
-    """What a driver grabs, before it is cut and converted; fields as in :class:`Frame`.
+class RawFrame:
+    """A picture from a driver, before it is cropped and converted.
 
-    ``region`` None: it shows the whole sensor. ``lost`` counts since the camera was opened.
+    The fields have the meaning of those of :class:`CameraFrame`. ``region`` is None if the picture
+    shows the whole sensor. ``lost`` is the number of pictures lost since the camera was opened.
     """
 
     pixels: Pixels
     bits: int
     host_time_s: float
-    region: Region | None = None
+    region: SensorRegion | None = None
     exposure_s: float | None = None
     lost: int = 0
-    metadata: Mapping[str, Remark] = field(default_factory=lambda: MappingProxyType({}))
+    metadata: Mapping[str, MetadataValue] = field(default_factory=lambda: MappingProxyType({}))
 
 
 class Camera(ABC):
-    """One camera. The constructor does no I/O.
+    """Base class of cameras. The constructor does no I/O.
 
     Parameters
     ----------
     identity : CameraIdentity
     clock : callable
-        The host's time, s: what frames are stamped with.
+        Returns the host's time, s, for the time stamps of frames.
     wait : callable
-        Waits for so many seconds; tests move their clock on.
+        Waits for a number of seconds; in tests it advances the clock.
     """
 
     def __init__(
@@ -92,20 +98,21 @@ class Camera(ABC):
         self.wait = wait
         self._description: CameraDescription | None = None
         self._settings = CameraSettings()
-        self._count = 0
-        self._triggered = False
-        self._failed_reads = FailedReads(identity.name, clock)
+        self._frame_count = 0
+        self._is_trigger_pending = False
+        self._failed_reads = FailedReadCounter(identity.name, clock)
 
     def __init_subclass__(cls) -> None:
-        """Refuse a subclass that overrides a rule of the contract instead of a hook."""
+        """Refuse a subclass that overrides a final method instead of the hook that it calls."""
         super().__init_subclass__()
         for name, member in vars(Camera).items():
             if getattr(member, "__final__", False) and getattr(cls, name) is not member:
-                raise TypeError(f"{cls.__name__}.{name}: final in Camera; fill _{name}")
+                advice = f"; implement _{name} instead" if hasattr(Camera, f"_{name}") else ""
+                raise TypeError(f"{cls.__name__}.{name}: final in Camera{advice}")
 
     @property
     def name(self) -> str:
-        """How messages call it."""
+        """The name of the camera in messages."""
         return self.identity.name
 
     @property
@@ -115,126 +122,124 @@ class Camera(ABC):
         Raises
         ------
         StateError
-            If it is closed: it has not been asked.
+            If the camera is closed, so that its capabilities are unknown.
         """
         if self._description is None:
-            raise StateError(
-                message("engine", "{name} is closed; open it first").fill(name=self.name)
-            )
+            raise StateError("{name} is closed; open it first", name=self.name)
         return self._description
 
     @property
     def settings(self) -> CameraSettings:
-        """The settings in force: as requested, or as adjusted by the camera."""
+        """The current settings, as the camera has adjusted the requested ones."""
         return self._settings
 
     @final
     def open(self) -> None:
-        """Connect, with the settings that the camera has.
+        """Connect to the camera without changing its settings.
 
         Raises
         ------
         StateError
-            If it is open already.
+            If it is already open.
         CameraLostError
-            If it is not there.
+            If it is not connected.
         CameraRefusedError
-            If it is none, or cannot be opened: permission, used by another program, no video.
+            If the device is not a camera or cannot be opened, for example for lack of permission or
+            because another program uses it.
         """
         if self._description is not None:
-            raise StateError(
-                message("engine", "{name} is already open; close it first").fill(name=self.name)
-            )
-        self._count = 0
-        self._triggered = False
-        self._failed_reads = FailedReads(self.name, self.clock)
+            raise StateError("{name} is already open; close it first", name=self.name)
+        self._frame_count = 0
+        self._is_trigger_pending = False
+        self._failed_reads = FailedReadCounter(self.name, self.clock)
         self._settings = CameraSettings()
         self._description = self._open()
 
     @final
     def close(self) -> None:
-        """Release it; safe to call twice."""
+        """Release the camera; safe to call twice."""
         if self._description is not None:
             self._description = None
             self._close()
 
     @final
     def configure(self, settings: CameraSettings) -> None:
-        """Set it; the next picture is taken with that.
+        """Apply settings, which take effect with the next picture.
 
         Raises
         ------
         CameraSettingError
-            If it cannot do that; then everything stays as it was.
+            If the camera does not support them; then all settings remain unchanged.
         StateError
             If it is closed.
         CameraLostError
-            If it has gone.
+            If it is no longer connected.
         """
-        check(self.name, self.description, settings)
-        self._triggered = False
+        check_settings(self.name, self.description, settings)
+        self._is_trigger_pending = False
         self._settings = self._configure(settings)
 
     @final
     def trigger(self) -> None:
-        """Have the next :meth:`grab` take one picture.
+        """Make the next :meth:`grab` take one picture.
 
         Raises
         ------
         StateError
-            If it is closed, or runs freely.
+            If the camera is closed or free-running.
         """
-        if self.description and self._settings.trigger is not Trigger.SOFTWARE:
+        # Reading the description raises StateError if the camera is closed.
+        if self.description and self._settings.trigger is not CameraTrigger.SOFTWARE:
             raise StateError(
-                message(
-                    "engine", "{name} is free-running; configure a software trigger first"
-                ).fill(name=self.name)
+                "{name} is free-running; configure a software trigger first", name=self.name
             )
-        self._triggered = True
+        self._is_trigger_pending = True
 
     @final
-    def grab(self, timeout_s: float) -> Frame | None:
-        """Return the newest picture that was not returned before; None if none comes in time.
+    def grab(self, timeout_s: float) -> CameraFrame | None:
+        """Return the newest picture that was not returned before; None if none arrives in time.
 
-        A read that fails is counted as a lost picture, and repeated while there is time.
+        A failed read counts as a lost picture, and the read is retried until the time-out.
 
         Raises
         ------
         StateError
-            If it is closed.
+            If the camera is closed.
         CameraLostError
-            If it has gone or has ended, or if every read failed for 1 s; it is then to be closed.
+            If the camera is no longer connected, its video file has ended, or every read failed for
+            1 s. The caller must then close the camera.
         """
-        can = self.description
-        if self._settings.trigger is Trigger.SOFTWARE and not self._triggered:
+        description = self.description
+        if self._settings.trigger is CameraTrigger.SOFTWARE and not self._is_trigger_pending:
             self.wait(timeout_s)
             return None
-        until_s = self.clock() + timeout_s
-        for _ in range(1 + ceil(timeout_s / RETRY_S)):
-            began_s = self.clock()
+        deadline_s = self.clock() + timeout_s
+        for _ in range(1 + ceil(timeout_s / RETRY_DELAY_S)):
+            start_s = self.clock()
             try:
-                picture = self._grab(max(until_s - began_s, 0.0))
-                frame = None if picture is None else self._frame(picture, can)
+                raw_frame = self._grab(max(deadline_s - start_s, 0.0))
+                frame = None if raw_frame is None else self._make_frame(raw_frame, description)
             except CameraLostError:
                 raise
-            except Exception as error:  # what a library or a plugin raises for one picture
-                self._failed_reads.add(error, began_s)
+            # A library or a plugin may raise any exception for a single picture.
+            except Exception as error:
+                self._failed_reads.add(error, start_s)
             else:
                 if frame is not None:
-                    self._failed_reads.end_row()
-                    self._triggered = False
-                    self._count += 1
+                    self._failed_reads.end_streak()
+                    self._is_trigger_pending = False
+                    self._frame_count += 1
                 return frame
-            self.wait(min(RETRY_S, max(until_s - self.clock(), 0.0)))
-            if self.clock() > until_s:
+            self.wait(min(RETRY_DELAY_S, max(deadline_s - self.clock(), 0.0)))
+            if self.clock() > deadline_s:
                 break
         return None
 
     @final
     def read_first(self, read: Callable[[], Pixels]) -> Pixels:
-        """Return the first picture, for an ``_open`` that learns from it what the camera is.
+        """Return the first picture, for an ``_open`` that derives the capabilities from it.
 
-        A read that fails is repeated, as in :meth:`grab`.
+        A failed read is retried, as in :meth:`grab`.
 
         Raises
         ------
@@ -242,123 +247,130 @@ class Camera(ABC):
             If ``read`` raises it, or every read failed for 1 s.
         """
         while True:
-            began_s = self.clock()
+            start_s = self.clock()
             try:
                 pixels = read()
                 self._check_pixels(pixels)
             except CameraLostError:
                 raise
-            except Exception as error:  # as in grab
-                self._failed_reads.add(error, began_s)
+            # As in grab, a library may raise any exception.
+            except Exception as error:
+                self._failed_reads.add(error, start_s)
             else:
-                self._failed_reads.end_row()
+                self._failed_reads.end_streak()
                 return pixels
-            self.wait(RETRY_S)
+            self.wait(RETRY_DELAY_S)
 
-    def _frame(self, picture: Picture, can: CameraDescription) -> Frame:
-        shown = picture.region or can.whole
-        self._check(picture, shown, can)
-        pixels, bits = picture.pixels, picture.bits
-        wanted = self._settings.region or shown
-        if wanted != shown:
-            left, top = wanted.left - shown.left, wanted.top - shown.top
-            pixels = pixels[top : top + wanted.height, left : left + wanted.width]
+    def _make_frame(self, raw_frame: RawFrame, description: CameraDescription) -> CameraFrame:
+        """Check a picture, crop it to the selected region, and convert it to the pixel type."""
+        raw_region = raw_frame.region or description.full_region
+        self._check_frame(raw_frame, raw_region, description)
+        pixels, bits = raw_frame.pixels, raw_frame.bits
+        region = self._settings.region or raw_region
+        if region != raw_region:
+            left, top = region.left - raw_region.left, region.top - raw_region.top
+            pixels = pixels[top : top + region.height, left : left + region.width]
         if (
             self._settings.pixel_type is PixelType.MONO8
-            and pixel_type_of(pixels) is not PixelType.MONO8
+            and find_pixel_type(pixels) is not PixelType.MONO8
         ):
-            pixels, bits = as_mono8(pixels, bits), 8
-        lost = picture.lost + self._failed_reads.count
-        return Frame(
+            pixels, bits = convert_to_mono8(pixels, bits), 8
+        lost = raw_frame.lost + self._failed_reads.count
+        return CameraFrame(
             pixels,
-            picture.host_time_s,
-            self._count + lost,
+            raw_frame.host_time_s,
+            self._frame_count + lost,
             bits,
-            wanted,
-            picture.exposure_s,
+            region,
+            raw_frame.exposure_s,
             lost,
-            MappingProxyType(dict(picture.metadata)),
-            can.noise_free,
+            MappingProxyType(dict(raw_frame.metadata)),
+            description.noise_free,
         )
 
-    def _check(self, picture: Picture, shown: Region, can: CameraDescription) -> None:
-        """Refuse a picture that is not as the camera was described when it was opened."""
-        self._check_pixels(picture.pixels)
-        rows, columns = picture.pixels.shape[:2]
-        if (columns, rows) != (shown.width, shown.height):
+    def _check_frame(
+        self, raw_frame: RawFrame, raw_region: SensorRegion, description: CameraDescription
+    ) -> None:
+        """Raise if a picture no longer matches the description made when the camera was opened."""
+        self._check_pixels(raw_frame.pixels)
+        rows, columns = raw_frame.pixels.shape[:2]
+        if (columns, rows) != (raw_region.width, raw_region.height):
             raise CameraReadError(
-                message(
-                    "engine",
-                    "{name}: a picture of {columns} × {rows} px, expected {width} × {height}: its "
-                    "resolution has changed; close it and open it again, and calibrate anew",
-                ).fill(
-                    name=self.name,
-                    columns=columns,
-                    rows=rows,
-                    width=shown.width,
-                    height=shown.height,
-                )
+                "{name}: a picture of {columns} × {rows} px, expected {width} × {height}. The "
+                "resolution has changed: close the camera, open it again, and repeat the "
+                "calibration",
+                name=self.name,
+                columns=columns,
+                rows=rows,
+                width=raw_region.width,
+                height=raw_region.height,
             )
-        expected = self._settings.pixel_type or can.pixel_types[0]
-        found = pixel_type_of(picture.pixels)
-        # MONO8 is made of the camera's own type where the camera does not have it.
-        if found is not expected and (expected, found) != (PixelType.MONO8, can.pixel_types[0]):
+        expected_type = self._settings.pixel_type or description.pixel_types[0]
+        actual_type = find_pixel_type(raw_frame.pixels)
+        # MONO8 may be requested although the camera delivers another type. The pictures are then
+        # converted by _make_frame.
+        if actual_type is not expected_type and (expected_type, actual_type) != (
+            PixelType.MONO8,
+            description.pixel_types[0],
+        ):
             raise CameraReadError(
-                message(
-                    "engine",
-                    "{name}: a picture of type {found}, expected {expected}: its pixel type has "
-                    "changed; close it and open it again",
-                ).fill(name=self.name, found=found, expected=expected)
+                "{name}: a picture of type {found}, expected {expected}. The pixel type has "
+                "changed: close the camera and open it again",
+                name=self.name,
+                found=actual_type,
+                expected=expected_type,
             )
 
     def _check_pixels(self, pixels: object) -> None:
-        """Refuse what is no picture at all."""
-        if not are_pixels(pixels):
+        if not is_pixel_array(pixels):
             dtype, shape = getattr(pixels, "dtype", "none"), getattr(pixels, "shape", ())
             raise CameraReadError(
-                message(
-                    "engine",
-                    "{name} gives empty or unusable pictures (pixels: {dtype}, size: {size}); "
-                    "check the camera and its cable, and open it again",
-                ).fill(name=self.name, dtype=str(dtype), size=" × ".join(map(str, shape)) or "0")
+                "{name} gives empty or unusable pictures (pixels: {dtype}, size: {size}); "
+                "check the camera and its cable, and open it again",
+                name=self.name,
+                dtype=str(dtype),
+                size=" × ".join(map(str, shape)) or "0",
             )
 
     @abstractmethod
     def _open(self) -> CameraDescription:
-        """Connect and return what it can do; on failure leave nothing open behind.
+        """Connect and return the camera's capabilities; on failure leave nothing open.
 
-        Where that takes a picture, it comes from :meth:`read_first`.
+        If the capabilities depend on a picture, read it with :meth:`read_first`.
         """
 
     @abstractmethod
     def _close(self) -> None:
-        """Disconnect; never raise for a camera that has gone."""
+        """Disconnect; never raise if the camera is already gone."""
 
     def _configure(self, settings: CameraSettings) -> CameraSettings:
-        """Set what is possible and return what is in force; regions are cut out by the base."""
+        """Apply the settings to the device, and return the settings that are then in effect.
+
+        A driver may leave ``region`` to :meth:`grab`, which crops the pictures to the returned one.
+        """
         return settings
 
     @abstractmethod
-    def _grab(self, timeout_s: float) -> Picture | None:
+    def _grab(self, timeout_s: float) -> RawFrame | None:
         """Wait for the newest picture; with a software trigger, take one.
 
-        It raises :class:`CameraReadError`, or what a library raises, if this one picture could not
-        be read, and :class:`CameraLostError` only if no other will follow.
+        If only this picture cannot be read, raise :class:`CameraReadError`, or let the exception of
+        the library pass. Raise :class:`CameraLostError` only if no other picture can follow.
         """
 
 
 class FocusDrive(Camera, ABC):
-    """A camera whose microscope has a motor at its focus."""
+    """A camera whose microscope has a motorised focus."""
 
     @property
     @abstractmethod
     def focus_m(self) -> float:
-        """Where the focal plane is, along the view, from the drive's zero, m."""
+        """Position of the focal plane along the optical axis, from the drive's zero, m."""
 
     @property
     @abstractmethod
     def focus_range_m(self) -> tuple[float, float]:
-        """How far it goes."""
+        """Lowest and highest position of the focal plane, m."""
 
     @abstractmethod
     def move_focus(self, focus_m: float) -> None:
@@ -367,5 +379,12 @@ class FocusDrive(Camera, ABC):
         Raises
         ------
         CameraSettingError
-            If it is out of range; then it stays.
+            If the position is out of range; then the focal plane does not move.
         """
+
+
+if not TYPE_CHECKING:
+    __getattr__ = serve_former_names(
+        __name__,
+        Picture="RawFrame",
+    )

@@ -1,32 +1,33 @@
-"""All available cameras of every source, each made by its key."""
+"""The cameras of all sources: finds them, and creates them from their identity."""
 
 import logging
 import time
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 from rotemina.drivers.cameras.camera import Camera, CameraIdentity, Wait
-from rotemina.drivers.cameras.errors import CameraRefusedError
 from rotemina.drivers.cameras.source import CameraSource
-from rotemina.drivers.clock import Clock
-from rotemina.drivers.registry import make_sources
+from rotemina.drivers.contract import CameraRefusedError, Clock, make_sources
+from rotemina.sim.compatibility import FormerMember, serve_former_names
 from rotemina.sim.messages import message
 
 _LOG = logging.getLogger(__name__)
 
-CAMERAS = "rotemina.cameras"
+CAMERA_GROUP = "rotemina.cameras"
 
 
 class CameraHub:
-    """Asks all sources; may wait some ms for them, and has no thread.
+    """Access to the cameras of all sources.
+
+    It has no thread. A call may wait some milliseconds for the sources.
 
     Parameters
     ----------
     sources : mapping of str to CameraSource
-        By the name of their entry point, or one that the program gives.
+        By the name of the entry point, or by a name that the program chooses.
     broken : mapping of str to str
-        Sources that could not be loaded, and why.
+        Why a source could not be loaded, by its name.
     """
 
     def __init__(
@@ -36,54 +37,57 @@ class CameraHub:
     ) -> None:
         self.sources = MappingProxyType(dict(sources))
         self._broken = dict(broken)
-        self._failed: dict[str, str] = {}
-        self._logged: dict[str, str] = {}
+        self._search_problems: dict[str, str] = {}
+        self._logged_errors: dict[str, str] = {}
 
     @classmethod
-    def installed(
+    def from_plugins(
         cls,
-        own: Mapping[str, CameraSource] = MappingProxyType({}),
+        program_sources: Mapping[str, CameraSource] = MappingProxyType({}),
         *,
         clock: Clock = time.monotonic,
         wait: Wait = time.sleep,
     ) -> Self:
-        """Return a hub of all installed sources and those that the program makes itself."""
-        return cls(*make_sources(CAMERAS, CameraSource, own, clock=clock, wait=wait))
+        """Create a hub of all installed sources and the program's own sources."""
+        return cls(
+            *make_sources(CAMERA_GROUP, CameraSource, program_sources, clock=clock, wait=wait)
+        )
 
     @property
     def problems(self) -> Mapping[str, str]:
-        """Problems by source name, as of the latest :meth:`look`."""
-        return MappingProxyType({**self._broken, **self._failed})
+        """Problems by the name of the source, as of the latest :meth:`find_cameras`."""
+        return MappingProxyType({**self._broken, **self._search_problems})
 
-    def look(self) -> tuple[CameraIdentity, ...]:
-        """Return the cameras that are there; a bad source is named and left out."""
-        found: dict[str, CameraIdentity] = {}
-        failed: dict[str, str] = {}
+    def find_cameras(self) -> tuple[CameraIdentity, ...]:
+        """Return the available cameras; a source that fails is reported in :attr:`problems`."""
+        cameras: dict[str, CameraIdentity] = {}
+        search_problems: dict[str, str] = {}
         for name, source in self.sources.items():
             try:
                 for identity in source.devices():
-                    found.setdefault(identity.key, identity)
+                    cameras.setdefault(identity.key, identity)
                 problem = source.problem
-            except Exception as error:  # a plugin may raise anything; the others are to be found
+            # A plugin may raise any exception; the cameras of other sources must still be found.
+            except Exception as error:
                 self._log(name, error)
                 problem = message(
                     "engine",
-                    "it cannot look for cameras; the log has the cause. Update or remove this "
-                    "plugin",
+                    "it cannot search for cameras; see the log for the cause. Update or remove "
+                    "this plugin",
                 )
             if problem is not None:
-                failed[name] = problem
-        self._failed = failed
-        return tuple(found.values())
+                search_problems[name] = problem
+        self._search_problems = search_problems
+        return tuple(cameras.values())
 
     def _log(self, name: str, error: Exception) -> None:
-        """Log why a source failed, unless it failed for the same reason at the last look."""
-        if self._logged.get(name) != repr(error):
-            self._logged[name] = repr(error)
-            _LOG.warning("cameras of %s cannot be looked for", name, exc_info=error)
+        """Log why a source failed, unless it failed for the same reason in the last search."""
+        if self._logged_errors.get(name) != repr(error):
+            self._logged_errors[name] = repr(error)
+            _LOG.warning("the search for cameras of %s failed", name, exc_info=error)
 
-    def camera(self, identity: CameraIdentity) -> Camera:
-        """Return a camera, not yet open.
+    def make_camera(self, identity: CameraIdentity) -> Camera:
+        """Return a closed camera with this identity.
 
         Raises
         ------
@@ -92,21 +96,41 @@ class CameraHub:
         """
         source = self.sources.get(identity.source)
         if source is None:
-            known = ", ".join(self.sources)
+            installed = ", ".join(self.sources)
             raise CameraRefusedError(
-                message(
-                    "engine", "{name}: there is no source {source} of cameras; installed: {known}"
-                ).fill(name=identity.name, source=repr(identity.source), known=known)
+                "{name}: there is no camera source {source}; installed: {known}",
+                name=identity.name,
+                source=repr(identity.source),
+                known=installed,
             )
         return source.camera(identity)
 
-    def addressed(self, source: str, address: str) -> Camera:
-        """Return the camera that an operator has named, not yet open; errors as above."""
+    def camera_at_address(self, source: str, address: str) -> Camera:
+        """Return a closed camera at an address of a source.
+
+        Raises
+        ------
+        CameraRefusedError
+            If there is no such source, or the address is not valid.
+        """
         if source not in self.sources:
-            known = ", ".join(self.sources)
+            available = ", ".join(self.sources)
             raise CameraRefusedError(
-                message(
-                    "engine", "there is no source {source} of cameras; available: {known}"
-                ).fill(source=repr(source), known=known)
+                "there is no camera source {source}; available: {known}",
+                source=repr(source),
+                known=available,
             )
-        return self.camera(self.sources[source].addressed(address))
+        return self.make_camera(self.sources[source].parse_address(address))
+
+    # Former names, which work for one more release.
+    addressed = FormerMember("camera_at_address")
+    camera = FormerMember("make_camera")
+    installed = FormerMember("from_plugins")
+    look = FormerMember("find_cameras")
+
+
+if not TYPE_CHECKING:
+    __getattr__ = serve_former_names(
+        __name__,
+        CAMERAS="CAMERA_GROUP",
+    )

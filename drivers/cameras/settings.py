@@ -1,24 +1,17 @@
-"""Camera settings and capabilities, and their check against each other."""
+"""Camera settings and capabilities, and the check of settings against capabilities."""
 
 from dataclasses import dataclass
 from enum import StrEnum
 from math import isfinite
+from typing import TYPE_CHECKING
 
-from rotemina.drivers.cameras.errors import CameraSettingError
-from rotemina.drivers.cameras.frame import Region
-from rotemina.sim.messages import message
-
-
-class PixelType(StrEnum):
-    """The type of a pixel."""
-
-    MONO8 = "mono8"
-    MONO16 = "mono16"
-    COLOUR = "colour"
+from rotemina.drivers.cameras.frame import PixelType, SensorRegion
+from rotemina.drivers.contract import CameraSettingError
+from rotemina.sim.compatibility import FormerMember, serve_former_names
 
 
-class Trigger(StrEnum):
-    """What makes the camera take a picture."""
+class CameraTrigger(StrEnum):
+    """The trigger that makes a camera take a picture."""
 
     FREE = "free-running"
     SOFTWARE = "software"
@@ -26,126 +19,147 @@ class Trigger(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class CameraSettings:
-    """Requested camera settings; None leaves the camera's own.
+    """Requested settings of a camera. None leaves a setting of the camera unchanged.
 
     Attributes
     ----------
     exposure_s, gain, rate_hz : float or None
-    region : Region or None
-        None: the whole sensor.
+    region : SensorRegion or None
+        None means the whole sensor.
     pixel_type : PixelType or None
-        None: the first of what the camera has.
-    trigger : Trigger
+        None means the camera's first pixel type.
+    trigger : CameraTrigger
     repeat : bool
-        Whether a file or sequence begins again at its end; without meaning for a device.
+        Whether a file or sequence starts again at its end. It has no effect on a device.
     """
 
     exposure_s: float | None = None
     gain: float | None = None
     rate_hz: float | None = None
-    region: Region | None = None
+    region: SensorRegion | None = None
     pixel_type: PixelType | None = None
-    trigger: Trigger = Trigger.FREE
+    trigger: CameraTrigger = CameraTrigger.FREE
     repeat: bool = True
 
 
 @dataclass(frozen=True, slots=True)
 class CameraDescription:
-    """What an open camera can do.
+    """Capabilities of an open camera.
 
     Attributes
     ----------
     width, height : int
-        Of the sensor, px.
+        Size of the sensor, px.
     pixel_types : tuple of PixelType
-        What it has itself; ``MONO8`` is made of every other.
-    triggers : tuple of Trigger
-    exposure_s, gain, rate_hz : (least, greatest) or None
-        None: it cannot be set.
+        Types that the camera provides without conversion. All can be converted to ``MONO8``.
+    triggers : tuple of CameraTrigger
+    exposure_s, gain, rate_hz : (min, max) or None
+        Ranges; None if the setting cannot be changed.
     noise_free : bool
-        Whether two pictures may be equal because they are drawn or come from files. The noise of a
-        sensor never gives the same picture twice: one that repeats pictures is frozen.
+        Whether two pictures may be equal, because they are computed or come from files. A real
+        sensor has noise and never repeats a picture, so equal pictures mean a frozen camera.
     """
 
     width: int
     height: int
     pixel_types: tuple[PixelType, ...]
-    triggers: tuple[Trigger, ...] = (Trigger.FREE,)
+    triggers: tuple[CameraTrigger, ...] = (CameraTrigger.FREE,)
     exposure_s: tuple[float, float] | None = None
     gain: tuple[float, float] | None = None
     rate_hz: tuple[float, float] | None = None
     noise_free: bool = False
 
     @property
-    def whole(self) -> Region:
-        """The region that is all of the sensor."""
-        return Region(0, 0, self.width, self.height)
+    def full_region(self) -> SensorRegion:
+        """The region of the whole sensor."""
+        return SensorRegion(0, 0, self.width, self.height)
+
+    # Former names, which work for one more release.
+    whole = FormerMember("full_region")
 
 
-def check(name: str, can: CameraDescription, settings: CameraSettings) -> None:
-    """Refuse what the camera called ``name`` cannot do.
+def check_settings(name: str, description: CameraDescription, settings: CameraSettings) -> None:
+    """Check that the camera called ``name`` supports the settings.
 
     Raises
     ------
     CameraSettingError
-        Naming the setting, its value and what it may be.
+        If it does not; the message contains the setting, its value and the supported values.
     """
-    for what, unit in (("exposure_s", " s"), ("gain", ""), ("rate_hz", " Hz")):
-        _check_number(name, what, unit, getattr(settings, what), getattr(can, what))
-    types = (*can.pixel_types, PixelType.MONO8)
+    for setting, unit in (("exposure_s", " s"), ("gain", ""), ("rate_hz", " Hz")):
+        value, bounds = getattr(settings, setting), getattr(description, setting)
+        _check_number(name, setting, unit, value, bounds)
+    types = (*description.pixel_types, PixelType.MONO8)
     if settings.pixel_type is not None and settings.pixel_type not in types:
-        known = ", ".join(dict.fromkeys(types))
+        available = ", ".join(dict.fromkeys(types))
         raise CameraSettingError(
-            message("engine", "{name} has no pixel type {pixel_type}; available: {known}").fill(
-                name=name, pixel_type=settings.pixel_type, known=known
-            )
+            "{name} has no pixel type {pixel_type}; available: {known}",
+            name=name,
+            pixel_type=settings.pixel_type,
+            known=available,
         )
-    if settings.trigger not in can.triggers:
-        known = ", ".join(can.triggers)
+    if settings.trigger not in description.triggers:
+        available = ", ".join(description.triggers)
         raise CameraSettingError(
-            message("engine", "{name} has no trigger {trigger}; available: {known}").fill(
-                name=name, trigger=settings.trigger, known=known
-            )
+            "{name} has no trigger {trigger}; available: {known}",
+            name=name,
+            trigger=settings.trigger,
+            known=available,
         )
     if settings.region is not None:
-        _check_region(name, can, settings.region)
+        _check_region(name, description, settings.region)
 
 
 def _check_number(
-    name: str, what: str, unit: str, value: float | None, bounds: tuple[float, float] | None
+    name: str, setting: str, unit: str, value: float | None, bounds: tuple[float, float] | None
 ) -> None:
     if value is None:
         return
     if bounds is None:
         raise CameraSettingError(
-            message(
-                "engine", "{name}: {what} = {value}{unit}: cannot be set; leave it unchanged"
-            ).fill(name=name, what=what, value=value, unit=unit)
+            "{name}: {what} = {value}{unit}: cannot be set; leave it unchanged",
+            name=name,
+            what=setting,
+            value=value,
+            unit=unit,
         )
     if not (isfinite(value) and bounds[0] <= value <= bounds[1]):
         raise CameraSettingError(
-            message(
-                "engine", "{name}: {what} = {value}{unit}: must be {least} to {most}{unit}"
-            ).fill(name=name, what=what, value=value, unit=unit, least=bounds[0], most=bounds[1])
+            "{name}: {what} = {value}{unit}: must be {least} to {most}{unit}",
+            name=name,
+            what=setting,
+            value=value,
+            unit=unit,
+            least=bounds[0],
+            most=bounds[1],
         )
 
 
-def _check_region(name: str, can: CameraDescription, region: Region) -> None:
+def _check_region(name: str, description: CameraDescription, region: SensorRegion) -> None:
     right, bottom = region.left + region.width, region.top + region.height
-    inside = region.left >= 0 and region.top >= 0 and right <= can.width and bottom <= can.height
-    if not (inside and region.width > 0 and region.height > 0):
+    is_inside = (
+        region.left >= 0
+        and region.top >= 0
+        and right <= description.width
+        and bottom <= description.height
+    )
+    if not (is_inside and region.width > 0 and region.height > 0):
         raise CameraSettingError(
-            message(
-                "engine",
-                "{name}: region of {width} × {height} px from column {left}, row {top}: must lie "
-                "in the sensor's {can_width} × {can_height} px",
-            ).fill(
-                name=name,
-                width=region.width,
-                height=region.height,
-                left=region.left,
-                top=region.top,
-                can_width=can.width,
-                can_height=can.height,
-            )
+            "{name}: region of {width} × {height} px from column {left}, row {top}: must lie "
+            "within the sensor's {can_width} × {can_height} px",
+            name=name,
+            width=region.width,
+            height=region.height,
+            left=region.left,
+            top=region.top,
+            can_width=description.width,
+            can_height=description.height,
         )
+
+
+if not TYPE_CHECKING:
+    __getattr__ = serve_former_names(
+        __name__,
+        Trigger="CameraTrigger",
+        check="check_settings",
+    )

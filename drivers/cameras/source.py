@@ -1,4 +1,4 @@
-"""Camera sources, which are plugins (``rotemina.cameras``)."""
+"""The base class of camera sources, which are plugins (``rotemina.cameras``)."""
 
 import time
 from abc import ABC, abstractmethod
@@ -6,26 +6,32 @@ from collections.abc import Sequence
 from typing import ClassVar
 
 from rotemina.drivers.cameras.camera import Camera, CameraIdentity, Wait
-from rotemina.drivers.cameras.errors import CameraRefusedError
-from rotemina.drivers.clock import Clock
-from rotemina.sim.messages import message
+from rotemina.drivers.contract import CameraRefusedError, Clock
+from rotemina.sim.compatibility import FormerMember, adopt_former_methods
 from rotemina.sim.plugin_points import API_VERSIONS
 
 
 class CameraSource(ABC):
-    """Finds cameras of one kind; what an entry point of ``rotemina.cameras`` names.
+    """Base class of sources, which find cameras of one kind.
+
+    The entry points of ``rotemina.cameras`` are subclasses.
 
     Parameters
     ----------
     clock, wait : callable
-        As of :class:`Camera`. An entry point's class is made with these alone.
+        See :class:`Camera`. The class of an entry point is called with only these arguments.
     """
 
-    #: The version of this interface that the class was written for.
+    #: The version of this interface for which the class was written.
     api_version: ClassVar[int] = API_VERSIONS["rotemina.cameras"]
-    #: How screens call this kind of camera.
+    #: Name of this kind of camera for display.
     name: ClassVar[str] = "camera"
-    #: What can be typed to name a camera that no list shows; empty: nothing.
+
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        adopt_former_methods(cls)
+
+    #: Kind of address that the operator can enter for a camera that is not listed; may be empty.
     address_hint: ClassVar[str] = ""
 
     def __init__(self, *, clock: Clock = time.monotonic, wait: Wait = time.sleep) -> None:
@@ -34,27 +40,32 @@ class CameraSource(ABC):
 
     @property
     def problem(self) -> str | None:
-        """Why it can find nothing at the moment, in words for the operator; None if it can."""
+        """A message for the operator that says why no cameras are found; None if there is none."""
         return None
 
     @abstractmethod
     def devices(self) -> Sequence[CameraIdentity]:
-        """Return the available cameras; may take some ms, never raises for none."""
+        """Return the available cameras, if any; must return within a few milliseconds."""
 
-    def addressed(self, address: str) -> CameraIdentity:
-        """Return which camera an operator means; whether it is there is found out by opening it.
+    def parse_address(self, address: str) -> CameraIdentity:
+        """Return the identity of the camera at an address that the operator entered.
+
+        Only opening the camera shows whether it exists.
 
         Raises
         ------
         CameraRefusedError
-            If no camera can be named like this.
+            If the address is not valid for this source.
         """
         raise CameraRefusedError(
-            message("engine", "{name}: {address}: choose a listed one").fill(
-                name=self.name, address=repr(address)
-            )
+            "{name}: {address}: choose a camera from the list",
+            name=self.name,
+            address=repr(address),
         )
 
     @abstractmethod
     def camera(self, identity: CameraIdentity) -> Camera:
-        """Return the camera of an identity, not yet open."""
+        """Return a closed camera with this identity."""
+
+    # Former names, which work for one more release.
+    addressed = FormerMember("parse_address")

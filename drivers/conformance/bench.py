@@ -1,4 +1,4 @@
-"""The test bench of a driver: it makes the driver and advances its time."""
+"""Test bench for a driver: creates the driver, advances its time, and causes faults."""
 
 import signal
 import sys
@@ -7,40 +7,41 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from rotemina.drivers.clock import VirtualClock
-from rotemina.drivers.conformance.driver_under_test import Subject
-from rotemina.drivers.driver import Driver
-from rotemina.sim.robot.model import Robot
+from rotemina.drivers.conformance.driver_under_test import DriverUnderTest
+from rotemina.drivers.contract import Driver, VirtualClock
+from rotemina.sim.compatibility import FormerMember, serve_former_names
+from rotemina.sim.robot import Robot
 
 
 @dataclass(frozen=True, kw_only=True)
-class Bench:
-    """How checks get hold of a driver, and of what surrounds it.
+class DriverBench:
+    """A test bench that creates a driver and controls its surroundings.
 
     Attributes
     ----------
     make : callable
-        Returns a new driver with settings beside those that the bench has by itself; opens nothing.
+        Creates a driver from the settings of the bench and additional ones, without opening it.
     advance : callable
-        Lets so many seconds pass on the driver's clock: real ones, or those of a clock set by hand
-        together with whatever stands at the other end of an in-memory line.
+        Lets a number of seconds pass on the driver's clock. The clock is either real or virtual. A
+        virtual clock also drives the device at the other end of an in-memory line.
     cut_link, restore_link : callable, optional
-        Pull the cable and put it back. Without them nothing is checked about lost links.
+        Unplug the cable and plug it in again. Without them, lost links are not checked.
     block_port, unblock_port : callable, optional
-        Let the device's end of the line take no more bytes, and take them again, while what the
-        device says still arrives. Without them nothing is checked about blocked ports.
+        Make the device's end of the line stop accepting bytes, and accept them again. Messages
+        from the device still arrive. Without these hooks, blocked ports are not checked.
     misreport : callable, optional
-        Let the next report of the open device carry a position that cannot be true.
+        Puts an impossible position into the next report of the open device.
     delay_line : callable, optional
-        Let each byte from now on take so many seconds, each way.
+        From now on, delays each byte by a number of seconds, in both directions.
     cause_fault : callable, optional
-        Bring about a fault of the open device that can be cleared at once.
+        Causes a fault in the open device that can be cleared immediately.
     touched : callable, optional
-        Whether anything has reached the device since the bench was made.
+        Returns whether anything has reached the device since the bench was created.
     short_loss_s, long_loss_s : float
-        A loss of the link that the driver must mask, and one after which it must have given up; so
-        must it after as long a time with a blocked port.
+        Duration of a link loss that the driver must mask, and of one after which it must raise. The
+        second also applies to a blocked port.
     """
 
     make: Callable[[Mapping[str, object]], Driver]
@@ -52,85 +53,113 @@ class Bench:
     misreport: Callable[[], None] | None = None
     delay_line: Callable[[float], None] | None = None
     cause_fault: Callable[[Driver], None] | None = None
-    touched: Callable[[], bool] | None = None
+    was_device_contacted: Callable[[], bool] | None = None
     short_loss_s: float = 0.1
     long_loss_s: float = 5.0
 
     @contextmanager
-    def opened(self, *, to_move: bool = True) -> Iterator[Subject]:
-        """Make a driver, open it and, in order ``to_move`` it, home it if it has to be.
+    def open_driver(self, *, to_move: bool = True) -> Iterator[DriverUnderTest]:
+        """Create and open a driver; with ``to_move``, also home it if that is necessary.
 
-        Afterwards it is stopped and closed; that is also what a Ctrl-C does, and a signal to end.
+        At the end the driver is stopped and closed, also after Ctrl-C or a termination signal.
 
         Raises
         ------
-        Inapplicable
+        CheckNotApplicable
             If the position is unknown and the device cannot home, so that it cannot be moved.
         """
         driver = self.make({})
-        with _ended_by_signals():
+        with _interrupt_on_signals():
             try:
                 driver.open()
-                subject = Subject(driver, self.advance)
+                subject = DriverUnderTest(driver, self.advance)
                 if to_move:
                     subject.make_ready()
                 yield subject
             finally:
-                # What closing raises is the matter of the checks of closing, not of every check.
+                # Separate checks cover errors while closing.
                 postponed: list[int] = []
-                with _postponed(postponed), suppress(Exception):
+                with _postpone_signals(postponed), suppress(Exception):
                     driver.stop()
                 with suppress(Exception):
                     driver.close()
-                # One that has ended the check already is enough.
+                # An exception that already propagates must not be replaced by a signal.
                 if postponed and sys.exc_info()[0] is None:
                     signal.raise_signal(signal.Signals(postponed[-1]))
 
+    # Former names, which work for one more release.
+    opened = FormerMember("open_driver")
 
-def _to_end() -> tuple[signal.Signals, ...]:
-    """Return the signals by which this thread is told to end; Python tells the main one alone."""
+
+def _find_termination_signals() -> tuple[signal.Signals, ...]:
+    """Return the signals that end the program, or none outside the main thread.
+
+    Python delivers signals only to the main thread.
+    """
     if threading.current_thread() is not threading.main_thread():
         return ()
-    return tuple(signal.Signals[name] for name in _ENDS if name in signal.Signals.__members__)
+    return tuple(
+        signal.Signals[name] for name in _TERMINATION_SIGNALS if name in signal.Signals.__members__
+    )
 
 
 @contextmanager
-def _handled(handler: Callable[..., object], numbers: Iterable[signal.Signals]) -> Iterator[None]:
-    before = {number: signal.signal(number, handler) for number in numbers}
+def _handle_signals(
+    handler: Callable[..., object], signals: Iterable[signal.Signals]
+) -> Iterator[None]:
+    original_handlers = {number: signal.signal(number, handler) for number in signals}
     try:
         yield
     finally:
-        for number, other in before.items():
-            signal.signal(number, other)
+        for number, handler_before in original_handlers.items():
+            signal.signal(number, handler_before)
 
 
 @contextmanager
-def _ended_by_signals() -> Iterator[None]:
-    """End as Ctrl-C does, wherever a signal would end the program without stopping anything."""
-    ends = [one for one in _to_end() if signal.getsignal(one) is signal.SIG_DFL]
-    with _handled(signal.default_int_handler, ends):
+def _interrupt_on_signals() -> Iterator[None]:
+    """Raise KeyboardInterrupt for signals that would otherwise end the program without a stop."""
+    unhandled = [
+        number
+        for number in _find_termination_signals()
+        if signal.getsignal(number) is signal.SIG_DFL
+    ]
+    with _handle_signals(signal.default_int_handler, unhandled):
         yield
 
 
 @contextmanager
-def _postponed(received: list[int]) -> Iterator[None]:
-    """Let no Ctrl-C come between the first one and the stop; note those that came."""
-    known = [number for number in _to_end() if signal.getsignal(number) is not None]
-    with _handled(lambda number, _: received.append(number), known):
+def _postpone_signals(received: list[int]) -> Iterator[None]:
+    """Collect signals in ``received`` instead of acting on them, so that the stop completes."""
+    replaceable = [
+        number for number in _find_termination_signals() if signal.getsignal(number) is not None
+    ]
+    with _handle_signals(lambda number, _: received.append(number), replaceable):
         yield
 
 
-_ENDS = ("SIGINT", "SIGTERM", "SIGHUP")
+_TERMINATION_SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP")
 
 
-def bench_of(
+def make_bench(
     driver: type[Driver], robot: Robot, settings: Mapping[str, object] | None = None
-) -> Bench:
-    """Return a bench for an installed driver: on a clock set by hand if it can live on one."""
-    own = dict(settings or {})
+) -> DriverBench:
+    """Create a bench for an installed driver, with a virtual clock if the driver supports it."""
+    bench_settings = dict(settings or {})
     if not driver.virtual_time:
-        return Bench(make=lambda given: driver(robot, {**own, **given}), advance=time.sleep)
+        return DriverBench(
+            make=lambda extra: driver(robot, {**bench_settings, **extra}), advance=time.sleep
+        )
+    # An arbitrary start time shows that device time does not depend on the host clock's origin.
     clock = VirtualClock(1234.5)
-    return Bench(
-        make=lambda given: driver(robot, {**own, **given}, clock=clock), advance=clock.advance
+    return DriverBench(
+        make=lambda extra: driver(robot, {**bench_settings, **extra}, clock=clock),
+        advance=clock.advance,
+    )
+
+
+if not TYPE_CHECKING:
+    __getattr__ = serve_former_names(
+        __name__,
+        Bench="DriverBench",
+        bench_of="make_bench",
     )

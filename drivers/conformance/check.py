@@ -1,16 +1,18 @@
-"""A check of the contract, its findings, and its failure messages."""
+"""A check of the driver contract, and its result."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import TYPE_CHECKING
 
-from rotemina.drivers.conformance.bench import Bench
-from rotemina.drivers.conformance.findings import Inapplicable, Unmet
-from rotemina.drivers.driver import Driver
+from rotemina.drivers.conformance.bench import DriverBench
+from rotemina.drivers.conformance.findings import CheckNotApplicable, RequirementNotMet
+from rotemina.drivers.contract import Driver
+from rotemina.sim.compatibility import FormerMember, serve_former_names
 
 
-class Verdict(StrEnum):
-    """The verdict of a check."""
+class CheckVerdict(StrEnum):
+    """Outcome of a check."""
 
     PASSED = "passed"
     FAILED = "failed"
@@ -18,73 +20,93 @@ class Verdict(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Result:
-    """What one check found; ``note`` says what was seen and expected, or why it was skipped."""
+class DriverCheckResult:
+    """Result of one check.
+
+    ``note`` states the actual and the expected behaviour, or why the check was skipped.
+    """
 
     name: str
-    demand: str
-    verdict: Verdict
+    requirement: str
+    verdict: CheckVerdict
     note: str = ""
 
 
 @dataclass(frozen=True, slots=True)
-class Check:
-    """One demand of the contract.
+class DriverCheck:
+    """A check of one requirement of the contract.
 
     Attributes
     ----------
     name : str
-    demand : str
-        What it demands, in a sentence.
+    requirement : str
+        The requirement, in a sentence.
     needs : type or None
-        The ability without which it does not apply.
+        Ability that the driver must have. Without it the check is skipped.
     moves : bool
         Whether axes move.
     hooks : tuple of str
-        What the bench must be able to do for it.
+        Fields of :class:`DriverBench` that must be set. Without them the check is skipped.
     body : callable
-        Puts a driver on the bench; raises :class:`Unmet` where the demand is not met.
+        Runs the check on a bench; raises :class:`RequirementNotMet` on failure.
     """
 
     name: str
-    demand: str
+    requirement: str
     needs: type[Driver] | None
     moves: bool
     hooks: tuple[str, ...]
-    body: Callable[[Bench], None]
+    body: Callable[[DriverBench], None]
 
-    def run(self, bench: Bench) -> Result:
-        """Put the bench's driver to it; whatever the driver raises becomes a result."""
+    def run(self, bench: DriverBench) -> DriverCheckResult:
+        """Run the check on the bench's driver; every exception becomes a result."""
         try:
-            why = self._why_not(bench)
-            if why:
-                return self._result(Verdict.SKIPPED, why)
+            reason = self._find_skip_reason(bench)
+            if reason:
+                return self._make_result(CheckVerdict.SKIPPED, reason)
             self.body(bench)
-        except Inapplicable as reason:
-            return self._result(Verdict.SKIPPED, str(reason))
-        except Unmet as found:
-            return self._result(Verdict.FAILED, str(found))
-        except Exception as error:  # a driver under test may raise anything
-            return self._result(Verdict.FAILED, f"it raised {type(error).__name__}: {error}")
-        return self._result(Verdict.PASSED, "")
+        except CheckNotApplicable as inapplicable:
+            return self._make_result(CheckVerdict.SKIPPED, str(inapplicable))
+        except RequirementNotMet as failure:
+            return self._make_result(CheckVerdict.FAILED, str(failure))
+        # A driver under test may raise any exception.
+        except Exception as error:
+            return self._make_result(
+                CheckVerdict.FAILED, f"it raised {type(error).__name__}: {error}"
+            )
+        return self._make_result(CheckVerdict.PASSED, "")
 
-    def _why_not(self, bench: Bench) -> str:
+    def _find_skip_reason(self, bench: DriverBench) -> str:
         if self.needs is not None and not isinstance(bench.make({}), self.needs):
             return f"it is no {self.needs.__name__}"
-        lacking = [hook for hook in self.hooks if getattr(bench, hook) is None]
-        return f"this bench cannot {lacking[0].replace('_', ' ')}" if lacking else ""
+        missing = [hook for hook in self.hooks if getattr(bench, hook) is None]
+        return f"this bench cannot {missing[0].replace('_', ' ')}" if missing else ""
 
-    def _result(self, verdict: Verdict, note: str) -> Result:
-        return Result(self.name, self.demand, verdict, note)
+    def _make_result(self, verdict: CheckVerdict, note: str) -> DriverCheckResult:
+        return DriverCheckResult(self.name, self.requirement, verdict, note)
 
 
 def check(
     *, needs: type[Driver] | None = None, moves: bool = True, hooks: tuple[str, ...] = ()
-) -> Callable[[Callable[[Bench], None]], Check]:
-    """Make a check of a function: its name is the check's, its docstring what it demands."""
+) -> Callable[[Callable[[DriverBench], None]], DriverCheck]:
+    """Make a decorator that turns a function into a check.
 
-    def made(body: Callable[[Bench], None]) -> Check:
-        demand = " ".join((body.__doc__ or "").split())
-        return Check(body.__name__.replace("_", "-"), demand, needs, moves, hooks, body)
+    The function's name becomes the name of the check, and its docstring becomes the requirement.
+    """
 
-    return made
+    def decorate(body: Callable[[DriverBench], None]) -> DriverCheck:
+        requirement = " ".join((body.__doc__ or "").split())
+        return DriverCheck(body.__name__.replace("_", "-"), requirement, needs, moves, hooks, body)
+
+    return decorate
+
+
+if not TYPE_CHECKING:
+    DriverCheck.demand = FormerMember("requirement")
+    DriverCheckResult.demand = FormerMember("requirement")
+    __getattr__ = serve_former_names(
+        __name__,
+        Check="DriverCheck",
+        Result="DriverCheckResult",
+        Verdict="CheckVerdict",
+    )

@@ -1,103 +1,114 @@
-"""Checks of a driver's behaviour when its link is cut, or takes no more bytes."""
+"""Checks of a driver whose link is cut, or whose port accepts no more bytes."""
 
 import threading
 from collections.abc import Callable
 from contextlib import suppress
 
-from rotemina.drivers.conformance.bench import Bench
+from rotemina.drivers.conformance.bench import DriverBench
 from rotemina.drivers.conformance.check import check
-from rotemina.drivers.conformance.driver_under_test import CATCH_S, Subject
-from rotemina.drivers.conformance.findings import Inapplicable, Unmet, demand, refused, within
-from rotemina.drivers.errors import ConnectionLostError, DriverError, StateError
-from rotemina.drivers.samples import DeviceState
+from rotemina.drivers.conformance.driver_under_test import STROKE_S, DriverUnderTest
+from rotemina.drivers.conformance.findings import (
+    CheckNotApplicable,
+    RequirementNotMet,
+    require_refusal,
+    require_that,
+    require_within,
+)
+from rotemina.drivers.contract import (
+    ConnectionLostError,
+    DeviceState,
+    DriverError,
+    StateError,
+)
 
-_HOOKS = ("cut_link", "restore_link")
+_LINK_HOOKS = ("cut_link", "restore_link")
 _BLOCK_HOOKS = ("block_port", "unblock_port")
-# Far longer than a stop takes that does not wait, far shorter than somebody waits for one.
-_PATIENCE_S = 2.0
-# For reads until the link is given up, in the time of the host: longer than any machine needs.
-_READS_PATIENCE_S = 60.0
+# A stop that does not block returns much sooner; one that blocks takes much longer.
+_STOP_TIMEOUT_S = 2.0
+# Host time within which the reads make the driver give up the link. No computer needs this long.
+_READ_TIMEOUT_S = 60.0
 
 
-def _cut(bench: Bench) -> None:
-    assert bench.cut_link is not None, "a check runs where its hooks are"
+def _cut_link(bench: DriverBench) -> None:
+    assert bench.cut_link is not None, "a check runs only if its hooks are set"
     bench.cut_link()
 
 
-def _restore(bench: Bench) -> None:
-    assert bench.restore_link is not None, "a check runs where its hooks are"
+def _restore_link(bench: DriverBench) -> None:
+    assert bench.restore_link is not None, "a check runs only if its hooks are set"
     bench.restore_link()
 
 
-def _lose(bench: Bench, subject: Subject) -> None:
-    """Cut the link and read on until the driver gives up."""
-    _cut(bench)
+def _lose_link(bench: DriverBench, subject: DriverUnderTest) -> None:
+    _cut_link(bench)
     _read_until_lost(bench, subject, "the link was cut")
 
 
-def _read_until_lost(bench: Bench, subject: Subject, event: str) -> None:
-    passed_s = 0.0
-    while passed_s < bench.long_loss_s:
+def _read_until_lost(bench: DriverBench, subject: DriverUnderTest, event: str) -> None:
+    elapsed_s = 0.0
+    while elapsed_s < bench.long_loss_s:
         subject.advance(subject.step_s)
-        passed_s += subject.step_s
+        elapsed_s += subject.step_s
         try:
             subject.driver.read()
         except ConnectionLostError:
             return
-    raise Unmet(f"reads go on {bench.long_loss_s:g} s after {event}; expected: ConnectionLostError")
+    raise RequirementNotMet(
+        f"reads still succeed {bench.long_loss_s:g} s after {event}; expected: ConnectionLostError"
+    )
 
 
-@check(hooks=_HOOKS)
-def short_loss(bench: Bench) -> None:
-    """A short loss is masked: reads raise nothing and samples come again; nothing begins to move.
+@check(hooks=_LINK_HOOKS)
+def short_loss(bench: DriverBench) -> None:
+    """A short loss is masked: no read raises, samples resume, and nothing begins to move.
 
-    What cannot be said to the device is refused once the driver knows that it is silent.
+    Once the driver knows that the device is silent, it refuses moves.
     """
-    with bench.opened() as subject:
-        driver, axis = subject.driver, subject.slow
+    with bench.open_driver() as subject:
+        driver, axis = subject.driver, subject.slowest_axis
         try:
-            _cut(bench)
+            _cut_link(bench)
             subject.run(bench.short_loss_s)
             if driver.status().silent_s > 0.0:
-                refused(
+                require_refusal(
                     "a move to a silent device",
                     lambda: driver.move_to({axis.name: axis.low}),
                     StateError,
                 )
         finally:
-            _restore(bench)
+            _restore_link(bench)
         subject.run(bench.short_loss_s + 0.2)
         silent_s = driver.status().silent_s
-        demand(silent_s == 0.0, f"the link is back, and silent for {silent_s:g} s", "0 s")
-        subject.holds()
+        require_that(silent_s == 0.0, f"the link is back, but silent for {silent_s:g} s", "0 s")
+        subject.require_hold()
 
 
-@check(hooks=_HOOKS)
-def long_loss(bench: Bench) -> None:
-    """After a long loss reads raise ConnectionLostError, and do so until the driver is closed."""
-    with bench.opened() as subject:
+@check(hooks=_LINK_HOOKS)
+def long_loss(bench: DriverBench) -> None:
+    """After a long loss every read raises ConnectionLostError until the driver is closed."""
+    with bench.open_driver() as subject:
         try:
-            _lose(bench, subject)
+            _lose_link(bench, subject)
         finally:
-            _restore(bench)
+            _restore_link(bench)
         subject.advance(subject.step_s)
-        refused("a read after the link was lost", subject.driver.read, DriverError)
+        require_refusal("a read after the link was lost", subject.driver.read, DriverError)
 
 
-@check(hooks=_HOOKS)
-def nothing_resumes(bench: Bench) -> None:
-    """When a lost link is back nothing moves; reopened, the device is at rest."""
-    with bench.opened() as subject:
-        driver, axis = subject.driver, subject.slow
-        subject.cross(axis)
-        subject.run(CATCH_S)
+@check(hooks=_LINK_HOOKS)
+def nothing_resumes(bench: DriverBench) -> None:
+    """When a lost link is restored, nothing moves, and after reopening the device is at rest."""
+    with bench.open_driver() as subject:
+        driver, axis = subject.driver, subject.slowest_axis
+        subject.move_to_far_end(axis)
+        subject.run(STROKE_S)
         try:
-            _lose(bench, subject)
-        except Unmet as found:
-            raise Inapplicable("it does not give up a lost link (long-loss)") from found
+            _lose_link(bench, subject)
+        except RequirementNotMet as failure:
+            raise CheckNotApplicable("it does not give up a lost link (long-loss)") from failure
         finally:
-            _restore(bench)
-        refused(
+            _restore_link(bench)
+        require_refusal(
             "a move after the link was lost",
             lambda: driver.move_to({axis.name: axis.low}),
             DriverError,
@@ -106,57 +117,68 @@ def nothing_resumes(bench: Bench) -> None:
         driver.open()
         subject.run(0.1)
         state = subject.state
-        resting = state in (DeviceState.IDLE, DeviceState.FAULT)
-        demand(resting, f"reopened after a loss it is {state}", "at rest")
-        subject.holds(0.5)
+        is_at_rest = state in (DeviceState.IDLE, DeviceState.FAULT)
+        require_that(is_at_rest, f"after reopening it is {state}", "at rest")
+        subject.require_hold(0.5)
 
 
-def _demand_return(what: str, call: Callable[[], object], patience_s: float) -> None:
-    """Demand that a call of another thread returns; raise what it raises."""
-    raised: list[Exception] = []
+def _require_return(call_name: str, call: Callable[[], object], timeout_s: float) -> None:
+    """Require that a call in another thread returns; raise its exception, if any."""
+    errors: list[Exception] = []
 
     def run() -> None:
         try:
             call()
         except Exception as error:
-            raised.append(error)
+            errors.append(error)
 
     thread = threading.Thread(target=run, name="caller of a check", daemon=True)
     thread.start()
-    thread.join(patience_s)
-    demand(not thread.is_alive(), f"{what} has not returned for {patience_s:g} s", "at once")
-    if raised:
-        raise raised[0]
+    thread.join(timeout_s)
+    require_that(
+        not thread.is_alive(), f"{call_name} has not returned for {timeout_s:g} s", "at once"
+    )
+    if errors:
+        raise errors[0]
 
 
 @check(hooks=_BLOCK_HOOKS)
-def blocked_port(bench: Bench) -> None:
-    """With a port that takes no bytes a stop returns at once, and reads soon raise.
+def blocked_port(bench: DriverBench) -> None:
+    """If the port accepts no bytes, a stop returns at once, and reads soon fail.
 
-    They raise ConnectionLostError; when the port takes bytes again the device can be opened and
-    moved.
+    The reads raise ConnectionLostError. When the port accepts bytes again, the device can be opened
+    and moved.
     """
-    assert bench.block_port is not None, "a check runs where its hooks are"
-    assert bench.unblock_port is not None, "a check runs where its hooks are"
-    with bench.opened() as subject:
-        driver, axis = subject.driver, subject.slow
-        subject.cross(axis)
-        subject.run(CATCH_S)
+    assert bench.block_port is not None, "a check runs only if its hooks are set"
+    assert bench.unblock_port is not None, "a check runs only if its hooks are set"
+    with bench.open_driver() as subject:
+        driver, axis = subject.driver, subject.slowest_axis
+        subject.move_to_far_end(axis)
+        subject.run(STROKE_S)
         bench.block_port()
         try:
-            _demand_return("a stop", driver.stop, _PATIENCE_S)
-            _demand_return(
+            _require_return("a stop", driver.stop, _STOP_TIMEOUT_S)
+            _require_return(
                 "a read",
                 lambda: _read_until_lost(bench, subject, "the port was blocked"),
-                _READS_PATIENCE_S,
+                _READ_TIMEOUT_S,
             )
         finally:
             bench.unblock_port()
-        with suppress(DriverError):  # of the port that is lost
+        # Closing a port that was lost may fail.
+        with suppress(DriverError):
             driver.close()
         driver.open()
         subject.make_ready()
-        target = subject.send(axis, axis.stroke(float(subject.command()[axis.index])))
-        subject.rest()
-        seen = float(subject.command()[axis.index])
-        within(f"reopened, axis {axis.name} ends at", seen, target, axis.half_step, axis.unit)
+        target = subject.move_by(
+            axis, axis.compute_stroke(float(subject.read_command()[axis.index]))
+        )
+        subject.run_until_idle()
+        actual = float(subject.read_command()[axis.index])
+        require_within(
+            f"after reopening, axis {axis.name} ends at",
+            actual,
+            target,
+            axis.half_step,
+            axis.unit,
+        )

@@ -1,6 +1,7 @@
-"""All checks of the contract, in the order of the report: that in which the modules have them."""
+"""All checks of the driver contract, in the order in which they run and are reported."""
 
 from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
 
 from rotemina.drivers.conformance import (
     captures,
@@ -13,11 +14,12 @@ from rotemina.drivers.conformance import (
     service_checks,
     speeds,
 )
-from rotemina.drivers.conformance.bench import Bench
-from rotemina.drivers.conformance.check import Check, Result, Verdict
+from rotemina.drivers.conformance.bench import DriverBench
+from rotemina.drivers.conformance.check import CheckVerdict, DriverCheck, DriverCheckResult
+from rotemina.sim.compatibility import serve_former_names
 from rotemina.sim.errors import InputError
 
-_MODULES = (
+_CHECK_MODULES = (
     opening,
     sampling,
     moves,
@@ -29,34 +31,46 @@ _MODULES = (
     first_contact,
 )
 CHECKS = tuple(
-    each for module in _MODULES for each in vars(module).values() if isinstance(each, Check)
+    member
+    for module in _CHECK_MODULES
+    for member in vars(module).values()
+    if isinstance(member, DriverCheck)
 )
 
 
-def checks_named(names: Sequence[str]) -> tuple[Check, ...]:
-    """Return the checks of these names, in their usual order; all of them for none.
+def find_checks(names: Sequence[str]) -> tuple[DriverCheck, ...]:
+    """Return the checks with these names, in their usual order; all checks if there are no names.
 
     Raises
     ------
     InputError
-        If there is no check of a name.
+        If there is no check with one of the names.
     """
-    known = [check.name for check in CHECKS]
+    existing = [check.name for check in CHECKS]
     for name in names:
-        if name not in known:
-            raise InputError(f"there is no check {name!r}; there are {', '.join(known)}")
+        if name not in existing:
+            raise InputError(f"there is no check {name!r}; there are {', '.join(existing)}")
     return tuple(check for check in CHECKS if not names or check.name in names)
 
 
 def run_checks(
-    bench: Bench, checks: Sequence[Check] = CHECKS, *, may_move: bool = True
-) -> Iterator[Result]:
-    """Put a bench's driver to checks, each with a driver of its own; yield what each found.
+    bench: DriverBench, checks: Sequence[DriverCheck] = CHECKS, *, may_move: bool = True
+) -> Iterator[DriverCheckResult]:
+    """Run checks, each with a new driver from the bench; yield their results.
 
-    Those that move axes are skipped unless these ``may_move``.
+    Checks that move axes are skipped unless ``may_move`` is true.
     """
     for check in checks:
         if check.moves and not may_move:
-            yield Result(check.name, check.demand, Verdict.SKIPPED, "it moves axes")
+            yield DriverCheckResult(
+                check.name, check.requirement, CheckVerdict.SKIPPED, "it moves axes"
+            )
         else:
             yield check.run(bench)
+
+
+if not TYPE_CHECKING:
+    __getattr__ = serve_former_names(
+        __name__,
+        checks_named="find_checks",
+    )

@@ -1,38 +1,43 @@
-"""The queue of straight blocks of the emulated controller, and how its axes follow them."""
+"""Motion queue of the emulated controller: straight blocks, which its axes follow."""
 
 from collections import deque
 from collections.abc import Sequence
 from math import inf, sqrt
 
-_STRAIGHT = 0.9999  # cosine: blocks that go on so are passed without braking
-_DONE = 1e-7  # mm or degrees
+# The axes brake between two blocks if the cosine of the angle between them is smaller.
+_MIN_STRAIGHT_COSINE = 0.9999
+# A target counts as reached at a shorter distance, mm or degrees.
+_ARRIVAL_DISTANCE = 1e-7
 
 
 class _Block:
-    """One straight way, mm or degrees, with its unit direction."""
+    """A straight path, mm or degrees, with its unit direction vector and its speed limit, per s."""
 
     def __init__(self, start: Sequence[float], end: Sequence[float]) -> None:
-        way = [to - since for since, to in zip(start, end, strict=True)]
-        self.length = sqrt(sum(part * part for part in way))
-        self.direction = [part / self.length if self.length else 0.0 for part in way]
+        displacements = [target - origin for origin, target in zip(start, end, strict=True)]
+        self.length = sqrt(sum(component * component for component in displacements))
+        self.direction = [
+            component / self.length if self.length else 0.0 for component in displacements
+        ]
         self.end = tuple(end)
-        self.speed = inf
+        self.max_speed = inf
 
-    def goes_on_as(self, other: "_Block") -> bool:
-        """Whether it has the direction of the one before."""
+    def is_aligned_with(self, other: "_Block") -> bool:
         pairs = zip(self.direction, other.direction, strict=True)
-        return sum(one * two for one, two in pairs) > _STRAIGHT
+        return sum(a * b for a, b in pairs) > _MIN_STRAIGHT_COSINE
 
 
-class Blocks:
-    """Blocks in their order; the axes speed up and brake along them, by the slowest axis' limits.
+class MotionQueue:
+    """Queue of straight blocks, along which the axes accelerate and brake.
+
+    The axis with the lowest limits along a block determines its speed and acceleration.
 
     Parameters
     ----------
     position : sequence of float
-        Where the axes are, mm or degrees.
+        Current position of each axis, mm or degrees.
     rates, accelerations : sequence of float
-        Of each axis: per minute, per s².
+        Limits of each axis, per minute and per s².
     """
 
     def __init__(
@@ -41,102 +46,116 @@ class Blocks:
         self.position = list(position)
         self.speed = 0.0
         self._queue: deque[_Block] = deque()
-        self.limits(rates, accelerations)
+        self.set_limits(rates, accelerations)
 
-    def limits(self, rates: Sequence[float], accelerations: Sequence[float]) -> None:
-        """Set what each axis may do."""
+    def set_limits(self, rates: Sequence[float], accelerations: Sequence[float]) -> None:
+        """Set the limits of each axis, per minute and per s²."""
         self._rates = [rate / 60.0 for rate in rates]
         self._accelerations = list(accelerations)
 
     @property
-    def count(self) -> int:
-        """How many blocks wait or are under way."""
+    def block_count(self) -> int:
+        """Number of blocks that are waiting or being executed."""
         return len(self._queue)
 
     @property
-    def waiting(self) -> bool:
-        """Whether any block is left."""
+    def has_blocks(self) -> bool:
+        """Whether any block is left in the queue."""
         return bool(self._queue)
 
     @property
-    def moving(self) -> bool:
-        """Whether the axes have a speed."""
+    def is_moving(self) -> bool:
+        """Whether the speed is greater than zero."""
         return self.speed > 0.0
 
     @property
     def end(self) -> tuple[float, ...]:
-        """Where the last block ends."""
+        """End of the last block, or the current position if there are no blocks."""
         return self._queue[-1].end if self._queue else tuple(self.position)
 
-    def counted(self, steps: Sequence[float]) -> list[float]:
-        """Return the position in whole steps of so many in a mm or degree."""
-        return [round(at * per) / per for at, per in zip(self.position, steps, strict=True)]
+    def round_to_steps(self, steps: Sequence[float]) -> list[float]:
+        """Return the position rounded to whole steps, given each axis' steps per mm or degree."""
+        return [
+            round(position * steps_per_unit) / steps_per_unit
+            for position, steps_per_unit in zip(self.position, steps, strict=True)
+        ]
 
     def add(self, end: Sequence[float], speed: float) -> None:
-        """Put a straight way to `end` behind the others, no faster than `speed`, per s."""
+        """Append a straight path to `end`, with a speed of at most `speed`, per s."""
         block = _Block(self.end, end)
-        if block.length < _DONE:
+        if block.length < _ARRIVAL_DISTANCE:
             return
-        block.speed = min(speed, self._slowest(block, self._rates))
+        block.max_speed = min(speed, self._find_bound(block, self._rates))
         self._queue.append(block)
 
-    def set(self, axis: int, position: float) -> None:
-        """Take an axis, at rest, to be there."""
+    def set_position(self, axis: int, position: float) -> None:
+        """Set the position of an axis at rest without moving it."""
         self.position[axis] = position
 
     def clear(self) -> None:
-        """Forget all blocks; the axes rest."""
+        """Remove all blocks; the axes stop at once."""
         self._queue.clear()
         self.speed = 0.0
 
     halt = clear
 
     def step(self, dt_s: float, *, hold: bool) -> None:
-        """Advance the axes by a while; with `hold` they brake, and keep the rest."""
-        left_s = dt_s
-        while self._queue and left_s > 0.0:
+        """Advance the axes by a time step. During a `hold` they brake, and the blocks are kept."""
+        remaining_s = dt_s
+        while self._queue and remaining_s > 0.0:
             block = self._queue[0]
-            acceleration = self._slowest(block, self._accelerations)
-            aim = 0.0 if hold else min(block.speed, self._stoppable(acceleration, dt_s))
-            change = acceleration * left_s
-            self.speed = min(max(aim, self.speed - change), self.speed + change)
+            acceleration = self._find_bound(block, self._accelerations)
+            target_speed = (
+                0.0
+                if hold
+                else min(block.max_speed, self._find_stoppable_speed(acceleration, dt_s))
+            )
+            change = acceleration * remaining_s
+            self.speed = min(max(target_speed, self.speed - change), self.speed + change)
             if self.speed <= 0.0:
                 return
-            rest = self._rest(block)
-            way = min(self.speed * left_s, rest)
-            self._go(block, way, rest)
-            left_s = left_s - way / self.speed if way == rest else 0.0
+            remaining_length = self._find_remaining_length(block)
+            distance = min(self.speed * remaining_s, remaining_length)
+            self._advance(block, distance, remaining_length)
+            remaining_s = (
+                remaining_s - distance / self.speed if distance == remaining_length else 0.0
+            )
             if self._queue and self._queue[0] is not block:
                 continue
             if not self._queue:
                 self.speed = 0.0
 
-    def _go(self, block: _Block, way: float, rest: float) -> None:
-        if rest - way < _DONE:
+    def _advance(self, block: _Block, distance: float, remaining_length: float) -> None:
+        if remaining_length - distance < _ARRIVAL_DISTANCE:
             self.position = list(block.end)
             self._queue.popleft()
-            if self._queue and not self._queue[0].goes_on_as(block):
+            if self._queue and not self._queue[0].is_aligned_with(block):
                 self.speed = 0.0
         else:
             pairs = zip(self.position, block.direction, strict=True)
-            self.position = [at + way * part for at, part in pairs]
+            self.position = [position + distance * component for position, component in pairs]
 
-    def _stoppable(self, acceleration: float, dt_s: float) -> float:
-        """Return the greatest speed from which the axes still halt at the end of what goes on."""
-        rest, before = 0.0, None
+    def _find_stoppable_speed(self, acceleration: float, dt_s: float) -> float:
+        """Return the greatest speed from which the axes can halt at the end of the aligned blocks.
+
+        The axes keep this speed v for one more time step dt, and then brake with the acceleration a
+        to the end of the remaining length L: v dt + v²/2a = L.
+        """
+        remaining_length, previous = 0.0, None
         for block in self._queue:
-            if before is not None and not block.goes_on_as(before):
+            if previous is not None and not block.is_aligned_with(previous):
                 break
-            rest += self._rest(block) if before is None else block.length
-            before = block
-        return acceleration * (sqrt(dt_s**2 + 2.0 * rest / acceleration) - dt_s)
+            remaining_length += (
+                self._find_remaining_length(block) if previous is None else block.length
+            )
+            previous = block
+        return acceleration * (sqrt(dt_s**2 + 2.0 * remaining_length / acceleration) - dt_s)
 
-    def _rest(self, block: _Block) -> float:
-        """Return what is left of the first block."""
+    def _find_remaining_length(self, block: _Block) -> float:
         pairs = zip(block.end, self.position, strict=True)
-        return sqrt(sum((end - at) ** 2 for end, at in pairs))
+        return sqrt(sum((end - position) ** 2 for end, position in pairs))
 
-    def _slowest(self, block: _Block, bounds: Sequence[float]) -> float:
-        """Return the bound along a block, by the axis that reaches its own first."""
-        parts = zip(bounds, block.direction, strict=True)
-        return min(bound / abs(part) for bound, part in parts if part)
+    def _find_bound(self, block: _Block, bounds: Sequence[float]) -> float:
+        """Return the bound along a block that keeps every axis within its own bound."""
+        pairs = zip(bounds, block.direction, strict=True)
+        return min(bound / abs(component) for bound, component in pairs if component)

@@ -1,11 +1,12 @@
-"""The state of a GRBL controller, and what to send it next.
+"""Session with a GRBL controller: tracks its state and decides which line is sent next.
 
-An alarm is a fault, which ``clear_fault`` resets; until then a controller that a switch has locked
-does not answer, but its line is not lost. A stop resets it only after the axes have come to rest,
-because a reset in motion loses steps; the reset empties the queue, so that no ``~`` resumes it.
+An alarm is a fault, and ``clear_fault`` resets the controller. Until then a controller that a limit
+switch has locked does not answer, but its connection does not count as lost. A stop resets the
+controller only after the axes have come to rest, because a reset during motion loses steps. The
+reset empties the queue, so that a ``~`` cannot resume it.
 
-A report is used only if it is plausible (:mod:`rotemina.drivers.reading_check`), its state word is
-known, and it was requested after the latest command.
+A report is used only if it is plausible (``ReadingCheck`` of the driver contract), its state word
+is known, and it was requested after the latest command.
 """
 
 import logging
@@ -15,379 +16,396 @@ from contextlib import suppress
 
 import numpy as np
 
-from rotemina.drivers.clock import Clock
-from rotemina.drivers.errors import ConnectionLostError
-from rotemina.drivers.gate import GateError, Permit
+from rotemina.drivers.contract import (
+    NEW_POSITION_REPORT_COUNT,
+    Clock,
+    ConnectionLostError,
+    DeviceSamples,
+    DeviceState,
+    GateError,
+    Permit,
+)
 from rotemina.drivers.gcode.controller_settings import ControllerSettings
 from rotemina.drivers.gcode.coordinates import StageAxis
-from rotemina.drivers.gcode.dialogue import HALT, JOG_CANCEL, RESET, Dialogue, Reception
+from rotemina.drivers.gcode.dialogue import HALT, JOG_CANCEL, RESET, GrblDialogue, ReceivedMessage
 from rotemina.drivers.gcode.error_texts import describe_alarm, describe_error
-from rotemina.drivers.gcode.grbl_reports import Alarm, Answer, Status, Welcome
+from rotemina.drivers.gcode.grbl_reports import (
+    AlarmReport,
+    LineAnswer,
+    StatusReport,
+    WelcomeMessage,
+)
 from rotemina.drivers.gcode.machine_states import MachineState, interpret_state
 from rotemina.drivers.gcode.position_reports import PositionReports
 from rotemina.drivers.gcode.straight_move import StraightMove
-from rotemina.drivers.reading_check import REPORTS_OF_A_NEW_POSITION
-from rotemina.drivers.samples import DeviceState, Samples
 from rotemina.sim.errors import InputError
-from rotemina.sim.messages import message
-from rotemina.sim.quantities import rounded
+from rotemina.sim.messages import format_rounded, message
 
 _LOG = logging.getLogger(__name__)
-# Of a fast line; a slow one has two round trips more.
-_SILENT_S, _LOST_S = 0.25, 2.0
-_LINE_S = 1.0  # for an answer to a jog: it is given when the line is in the queue
-_RESET_S = 1.0
-_WAITING_ROUND_TRIPS = 2.0
-#: After so long without a step this program was suspended: nothing may go on by itself.
+# These times are for a fast line. They are extended by `_TIMEOUT_ROUND_TRIPS` round trips.
+_MAX_SILENCE_S, _LOSS_TIMEOUT_S = 0.25, 2.0
+# A controller answers a jog as soon as the jog is in its queue.
+_ANSWER_TIMEOUT_S = 1.0
+_RESET_TIMEOUT_S = 1.0
+_TIMEOUT_ROUND_TRIPS = 2.0
+#: A longer time between two steps means that this program was suspended. Then all motion is
+#: cancelled.
 MAX_PAUSE_S = 1.0
-# A homing that is reset ends with this alarm.
+# Alarm that a controller reports if a reset ends homing.
 _HOMING_RESET_ALARM = 6
 
 
-class Controller:
-    """One controller that was opened; what it does is followed in steps.
+class GrblController:
+    """An open controller. Repeated calls of :meth:`step` keep it running.
 
-    Any thread may call :meth:`stop`; all else is the driver's own thread's.
+    Any thread may call :meth:`stop`. All other methods belong to the driver's thread.
 
     Parameters
     ----------
     name : str
-        The driver's, for the log.
-    dialogue : Dialogue
+        Name of the driver, for the log.
+    dialogue : GrblDialogue
     axes : tuple of StageAxis
     settings : ControllerSettings
-    status : Status
-        What it said when it was opened; it has a position.
+    status : StatusReport
+        Status at the time when the controller was opened. It must have a position.
     clock : Clock
     poll_s, homing_s : float
-        How often a report is requested, and how long a search for switches may take.
+        Period of status requests, and time limit for homing, s.
     port : str
-        For errors.
+        Name of the port, for errors.
     """
 
     def __init__(
         self,
         name: str,
-        dialogue: Dialogue,
+        dialogue: GrblDialogue,
         axes: tuple[StageAxis, ...],
         settings: ControllerSettings,
-        status: Status,
+        status: StatusReport,
         clock: Clock,
         *,
         poll_s: float,
         homing_s: float,
         port: str,
     ) -> None:
-        assert status.position is not None, "the opening refuses one without"
+        assert status.position is not None, "the handshake refuses a status without a position"
         self.dialogue = dialogue
         self.reports = PositionReports(axes, settings, dialogue.guard)
         self.fault: str | None = None
         self._name, self._settings, self._clock, self._port = name, settings, clock, port
         self._poll_s, self._homing_s = poll_s, homing_s
-        self._opened_s = self._stepped_s = self._used_s = clock()
-        self._lost: str | None = None
+        self._opened_s = self._last_step_s = self._last_usable_s = clock()
+        self._loss_reason: str | None = None
         self._position = status.position
         self._machine = interpret_state(status)
-        self._asked_s = float("-inf")
-        self._rows: list[tuple[float, tuple[float, ...]]] = []
-        # Written by whichever thread stops, compared by the driver's own.
-        self._stops: deque[bytes] = deque()
-        self._braking = False  # told to halt: a reset follows once the axes rest
-        self._reset_s: float | None = None  # since when a reset is to be confirmed
+        self._last_query_s = float("-inf")
+        # Time since opening, s, and raw position of each report that was not returned yet.
+        self._unread_reports: list[tuple[float, tuple[float, ...]]] = []
+        # Bytes of stops that any thread has sent. The driver's thread then cancels the motion.
+        self._sent_stops: deque[bytes] = deque()
+        # Whether a halt was sent. A reset follows as soon as the axes are at rest.
+        self._is_halt_sent = False
+        # Host time of a reset that the controller has not confirmed yet.
+        self._unconfirmed_reset_s: float | None = None
         self._targets: dict[str, float] = {}
         self._speeds: dict[str, float] = {}
         self._permit: Permit | None = None
         self._move: StraightMove | None = None
-        self._searches: deque[tuple[str, tuple[str, ...]]] = deque()  # line, axes; first: now
-        self._homed: set[str] = set()  # axes whose switch was found, to be located by a report
-        self._unlock = False
-        self._deaf = False  # after an alarm it may answer nothing but a reset
+        # Homing lines that are not complete, each with its axes. The first line is being executed.
+        self._homing_queue: deque[tuple[str, tuple[str, ...]]] = deque()
+        # Axes whose switch was found. The next reports determine their positions.
+        self._homed_axes: set[str] = set()
+        self._unlock_pending = False
+        # After an alarm the controller may respond to nothing except a reset.
+        self._needs_reset = False
 
-    def trust_count(self) -> None:
-        """Take the controller's count for the position, where it lies within every range."""
+    def accept_step_count(self) -> None:
+        """Accept the controller's step count as the position of each axis that is in its range."""
         if not self._machine.position_lost:
-            self.reports.trust_count(self._position)
-
-    # --- how it stands -----------------------------------------------------------------------
+            self.reports.accept_step_count(self._position)
 
     @property
     def stop_pending(self) -> bool:
-        """Whether it must still come to rest and be emptied after a stop."""
-        return bool(self._stops) or self._braking or self._reset_s is not None
+        """Whether a stop is incomplete: the axes must come to rest and the queue be emptied."""
+        return bool(self._sent_stops) or self._is_halt_sent or self._unconfirmed_reset_s is not None
 
     @property
     def state(self) -> DeviceState:
         """The state of the controller."""
         if self.fault is not None:
             return DeviceState.FAULT
-        if self._searches or self._homed:
+        if self._homing_queue or self._homed_axes:
             return DeviceState.HOMING
-        if self._targets or self._machine.moving:
+        if self._targets or self._machine.is_moving:
             return DeviceState.MOVING
         return DeviceState.IDLE
 
     @property
     def silent_s(self) -> float:
-        """For how long it has said nothing that could be used; 0 for a short while."""
-        if self._may_be_silent():
+        """Time since the last usable message, s; 0 if that is short enough."""
+        if self._is_silence_expected():
             return 0.0
-        heard_s = min(self.dialogue.heard_s, self._used_s)
-        silent_s = self._clock() - heard_s
-        return silent_s if silent_s > self._patience(_SILENT_S) else 0.0
+        last_usable_s = min(self.dialogue.last_received_s, self._last_usable_s)
+        silent_s = self._clock() - last_usable_s
+        return silent_s if silent_s > self._extend_timeout(_MAX_SILENCE_S) else 0.0
 
     @property
-    def braking(self) -> bool:
-        """Whether axes may still brake."""
-        return self._braking or self._machine.moving
+    def is_braking(self) -> bool:
+        """Whether axes may be moving or braking."""
+        return self._is_halt_sent or self._machine.is_moving
 
     @property
-    def is_beyond_reach(self) -> bool:
-        """Whether nothing more can be done to it: its line is lost, or an alarm has locked it."""
-        return self._lost is not None or self._deaf
+    def is_unreachable(self) -> bool:
+        """Whether the controller does not respond: its line is lost, or an alarm has locked it."""
+        return self._loss_reason is not None or self._needs_reset
 
     @property
     def is_homing(self) -> bool:
-        """Whether it searches for switches."""
-        return bool(self._searches)
+        """Whether the controller searches for limit switches."""
+        return bool(self._homing_queue)
 
     @property
-    def ready(self) -> bool:
-        """Whether it takes a line."""
+    def is_ready(self) -> bool:
+        """Whether a line may be sent now."""
         return (
-            self.dialogue.awaited is None
-            and not self._stops
-            and not self._braking
-            and self._reset_s is None
+            self.dialogue.pending_line is None
+            and not self._sent_stops
+            and not self._is_halt_sent
+            and self._unconfirmed_reset_s is None
             and self.fault is None
         )
 
-    # --- what is asked of it -----------------------------------------------------------------
-
     def move_to(self, targets: dict[str, float], speeds: dict[str, float], permit: Permit) -> None:
-        """Begin to move axes, m or rad, no faster than ``speeds``; a move under way is changed."""
+        """Start to move axes, m or rad, no faster than ``speeds``, or change the current move."""
         targets = {**self._targets, **targets}
-        speeds = {**{k: v for k, v in self._speeds.items() if k not in targets}, **speeds}
-        under_way = self._move is not None
+        speeds = {
+            **{name: speed for name, speed in self._speeds.items() if name not in targets},
+            **speeds,
+        }
+        is_moving = self._move is not None
         move = None
-        if not under_way and self.ready and not self.reports.is_in_doubt:
-            move = self._move_to(targets, speeds)
+        if not is_moving and self.is_ready and not self.reports.is_in_doubt:
+            move = self._make_move(targets, speeds)
             if move is None:
                 return
         with permit.passing():
             if move is not None:
-                line = move.line(self._position, on_trial=self.reports.untried)
-                assert line is not None, "of a move that begins nothing has been sent"
-                self.dialogue.say(line)
-            elif under_way:  # it brakes and forgets; then the new move begins
+                line = move.make_next_line(self._position, on_trial=self.reports.untried_axes)
+                assert line is not None, "a new move always has a first piece"
+                self.dialogue.send_line(line)
+            elif is_moving:
+                # The controller brakes and discards the old move. Then the new move begins.
                 self.dialogue.send_realtime(JOG_CANCEL)
                 self._expect_braking()
         self._targets, self._speeds, self._permit, self._move = targets, speeds, permit, move
 
     def stop(self) -> None:
-        """Halt all axes; any thread."""
-        # A controller that homes hears no feed hold, but a reset; its position is unknown anyway.
-        data = RESET if self._searches else HALT
-        self._stops.append(data)
-        with suppress(ConnectionLostError):  # the next step says so
+        """Halt all axes. Any thread may call it."""
+        # During homing a controller ignores a feed hold, so it is reset. This loses no position,
+        # because the position is unknown anyway.
+        data = RESET if self._homing_queue else HALT
+        self._sent_stops.append(data)
+        # If the connection is lost, the next call of `step` raises the error.
+        with suppress(ConnectionLostError):
             self.dialogue.send_realtime(data)
 
     def clear_fault(self, permit: Permit) -> None:
-        """Reset it, and forget the fault."""
+        """Reset the controller and clear the fault."""
         with permit.passing():
             self.dialogue.send_realtime(RESET)
         self._begin_reset()
         self.dialogue.resume_after_pause()
-        self._used_s = self._clock()
+        self._last_usable_s = self._clock()
         self.fault = None
-        self._deaf = False
-        # Without switches nothing else ends the lock of an alarm; the position stays unknown.
-        self._unlock = not self._settings.can_home
+        self._needs_reset = False
+        # Without homing only an unlock ($X) ends an alarm; the position stays unknown.
+        self._unlock_pending = not self._settings.can_home
 
     def home(self, lines: deque[tuple[str, tuple[str, ...]]], permit: Permit) -> None:
-        """Search for switches: each line with the axes that it is for."""
+        """Start homing. The lines are sent one after the other; each is given with its axes."""
         with permit.passing():
-            self._searches = lines  # before the line goes: a stop that follows must reset
-            self.reports.forget(axis for _, axes in lines for axis in axes)
-            self.dialogue.say(lines[0][0])
+            # This is set before the line is sent, so that a stop right afterwards causes a reset.
+            self._homing_queue = lines
+            self.reports.forget_positions(axis for _, axes in lines for axis in axes)
+            self.dialogue.send_line(lines[0][0])
         self._permit = permit
 
-    def step(self, now_s: float) -> Samples:
-        """Process its output, send what comes next, and return its new samples.
+    def step(self, now_s: float) -> DeviceSamples:
+        """Process received messages, send the next line, and return the new samples.
 
         Raises
         ------
         ConnectionLostError
-            If it has said nothing for too long.
+            If the controller has been silent for too long.
         """
-        if self._lost is not None:
-            raise ConnectionLostError(self._lost)
-        self._notice_pause(now_s)
-        self._follow_stops()
-        self.dialogue.may_be_silent = self._may_be_silent()
-        for reception in self.dialogue.received():
-            self._take(reception)
-        self._empty_at_rest()
-        self._go_on()
-        self._look_at_times(now_s)
-        self.dialogue.ask(self._poll_s, self._asked_s)
-        asked_s = self.dialogue.asked_s
-        self._asked_s = asked_s if asked_s is not None else self._asked_s
-        return self._samples()
+        if self._loss_reason is not None:
+            raise ConnectionLostError(self._loss_reason)
+        self._handle_pause(now_s)
+        self._apply_stops()
+        self.dialogue.may_be_silent = self._is_silence_expected()
+        for reception in self.dialogue.receive():
+            self._handle_message(reception)
+        self._reset_if_at_rest()
+        self._send_next()
+        self._check_timeouts(now_s)
+        self.dialogue.request_status(self._poll_s, self._last_query_s)
+        query_sent_s = self.dialogue.query_sent_s
+        self._last_query_s = query_sent_s if query_sent_s is not None else self._last_query_s
+        return self._take_samples()
 
-    # --- what is heard -----------------------------------------------------------------------
+    def _handle_message(self, reception: ReceivedMessage) -> None:
+        report = reception.message
+        if isinstance(report, StatusReport):
+            self._handle_status(report, reception)
+        elif isinstance(report, LineAnswer):
+            self._handle_answer(report)
+        elif isinstance(report, AlarmReport):
+            self._handle_alarm(report)
+        elif isinstance(report, WelcomeMessage):
+            self._handle_welcome()
 
-    def _take(self, reception: Reception) -> None:
-        heard = reception.message
-        if isinstance(heard, Status):
-            self._take_status(heard, reception)
-        elif isinstance(heard, Answer):
-            self._answered(heard)
-        elif isinstance(heard, Alarm):
-            self._alarmed(heard)
-        elif isinstance(heard, Welcome):
-            self._welcomed()
-
-    def _take_status(self, status: Status, reception: Reception) -> None:
+    def _handle_status(self, status: StatusReport, reception: ReceivedMessage) -> None:
         if not self.reports.is_usable(status, reception):
             self.dialogue.count_discarded()
             if self.reports.shows_new_position:
-                self.reports.expect_anywhere()
-                self.reports.forget(self.reports.names)
-                self._give_up(
+                self.reports.accept_any_position()
+                self.reports.forget_positions(self.reports.axis_names)
+                self._halt_with_fault(
                     message(
                         "engine",
-                        "{count} reports in a row put the axes where they cannot have gone by "
-                        "themselves; the position is unknown, home all axes",
-                    ).fill(count=REPORTS_OF_A_NEW_POSITION)
+                        "{count} reports in a row agree on a position that the axes cannot have "
+                        "reached by themselves; the position is unknown. Home all axes",
+                    ).fill(count=NEW_POSITION_REPORT_COUNT)
                 )
             return
-        assert status.position is not None, "it is usable"
-        self._used_s = reception.received_s
-        self._deaf = False
+        assert status.position is not None, "a usable status has a position"
+        self._last_usable_s = reception.received_s
+        self._needs_reset = False
         if reception.time_s is not None:
-            self._rows.append((reception.time_s - self._opened_s, status.position))
-        if not reception.fresh:
+            self._unread_reports.append((reception.time_s - self._opened_s, status.position))
+        if not reception.is_fresh:
             return
         machine = interpret_state(status)
-        if not machine.recognized:
-            # Nobody knows whether such a state moves: the count tells.
+        if not machine.is_recognized:
+            # An unknown state may mean motion. The axes count as moving if the position changes.
             machine = MachineState(status.position != self._position, machine.fault)
-        rests = not machine.moving and status.position == self._position
+        is_at_rest = not machine.is_moving and status.position == self._position
         self._position, self._machine = status.position, machine
-        self._hold_again()
-        if self._homed and rests:
-            self._locate_homed_axes(reception.asked_s)
-        self._heed_state()
-        self._arrive()
+        self._repeat_halt()
+        if self._homed_axes and is_at_rest:
+            self._locate_homed_axes(reception.requested_s)
+        self._apply_machine_state()
+        self._check_arrival()
 
-    def _heed_state(self) -> None:
-        """Lock motion where the controller itself forbids it."""
+    def _apply_machine_state(self) -> None:
+        """Report a fault if the machine state forbids motion."""
         machine = self._machine
-        expected = self._braking or self._stops or self._reset_s is not None
-        locked_already = machine.position_lost and not self.reports.known and self._move is None
+        # A stop causes a feed hold, and an alarm remains until homing. Neither is a new fault.
+        is_own_hold = self.stop_pending and machine.is_hold
+        was_locked_before = (
+            machine.position_lost and not self.reports.known_axes and self._move is None
+        )
         if machine.position_lost:
-            self.reports.forget(self.reports.names)
-        if machine.fault is None or self.fault is not None or self._searches:
+            self.reports.forget_positions(self.reports.axis_names)
+        if machine.fault is None or self.fault is not None or self._homing_queue:
             return
-        if (expected and machine.holds) or (machine.alarm and locked_already):
+        if is_own_hold or (machine.is_alarm and was_locked_before):
             return
         _LOG.warning("%s: %s", self._name, machine.fault)
         self._end_move()
         self.fault = machine.fault
 
     def _locate_homed_axes(self, taken_s: float) -> None:
-        """Find out where homed axes are. Two reports in a row agree on it, so it is no slip."""
-        homed, self._homed = self._homed, set()
+        """Determine the positions of homed axes, on which two consecutive reports have agreed."""
+        axes, self._homed_axes = self._homed_axes, set()
         try:
-            self.reports.locate(homed, self._position, taken_s)
+            self.reports.locate_axes(axes, self._position, taken_s)
         except InputError as error:
             _LOG.warning("%s: %s", self._name, error)
             self._end_move()
             self.fault = str(error)
 
-    def _arrive(self) -> None:
-        """End a move whose end has been reached, and one that goes elsewhere."""
+    def _check_arrival(self) -> None:
+        """End a move that has reached its target or left its path."""
         move = self._move
         if move is None:
             return
-        if strayed := move.strayed(self._position):
-            self.reports.forget(axis.name for axis in move.axes)
-            self._give_up(strayed)
+        if stray_text := move.describe_path_deviation(self._position):
+            self.reports.forget_positions(axis.name for axis in move.axes)
+            self._halt_with_fault(stray_text)
             return
-        self.reports.confirm_direction(move.passed_trial(self._position))
-        if self._machine.moving or self.dialogue.awaited is not None or self._braking:
+        self.reports.confirm_direction(move.find_confirmed_axes(self._position))
+        if self._machine.is_moving or self.dialogue.pending_line is not None or self._is_halt_sent:
             return
-        untried = [axis.name for axis in move.axes if axis.name in self.reports.untried]
-        if not move.fully_sent and not untried:
+        untried = [axis.name for axis in move.axes if axis.name in self.reports.untried_axes]
+        if not move.is_fully_sent and not untried:
             return
-        if short := move.missed(self._position):
-            self._give_up(
-                message("engine", "the move ended before its target: {short}").fill(short=short)
+        if miss_text := move.describe_position_error(self._position):
+            self._halt_with_fault(
+                message("engine", "the move ended before its target: {short}").fill(short=miss_text)
             )
         else:
             self._end_move()
 
-    def _answered(self, answer: Answer) -> None:
-        line, self.dialogue.awaited = self.dialogue.awaited, None
-        self._hold_again()
+    def _handle_answer(self, answer: LineAnswer) -> None:
+        line, self.dialogue.pending_line = self.dialogue.pending_line, None
+        self._repeat_halt()
         if line is None:
             return
         if answer.error is not None:
-            self._give_up(
+            self._halt_with_fault(
                 message("engine", "the controller refused {line}: {text}").fill(
                     line=repr(line), text=describe_error(answer.error, self._settings.firmware)
                 ),
             )
-        elif self._searches and line == self._searches[0][0]:
-            self._homed |= set(self._searches.popleft()[1])
-            # Some answer no query while they home, and then the last one at an unknown time.
+        elif self._homing_queue and line == self._homing_queue[0][0]:
+            self._homed_axes |= set(self._homing_queue.popleft()[1])
+            # Some controllers answer no query during homing, but answer the last one afterwards.
             self.dialogue.abandon_query()
-            self.reports.expect_anywhere()
-            self._used_s = self._clock()
+            self.reports.accept_any_position()
+            self._last_usable_s = self._clock()
 
-    def _alarmed(self, alarm: Alarm) -> None:
-        self.dialogue.forget()
+    def _handle_alarm(self, alarm: AlarmReport) -> None:
+        self.dialogue.stop_waiting()
         self._machine = MachineState()
-        self._braking = False
+        self._is_halt_sent = False
         self._end_move()
-        self._searches.clear()
-        self._homed.clear()
-        self.reports.forget(self.reports.names)
-        self._deaf = True
-        # A homing that is stopped ends with an alarm of its own.
+        self._homing_queue.clear()
+        self._homed_axes.clear()
+        self.reports.forget_positions(self.reports.axis_names)
+        self._needs_reset = True
+        # A stop during homing always causes this alarm, which is therefore not a fault.
         if alarm.number != _HOMING_RESET_ALARM or not self.stop_pending:
             self.fault = describe_alarm(alarm.number, self._settings.firmware)
             _LOG.warning("%s: %s", self._name, self.fault)
 
-    def _welcomed(self) -> None:
-        if self._reset_s is None and not self._stops and self.fault is None:
-            self.reports.forget(self.reports.names)
+    def _handle_welcome(self) -> None:
+        if self._unconfirmed_reset_s is None and not self._sent_stops and self.fault is None:
+            self.reports.forget_positions(self.reports.axis_names)
             self.fault = message(
                 "engine",
-                "the controller was reset from outside, or lost its supply; clear the fault, "
-                "then home",
+                "the controller was reset externally or lost power; clear the fault, then home",
             )
-        self._deaf = False
-        self._reset_s = None
-        self._searches.clear()
-        self._homed.clear()
-        self._end_move(keep=self._reset_wanted())
-        self.dialogue.forget()
+        self._needs_reset = False
+        self._unconfirmed_reset_s = None
+        self._homing_queue.clear()
+        self._homed_axes.clear()
+        self._end_move(keep_request=self._is_request_valid())
+        self.dialogue.stop_waiting()
 
-    def _reset_wanted(self) -> bool:
-        """Whether what is wanted was requested after the stop that led to the reset."""
-        return self._permit is not None and self._permit.valid and self.fault is None
+    def _is_request_valid(self) -> bool:
+        """Return whether the current request was made after the stop that caused the reset."""
+        return self._permit is not None and self._permit.is_valid and self.fault is None
 
-    # --- what is done ------------------------------------------------------------------------
-
-    def _notice_pause(self, now_s: float) -> None:
-        """Cancel everything after a pause of this program: nobody watched meanwhile."""
-        paused_s, self._stepped_s = now_s - self._stepped_s, now_s
+    def _handle_pause(self, now_s: float) -> None:
+        """Cancel all motion if this program was suspended and therefore did not supervise it."""
+        paused_s, self._last_step_s = now_s - self._last_step_s, now_s
         if paused_s <= MAX_PAUSE_S:
             return
         self.dialogue.resume_after_pause()
-        self._used_s = now_s
-        if self._move is None and not self._targets and not self._searches:
+        self._last_usable_s = now_s
+        if self._move is None and not self._targets and not self._homing_queue:
             return
         _LOG.warning(
             "%s: this program was suspended for %.1f s; the motion is cancelled",
@@ -397,144 +415,148 @@ class Controller:
         self._permit = None
         self.stop()
 
-    def _follow_stops(self) -> None:
-        """Note what other threads have told the controller, and let nothing continue."""
-        while self._stops:
-            if self._stops.popleft() == RESET:
-                self._searches.clear()
+    def _apply_stops(self) -> None:
+        while self._sent_stops:
+            if self._sent_stops.popleft() == RESET:
+                self._homing_queue.clear()
                 self._begin_reset()
             else:
-                self._braking = True
+                self._is_halt_sent = True
                 self._expect_braking()
-            self._end_move(keep=self._reset_wanted() and self._move is None)
+            self._end_move(keep_request=self._is_request_valid() and self._move is None)
 
-    def _hold_again(self) -> None:
-        """Repeat a halt for as long as axes move: a line that it overtook begins a new jog."""
-        if self._braking and self._machine.moving:
+    def _repeat_halt(self) -> None:
+        """Repeat a halt while axes move.
+
+        The halt may have overtaken a line, which then starts a new jog.
+        """
+        if self._is_halt_sent and self._machine.is_moving:
             self.dialogue.send_realtime(HALT)
             self._expect_braking()
 
-    def _empty_at_rest(self) -> None:
-        if self._braking and not self._machine.moving and self._reset_s is None:
+    def _reset_if_at_rest(self) -> None:
+        if self._is_halt_sent and not self._machine.is_moving and self._unconfirmed_reset_s is None:
             self.dialogue.send_realtime(RESET)
             self._begin_reset()
 
     def _expect_braking(self) -> None:
-        """Take it to brake until a report that was requested from now on says otherwise."""
+        """Assume that the axes are braking, until a newly requested report shows otherwise."""
         self.dialogue.invalidate_reports()
-        self._machine = MachineState(moving=True)
+        self._machine = MachineState(is_moving=True)
 
     def _begin_reset(self) -> None:
-        self._reset_s = self._clock()
-        self._braking = False  # a hold that comes after this byte wants a reset of its own
-        self.dialogue.forget()
+        self._unconfirmed_reset_s = self._clock()
+        # This reset completes the halt. A later halt needs another reset.
+        self._is_halt_sent = False
+        self.dialogue.stop_waiting()
 
-    def _go_on(self) -> None:
-        """Say what comes next: a search, a piece of a move, a move that had to wait."""
-        if not self.ready:
+    def _send_next(self) -> None:
+        if not self.is_ready:
             return
-        if self._unlock:
-            self._unlock = False
-            self.dialogue.say("$X")
-        if self._permit is None or self.dialogue.awaited is not None:
+        if self._unlock_pending:
+            self._unlock_pending = False
+            self.dialogue.send_line("$X")
+        if self._permit is None or self.dialogue.pending_line is not None:
             return
         try:
-            if self._searches:
+            if self._homing_queue:
                 with self._permit.passing(begins=False):
-                    self.dialogue.say(self._searches[0][0])
+                    self.dialogue.send_line(self._homing_queue[0][0])
             elif self._targets:
-                self._say_next(self._permit)
+                self._send_next_piece(self._permit)
         except GateError as error:
             _LOG.info("%s: %s", self._name, error)
-            self._searches.clear()
+            self._homing_queue.clear()
             self._end_move()
 
-    def _say_next(self, permit: Permit) -> None:
-        begins = self._move is None
+    def _send_next_piece(self, permit: Permit) -> None:
+        is_first_piece = self._move is None
         if self._move is None:
-            # It still brakes, or nobody knows where it is: the move waits.
-            if self._machine.moving or self.reports.is_in_doubt:
+            # The move must wait while the axes brake or their position is in doubt.
+            if self._machine.is_moving or self.reports.is_in_doubt:
                 return
-            self._move = self._move_to(self._targets, self._speeds)
+            self._move = self._make_move(self._targets, self._speeds)
             if self._move is None:
                 self._end_move()
                 return
-        line = self._move.line(self._position, on_trial=self.reports.untried)
+        line = self._move.make_next_line(self._position, on_trial=self.reports.untried_axes)
         if line is not None:
-            with permit.passing(begins=begins):
-                self.dialogue.say(line)
+            with permit.passing(begins=is_first_piece):
+                self.dialogue.send_line(line)
 
-    def _move_to(
+    def _make_move(
         self, targets: Mapping[str, float], speeds: Mapping[str, float]
     ) -> StraightMove | None:
         return StraightMove.of(
             self.reports.axes, self._position, targets, speeds, self.dialogue.round_trip_s
         )
 
-    def _may_be_silent(self) -> bool:
-        """Whether it answers no questions now: while it homes, and after an alarm."""
-        return bool(self._searches) or self._deaf
+    def _is_silence_expected(self) -> bool:
+        return bool(self._homing_queue) or self._needs_reset
 
-    def _end_move(self, *, keep: bool = False) -> None:
+    def _end_move(self, *, keep_request: bool = False) -> None:
         self._move = None
-        if not keep:
+        if not keep_request:
             self._targets, self._speeds = {}, {}
 
-    def _give_up(self, fault: str) -> None:
-        """Halt and say why."""
+    def _halt_with_fault(self, fault: str) -> None:
         _LOG.warning("%s: %s", self._name, fault)
-        self._searches.clear()
+        self._homing_queue.clear()
         self._end_move()
         self.fault = fault
         self.dialogue.send_realtime(HALT)
-        self._braking = True
+        self._is_halt_sent = True
         self._expect_braking()
 
-    def _patience(self, seconds: float) -> float:
-        """Return a time that a fast line needs, for this one."""
-        return seconds + _WAITING_ROUND_TRIPS * self.dialogue.round_trip_s
+    def _extend_timeout(self, seconds: float) -> float:
+        return seconds + _TIMEOUT_ROUND_TRIPS * self.dialogue.round_trip_s
 
-    def _look_at_times(self, now_s: float) -> None:
-        if self._reset_s is not None and now_s - self._reset_s > self._patience(_RESET_S):
+    def _check_timeouts(self, now_s: float) -> None:
+        if (
+            self._unconfirmed_reset_s is not None
+            and now_s - self._unconfirmed_reset_s > self._extend_timeout(_RESET_TIMEOUT_S)
+        ):
             self.dialogue.send_realtime(RESET)
-            self._reset_s = now_s
-        limit_s = self._homing_s if self._searches else self._patience(_LINE_S)
-        line, since_s = self.dialogue.awaited, self.dialogue.awaited_since_s
-        silent_s = now_s - self.dialogue.heard_s
-        if line is not None and now_s - since_s > limit_s:
-            self.dialogue.forget()
-            if silent_s < self._patience(_SILENT_S) or self._searches:
-                self._give_up(
+            self._unconfirmed_reset_s = now_s
+        timeout_s = (
+            self._homing_s if self._homing_queue else self._extend_timeout(_ANSWER_TIMEOUT_S)
+        )
+        pending_line, since_s = self.dialogue.pending_line, self.dialogue.pending_since_s
+        silent_s = now_s - self.dialogue.last_received_s
+        if pending_line is not None and now_s - since_s > timeout_s:
+            self.dialogue.stop_waiting()
+            if silent_s < self._extend_timeout(_MAX_SILENCE_S) or self._homing_queue:
+                self._halt_with_fault(
                     message("engine", "no answer to {line} within {limit_s} s").fill(
-                        line=repr(line), limit_s=rounded(limit_s, 2)
+                        line=repr(pending_line), limit_s=format_rounded(timeout_s, 2)
                     ),
                 )
-        if self._may_be_silent():
+        if self._is_silence_expected():
             return
-        lost_s = self._patience(_LOST_S)
-        if silent_s > lost_s:
-            self._lost = message(
+        loss_timeout_s = self._extend_timeout(_LOSS_TIMEOUT_S)
+        if silent_s > loss_timeout_s:
+            self._loss_reason = message(
                 "engine",
-                "{port}: the controller has not answered for {seconds} s; it ends its "
-                "motion within half a second plus braking. Check the machine, then "
+                "{port}: the controller has not answered for {seconds} s; its motion ends "
+                "within half a second plus the braking time. Check the machine, then "
                 "reconnect",
-            ).fill(port=self._port, seconds=rounded(lost_s, 2))
-            raise ConnectionLostError(self._lost)
-        if now_s - self._used_s > lost_s and self.fault is None:
-            self.reports.forget(self.reports.names)
-            self._give_up(
+            ).fill(port=self._port, seconds=format_rounded(loss_timeout_s, 2))
+            raise ConnectionLostError(self._loss_reason)
+        if now_s - self._last_usable_s > loss_timeout_s and self.fault is None:
+            self.reports.forget_positions(self.reports.axis_names)
+            self._halt_with_fault(
                 message(
                     "engine",
-                    "no report of the last {seconds} s could be used; check the cable, then clear "
-                    "the fault and home",
-                ).fill(seconds=rounded(lost_s, 2))
+                    "no report in the last {seconds} s was usable; check the cable, then clear the "
+                    "fault and home",
+                ).fill(seconds=format_rounded(loss_timeout_s, 2))
             )
 
-    def _samples(self) -> Samples:
-        rows, self._rows = self._rows, []
-        if not rows:
-            return Samples.none(len(self.reports.axes))
-        position = np.array([self.reports.values(at) for _, at in rows])
-        none = np.full(position.shape, np.nan)
-        time_s = np.array([time_s for time_s, _ in rows])
-        return Samples(time_s, position, position, none, np.full(len(rows), -1))
+    def _take_samples(self) -> DeviceSamples:
+        reports, self._unread_reports = self._unread_reports, []
+        if not reports:
+            return DeviceSamples.empty(len(self.reports.axes))
+        position = np.array([self.reports.convert_position(raw) for _, raw in reports])
+        no_inputs = np.full(position.shape, np.nan)
+        time_s = np.array([time_s for time_s, _ in reports])
+        return DeviceSamples(time_s, position, position, no_inputs, np.full(len(reports), -1))

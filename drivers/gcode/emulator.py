@@ -1,8 +1,9 @@
-"""An emulated GRBL controller with a stage, byte for byte; its time is advanced explicitly.
+"""Emulated GRBL controller with a stage.
 
-It behaves as GRBL 1.1 does, as far as a host can tell: a queue of blocks, feed holds and resets,
-alarms and locks, a safety door, sleep, no reports while it homes. Time is given by the caller, s.
-Source: GRBL 1.1, ``protocol.c``, ``motion_control.c``, ``limits.c``.
+To a host it behaves like GRBL 1.1, byte for byte. It emulates the queue of blocks, feed holds and
+resets, alarms and locks, a safety door, and sleep, and sends no reports during homing. The caller
+advances its time. Source:
+GRBL 1.1, ``protocol.c``, ``motion_control.c``, ``limits.c``.
 """
 
 from collections import deque
@@ -10,35 +11,36 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import pi
 
-from rotemina.drivers.gcode.blocks import Blocks
+from rotemina.drivers.gcode.blocks import MotionQueue
 from rotemina.drivers.gcode.coordinates import check_stage
-from rotemina.drivers.gcode.grbl_reports import VIRTUAL
-from rotemina.drivers.gcode.parser import LineError, Target, jog_of, motion_of
-from rotemina.sim.robot.model import Robot
+from rotemina.drivers.gcode.grbl_reports import VIRTUAL_NOTE
+from rotemina.drivers.gcode.parser import LineError, LineTarget, parse_jog, parse_motion
+from rotemina.sim.robot import Robot
 
 TICK_S = 1e-3
 WELCOME = "Grbl 1.1h ['$' for help]"
 LETTERS = "XYZABC"
 _RX_BYTES = 128
-_MOST_BLOCKS = 15
-_LOCKED = "[MSG:'$H'|'$X' to unlock]"
-_DIRECTION, _SEEK, _PULL_OFF, _PULL_OFF_RATE = 23, 25, 27, 24
-_UNITS = {"m": 1000.0, "rad": 180.0 / pi}
+_MAX_BLOCKS = 15
+_LOCKED_NOTE = "[MSG:'$H'|'$X' to unlock]"
+_DIRECTION_SETTING, _SEEK_RATE_SETTING, _PULL_OFF_SETTING, _PULL_OFF_RATE_SETTING = 23, 25, 27, 24
+_SCALE_BY_UNIT = {"m": 1000.0, "rad": 180.0 / pi}
 
 
 @dataclass(slots=True)
-class _Search:
-    """A homing cycle: which axes are still to be done, and how far the present one is."""
+class _HomingSearch:
+    """A homing cycle: the remaining axes, and the progress of the first of them.
+
+    ``distance`` is the distance that the axis has moved in the current phase, mm or degrees.
+    """
 
     axes: deque[int]
     pulling_off: bool = False
-    gone: float = 0.0
+    distance: float = 0.0
 
 
 @dataclass(slots=True)
-class _Modes:
-    """What earlier lines have set: G90 or G91, G20 or G21, the motion and its feed."""
-
+class _ModalState:
     absolute: bool = True
     rapid: bool = True
     scale: float = 1.0
@@ -46,16 +48,17 @@ class _Modes:
 
 
 class EmulatedStage:
-    """A controller and the axes of a robot.
+    """An emulated controller with the axes of a robot.
 
     Parameters
     ----------
     robot : Robot
-        Its ranges, speeds and accelerations become the controller's settings.
+        The controller's settings follow from its ranges, speeds and accelerations.
     start_fraction : float
-        Where in its range each axis stands when the power comes on; the controller does not know.
+        Position of each axis at power-on, as a fraction of its range. The controller does not know
+        this position.
     single_homing : bool
-        Whether it was built to home axes one by one.
+        Whether the controller was built to home single axes.
     missing_switch : str
         Letters of axes whose switch is never found.
 
@@ -75,14 +78,18 @@ class EmulatedStage:
     ) -> None:
         check_stage(robot, LETTERS)
         axes = list(robot.axes.items())
-        scales = [_UNITS[robot.unit(name) or "m"] for name, _ in axes]
+        scales = [_SCALE_BY_UNIT[robot.unit(name) or "m"] for name, _ in axes]
         self.letters = LETTERS[: len(axes)]
-        self._missing = {self.letters.index(letter) for letter in missing_switch}
+        self._missing_switches = {self.letters.index(letter) for letter in missing_switch}
         self._options = "VH" if single_homing else "V"
         self.settings = {10: 1.0, 13: 0.0, 20: 1.0, 21: 1.0, 22: 1.0}
-        # Every switch is at the low end.
-        self.settings[_DIRECTION] = float(2 ** len(axes) - 1)
-        self.settings |= {_PULL_OFF_RATE: 60.0, _SEEK: 600.0, _PULL_OFF: 1.0}
+        # All switches are at the low ends.
+        self.settings[_DIRECTION_SETTING] = float(2 ** len(axes) - 1)
+        self.settings |= {
+            _PULL_OFF_RATE_SETTING: 60.0,
+            _SEEK_RATE_SETTING: 600.0,
+            _PULL_OFF_SETTING: 1.0,
+        }
         for number, ((_, axis), scale) in enumerate(zip(axes, scales, strict=True)):
             speed = axis.max_speed or axis.span
             self.settings |= {
@@ -91,97 +98,96 @@ class EmulatedStage:
                 120 + number: round((axis.max_acceleration or 10.0 * speed) * scale, 3),
                 130 + number: round(axis.span * scale, 3),
             }
-        travel = self._each(130)
-        #: Where each axis truly is, mm or degrees above the low end of its travel.
-        self.true = [start_fraction * way for way in travel]
+        travel = self._read_axis_settings(130)
+        #: True position of each axis, mm or degrees above the low end of its travel.
+        self.true_positions = [start_fraction * length for length in travel]
         self.events: list[str] = []
         self._state = "Alarm"
-        self._cancel = False
+        self._cancel_jog = False
         self._now_s = 0.0
         self._out = bytearray()
-        self._reported = False  # a question that waits for the end of a homing
+        # A query during homing is answered afterwards.
+        self._report_requested = False
         self._power_on()
-
-    # --- what surrounds it ---------------------------------------------------------------------
 
     @property
     def state(self) -> str:
-        """Its state, as in a report without the part after the colon."""
+        """The state word that reports contain, without the substate after the colon."""
         return self._state
 
     @property
     def count(self) -> list[float]:
-        """Where it takes its axes to be, machine coordinates, mm or degrees."""
+        """The positions that the controller counts, in machine coordinates, mm or degrees."""
         return list(self._blocks.position)
 
     def receive(self, data: bytes, at_s: float) -> None:
-        """Let a host have written these bytes at this time, s."""
-        self._live(at_s)
+        """Process bytes that the host wrote at the time ``at_s``."""
+        self._advance_to(at_s)
         for byte in data:
-            self._hear(byte)
+            self._receive_byte(byte)
 
     def advance(self, to_s: float) -> bytes:
-        """Advance until this time; return what has been said by then."""
-        self._live(to_s)
-        said = bytes(self._out)
+        """Advance to the time ``to_s``; return the bytes that the controller has sent."""
+        self._advance_to(to_s)
+        output = bytes(self._out)
         self._out.clear()
-        return said
+        return output
 
     def hit_limit(self) -> None:
-        """Let a limit switch close: a hard limit."""
+        """Close a limit switch, which triggers the hard-limit alarm."""
         if self._state not in ("Alarm", "Home"):
-            self._alarm(1, critical=True)
+            self._raise_alarm(1, critical=True)
 
     def open_door(self) -> None:
-        """Open the safety door: the axes brake, and nothing goes on before it is closed."""
+        """Open the safety door: the axes brake, and no motion continues until it is closed."""
         self._door_is_open = True
         if self._state in ("Alarm", "Home", "Sleep"):
             return
-        self._cancel = self._cancel or self._state == "Jog"
+        self._cancel_jog = self._cancel_jog or self._state == "Jog"
         self._state, self._hold = "Door", True
 
     def close_door(self) -> None:
-        """Close the safety door; what was held waits to be resumed."""
+        """Close the safety door. An interrupted motion waits for the resume command."""
         self._door_is_open = False
 
     def cut_power(self) -> None:
-        """Interrupt the supply: the controller loses its whole state."""
+        """Interrupt the power supply: the controller loses its whole state."""
         self._power_on()
 
-    # --- bytes and lines -----------------------------------------------------------------------
-
     def _power_on(self) -> None:
-        self._blocks = Blocks([0.0] * len(self.letters), self._each(110), self._each(120))
-        self._modes = _Modes()
-        self._state = "Alarm"  # homing is enabled: it wants that first
-        self._critical = False
-        self._search: _Search | None = None
-        self._door_is_open = self._hold = self._cancel = False
-        self._start()
+        self._blocks = MotionQueue(
+            [0.0] * len(self.letters), self._read_axis_settings(110), self._read_axis_settings(120)
+        )
+        self._modes = _ModalState()
+        # As homing is enabled, GRBL starts locked until it is homed.
+        self._state = "Alarm"
+        self._needs_reset = False
+        self._search: _HomingSearch | None = None
+        self._door_is_open = self._hold = self._cancel_jog = False
+        self._restart()
 
-    def _start(self) -> None:
-        """Begin again, as after each reset: what waited is gone."""
+    def _restart(self) -> None:
         self._rx = bytearray()
-        self._modes = _Modes()
+        self._modes = _ModalState()
         self._blocks.clear()
-        self._hold = self._cancel = False
-        self._reported = False
-        self._say("")
-        self._say(WELCOME)
+        self._hold = self._cancel_jog = False
+        self._report_requested = False
+        self._send("")
+        self._send(WELCOME)
         if self._state == "Alarm":
-            self._say(_LOCKED)
+            self._send(_LOCKED_NOTE)
         else:
             self._state = "Door" if self._door_is_open else "Idle"
 
-    def _say(self, line: str) -> None:
+    def _send(self, line: str) -> None:
         self._out += line.encode("ascii") + b"\r\n"
 
-    def _hear(self, byte: int) -> None:
+    def _receive_byte(self, byte: int) -> None:
         if byte == 0x18:
             self._reset()
         elif byte == ord("?"):
-            self._reported = True
-        elif self._critical:
+            self._report_requested = True
+        elif self._needs_reset:
             return
         elif byte == ord("!"):
             self._feed_hold()
@@ -191,101 +197,109 @@ class EmulatedStage:
             self.open_door()
         elif byte == 0x85:
             if self._state == "Jog":
-                self._cancel = self._hold = True
+                self._cancel_jog = self._hold = True
         elif byte < 0x80 and len(self._rx) < _RX_BYTES:
             self._rx.append(byte)
-        self._report_if_asked()
+        self._report_if_requested()
 
-    def _report_if_asked(self) -> None:
-        if not self._reported or self._critical or self._search is not None:
+    def _report_if_requested(self) -> None:
+        if not self._report_requested or self._needs_reset or self._search is not None:
             return
-        self._reported = False
-        position = ",".join(f"{at:.3f}" for at in self._blocks.counted(self._each(100)))
+        self._report_requested = False
+        position = ",".join(
+            f"{coordinate:.3f}"
+            for coordinate in self._blocks.round_to_steps(self._read_axis_settings(100))
+        )
         speed = 60.0 * self._blocks.speed
-        self._say(f"<{self._state}{self._substate()}|MPos:{position}|FS:{speed:.0f},0>")
+        self._send(f"<{self._state}{self._substate()}|MPos:{position}|FS:{speed:.0f},0>")
 
     def _substate(self) -> str:
         if self._state == "Hold":
-            return f":{int(self._blocks.moving)}"
+            return f":{int(self._blocks.is_moving)}"
         if self._state == "Door":
-            return ":2" if self._blocks.moving else f":{int(self._door_is_open)}"
+            return ":2" if self._blocks.is_moving else f":{int(self._door_is_open)}"
         return ""
 
     def _feed_hold(self) -> None:
         if self._state == "Jog":
-            self._hold = self._cancel = True  # a hold ends a jog for good
+            # GRBL cancels a jog at a feed hold instead of pausing it.
+            self._hold = self._cancel_jog = True
         elif self._state in ("Idle", "Run"):
             self._state, self._hold = "Hold", True
 
     def _resume(self) -> None:
-        held = self._state == "Hold" or (self._state == "Door" and not self._door_is_open)
-        if held and not self._blocks.moving:
-            self._state, self._hold = ("Run" if self._blocks.waiting else "Idle"), False
+        can_resume = self._state == "Hold" or (self._state == "Door" and not self._door_is_open)
+        if can_resume and not self._blocks.is_moving:
+            self._state, self._hold = ("Run" if self._blocks.has_blocks else "Idle"), False
 
     def _reset(self) -> None:
         if self._search is not None:
             self._search = None
-            self._alarm(6)
-        elif self._blocks.moving:
-            self._alarm(3)  # the motors stall: steps are lost
-        self._critical = False
+            self._raise_alarm(6)
+        elif self._blocks.is_moving:
+            # The motors stop abruptly and lose steps.
+            self._raise_alarm(3)
+        self._needs_reset = False
         if self._state == "Sleep":
             self._state = "Alarm"
-        self._start()
+        self._restart()
 
-    def _alarm(self, number: int, *, critical: bool = False) -> None:
+    def _raise_alarm(self, number: int, *, critical: bool = False) -> None:
         self._blocks.halt()
         self._search = None
-        self._state, self._critical = "Alarm", critical
-        self._say(f"ALARM:{number}")
+        self._state, self._needs_reset = "Alarm", critical
+        self._send(f"ALARM:{number}")
         if critical:
-            self._say("[MSG:Reset to continue]")
+            self._send("[MSG:Reset to continue]")
         self.events.append(f"ALARM:{number}")
 
-    # --- time ----------------------------------------------------------------------------------
-
-    def _live(self, to_s: float) -> None:
+    def _advance_to(self, to_s: float) -> None:
         while self._now_s + TICK_S <= to_s + 1e-9:
             self._now_s += TICK_S
             self._tick()
 
     def _tick(self) -> None:
         if self._search is not None:
-            self._seek(self._search)
-        elif self._blocks.waiting or self._blocks.moving:
+            self._step_search(self._search)
+        elif self._blocks.has_blocks or self._blocks.is_moving:
             before = list(self._blocks.position)
             self._blocks.step(TICK_S, hold=self._hold)
             after = self._blocks.position
-            self.true = [
-                at + new - old for at, old, new in zip(self.true, before, after, strict=True)
+            self.true_positions = [
+                true_position + new - old
+                for true_position, old, new in zip(self.true_positions, before, after, strict=True)
             ]
         self._settle()
-        # A hold keeps the main loop from lines; so does an alarm that wants a reset.
-        if not self._critical and self._state not in ("Hold", "Door", "Sleep") and not self._cancel:
-            self._obey_a_line()
-        self._report_if_asked()
+        # No line is executed during a hold, or after an alarm that only a reset can clear.
+        if (
+            not self._needs_reset
+            and self._state not in ("Hold", "Door", "Sleep")
+            and not self._cancel_jog
+        ):
+            self._execute_next_line()
+        self._report_if_requested()
 
     def _settle(self) -> None:
-        if self._cancel and not self._blocks.moving:
+        if self._cancel_jog and not self._blocks.is_moving:
             self._blocks.clear()
-            self._cancel, self._hold = False, self._state == "Door"
-        if self._state in ("Run", "Jog") and not self._blocks.waiting and not self._cancel:
+            self._cancel_jog, self._hold = False, self._state == "Door"
+        if self._state in ("Run", "Jog") and not self._blocks.has_blocks and not self._cancel_jog:
             self._state = "Idle"
 
-    def _obey_a_line(self) -> None:
+    def _execute_next_line(self) -> None:
         end = self._rx.find(b"\n")
-        if end < 0 or self._search is not None or self._blocks.count >= _MOST_BLOCKS:
+        if end < 0 or self._search is not None or self._blocks.block_count >= _MAX_BLOCKS:
             return
         line = bytes(self._rx[:end]).decode("ascii", "replace").strip().upper()
         del self._rx[: end + 1]
         try:
-            if self._obey(line):
-                self._say("ok")
+            if self._execute_line(line):
+                self._send("ok")
         except LineError as error:
-            self._say(f"error:{error.number}")
+            self._send(f"error:{error.number}")
 
-    def _obey(self, line: str) -> bool:
-        """Do what a line says; return whether it is done, rather than answered later."""
+    def _execute_line(self, line: str) -> bool:
+        """Execute a line; return False if its answer follows later."""
         if line.startswith("$J="):
             self._jog(line[3:])
         elif line == "$SLP":
@@ -295,39 +309,39 @@ class EmulatedStage:
         elif line == "$X":
             if self._state == "Alarm":
                 self._state = "Idle"
-                self._say("[MSG:Caution: Unlocked]")
+                self._send("[MSG:Caution: Unlocked]")
         elif line.startswith("$"):
-            self._tell_or_set(line[1:])
+            self._report_or_set(line[1:])
         elif line:
             self._move(line)
         return True
 
-    def _tell_or_set(self, text: str) -> None:
+    def _report_or_set(self, text: str) -> None:
         if text == "I":
-            self._say("[VER:1.1h.20190830:]")
-            self._say(f"[OPT:{self._options},{_MOST_BLOCKS},{_RX_BYTES}]")
-            self._say(f"[{VIRTUAL}]")
+            self._send("[VER:1.1h.20190830:]")
+            self._send(f"[OPT:{self._options},{_MAX_BLOCKS},{_RX_BYTES}]")
+            self._send(f"[{VIRTUAL_NOTE}]")
         elif text == "$":
             for number, value in sorted(self.settings.items()):
-                self._say(f"${number}={value:.3f}" if number >= 100 else f"${number}={value:g}")
+                self._send(f"${number}={value:.3f}" if number >= 100 else f"${number}={value:g}")
         else:
-            name, _, told = text.partition("=")
+            name, _, number_text = text.partition("=")
             try:
-                self.settings[int(name)] = float(told)
+                self.settings[int(name)] = float(number_text)
             except ValueError as error:
                 raise LineError(3) from error
-            self._blocks.limits(self._each(110), self._each(120))
+            self._blocks.set_limits(self._read_axis_settings(110), self._read_axis_settings(120))
 
     def _jog(self, text: str) -> None:
         if self._state == "Alarm":
             raise LineError(9)
         if self._state not in ("Idle", "Jog"):
             raise LineError(8)
-        target = jog_of(text, self.letters, self._blocks.end)
-        if not self._inside(target):
+        target = parse_jog(text, self.letters, self._blocks.end)
+        if not self._is_in_travel(target):
             raise LineError(15)
         self._blocks.add(target.position, target.feed / 60.0)
-        if self._blocks.waiting:
+        if self._blocks.has_blocks:
             self._state = "Jog"
 
     def _move(self, line: str) -> None:
@@ -335,23 +349,23 @@ class EmulatedStage:
             raise LineError(9)
         if self._state == "Jog":
             raise LineError(9)
-        target = motion_of(line, self.letters, self._blocks.end, self._modes)
+        target = parse_motion(line, self.letters, self._blocks.end, self._modes)
         if target is None:
             return
-        if not self._inside(target):
-            self._alarm(2, critical=True)
+        if not self._is_in_travel(target):
+            self._raise_alarm(2, critical=True)
             return
         self._blocks.add(target.position, target.feed / 60.0)
-        if self._blocks.waiting:
+        if self._blocks.has_blocks:
             self._state = "Run"
 
-    def _inside(self, target: Target) -> bool:
+    def _is_in_travel(self, target: LineTarget) -> bool:
         return not self.settings[20] or all(
-            -way - 1e-6 <= at <= 1e-6
-            for at, way in zip(target.position, self._each(130), strict=True)
+            -travel - 1e-6 <= coordinate <= 1e-6
+            for coordinate, travel in zip(
+                target.position, self._read_axis_settings(130), strict=True
+            )
         )
-
-    # --- homing --------------------------------------------------------------------------------
 
     def _home(self, letters: str) -> bool:
         if not self.settings[22]:
@@ -360,37 +374,38 @@ class EmulatedStage:
             raise LineError(8)
         if letters and ("H" not in self._options or set(letters) - set(self.letters)):
             raise LineError(3)
-        asked = [self.letters.index(letter) for letter in letters or self.letters]
-        self._search, self._state = _Search(deque(asked)), "Home"
+        axes = [self.letters.index(letter) for letter in letters or self.letters]
+        self._search, self._state = _HomingSearch(deque(axes)), "Home"
         return False
 
-    def _seek(self, search: _Search) -> None:
-        """Continue towards the low switch of the first axis, or away from it."""
+    def _step_search(self, search: _HomingSearch) -> None:
         axis = search.axes[0]
-        rate = self.settings[_PULL_OFF_RATE if search.pulling_off else _SEEK]
-        way = rate / 60.0 * TICK_S
-        search.gone += way
+        rate = self.settings[_PULL_OFF_RATE_SETTING if search.pulling_off else _SEEK_RATE_SETTING]
+        step = rate / 60.0 * TICK_S
+        search.distance += step
         if search.pulling_off:
-            self.true[axis] += way
-            if search.gone >= self.settings[_PULL_OFF]:
-                self._found(search, axis)
+            self.true_positions[axis] += step
+            if search.distance >= self.settings[_PULL_OFF_SETTING]:
+                self._finish_axis(search, axis)
         else:
-            self.true[axis] -= way
-            if axis in self._missing:
-                if search.gone > 1.5 * self._each(130)[axis]:
-                    self._alarm(9)
-                    self._start()
-            elif self.true[axis] <= 0.0:
-                search.pulling_off, search.gone = True, 0.0
+            self.true_positions[axis] -= step
+            if axis in self._missing_switches:
+                if search.distance > 1.5 * self._read_axis_settings(130)[axis]:
+                    self._raise_alarm(9)
+                    self._restart()
+            elif self.true_positions[axis] <= 0.0:
+                search.pulling_off, search.distance = True, 0.0
 
-    def _found(self, search: _Search, axis: int) -> None:
-        self.true[axis] = self.settings[_PULL_OFF]
-        self._blocks.set(axis, self.settings[_PULL_OFF] - self._each(130)[axis])
+    def _finish_axis(self, search: _HomingSearch, axis: int) -> None:
+        self.true_positions[axis] = self.settings[_PULL_OFF_SETTING]
+        self._blocks.set_position(
+            axis, self.settings[_PULL_OFF_SETTING] - self._read_axis_settings(130)[axis]
+        )
         search.axes.popleft()
-        search.pulling_off, search.gone = False, 0.0
+        search.pulling_off, search.distance = False, 0.0
         if not search.axes:
             self._search, self._state = None, "Idle"
-            self._say("ok")
+            self._send("ok")
 
-    def _each(self, first: int) -> Sequence[float]:
+    def _read_axis_settings(self, first: int) -> Sequence[float]:
         return [self.settings[first + number] for number in range(len(self.letters))]

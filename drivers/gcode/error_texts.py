@@ -1,7 +1,7 @@
-"""Numbered errors and alarms of GRBL controllers, in words.
+"""Texts for the numbered errors and alarms of GRBL controllers.
 
 Source: GRBL 1.1 (``doc/csv``), grblHAL (``errors.h``, ``alarms.h``), FluidNC (``Error.h``,
-``Alarm.h``). The three agree on the low numbers and differ above.
+``Alarm.h``). The three agree on the low numbers and differ on the higher ones.
 """
 
 from collections.abc import Mapping
@@ -13,38 +13,38 @@ from rotemina.sim.messages import message
 _COMMON_ERRORS = {
     1: message("engine", "a word does not begin with a letter"),
     2: message("engine", "a number is missing or malformed"),
-    3: message("engine", "it does not know this command"),
+    3: message("engine", "unknown command"),
     4: message("engine", "a number must not be negative"),
     5: message("engine", "homing is not enabled; set $22"),
     6: message("engine", "the step pulse is too short"),
-    7: message("engine", "its stored settings could not be read; it uses its defaults, check them"),
-    8: message("engine", "it is not idle"),
-    9: message("engine", "it is locked by an alarm or busy with a jog"),
+    7: message("engine", "the stored settings could not be read; check the defaults that are used"),
+    8: message("engine", "the controller is not idle"),
+    9: message("engine", "the controller is locked by an alarm or busy with a jog"),
     10: message("engine", "soft limits need homing; set $22"),
-    11: message("engine", "the line is too long for it"),
-    12: message("engine", "the step rate is higher than it can produce"),
+    11: message("engine", "the line is too long"),
+    12: message("engine", "the step rate is too high for the controller"),
     13: message("engine", "the safety door is open"),
     14: message("engine", "a stored line is too long"),
     15: message("engine", "the target lies beyond the travel"),
-    16: message("engine", "it is no valid jog command"),
+    16: message("engine", "not a valid jog command"),
     17: message("engine", "laser mode needs a spindle output with PWM"),
-    20: message("engine", "it does not support this G-code"),
-    21: message("engine", "two G-codes of one group stand in a line"),
+    20: message("engine", "unsupported G-code"),
+    21: message("engine", "two G-codes of the same group are in one line"),
     22: message("engine", "the feed rate is missing"),
     23: message("engine", "a G-code needs a whole number"),
-    24: message("engine", "two G-codes in a line both want axis words"),
-    25: message("engine", "a word stands twice in a line"),
+    24: message("engine", "two G-codes in one line both need axis words"),
+    25: message("engine", "a word appears twice in a line"),
     26: message("engine", "axis words are missing"),
     27: message("engine", "the line number is not valid"),
     28: message("engine", "a G-code lacks a value"),
-    29: message("engine", "it does not have this work coordinate system"),
+    29: message("engine", "this work coordinate system does not exist"),
     30: message("engine", "G53 needs G0 or G1"),
-    31: message("engine", "axis words stand in a line that uses none"),
-    32: message("engine", "an arc needs a word of its plane"),
+    31: message("engine", "the line has axis words but does not use them"),
+    32: message("engine", "an arc needs an axis word in its plane"),
     33: message("engine", "the target of the motion is not valid"),
     34: message("engine", "the radius of the arc is not valid"),
     35: message("engine", "an arc needs an offset in its plane"),
-    36: message("engine", "the line has words that nothing uses"),
+    36: message("engine", "the line has unused words"),
     37: message("engine", "the tool length offset is for another axis"),
 }
 _GRBL_ERRORS = {
@@ -52,7 +52,7 @@ _GRBL_ERRORS = {
 }
 _GRBL_HAL_ERRORS = {
     5: message("engine", "homing is not configured; set $22"),
-    18: message("engine", "it was reset"),
+    18: message("engine", "the controller was reset"),
     19: message("engine", "a number must be greater than zero"),
     38: message("engine", "the tool number is too large, or no tool is selected"),
     39: message("engine", "a value is out of range"),
@@ -62,14 +62,14 @@ _GRBL_HAL_ERRORS = {
     43: message("engine", "the feed rate is too high"),
     44: message("engine", "the spindle speed is out of range"),
     45: message("engine", "a limit switch is pressed; only homing is possible"),
-    46: message("engine", "it must be homed first"),
+    46: message("engine", "home all axes first"),
     47: message("engine", "no tool is set"),
     48: message("engine", "two words of the line contradict each other"),
-    49: message("engine", "its self-test failed; switch it off and on"),
-    50: message("engine", "its emergency stop is pressed"),
+    49: message("engine", "the self-test failed; switch the controller off and on"),
+    50: message("engine", "the emergency stop is pressed"),
     51: message("engine", "a motor reports a fault"),
     52: message("engine", "the setting is out of range"),
-    53: message("engine", "it does not have this setting"),
+    53: message("engine", "this setting does not exist"),
     54: message("engine", "the retract position lies below the depth"),
     55: message("engine", "two axes with two motors each cannot be homed together"),
     56: message("engine", "the coordinate system is locked"),
@@ -91,11 +91,11 @@ _GRBL_HAL_ERRORS = {
     76: message("engine", "an expression has no finite result"),
     77: message("engine", "a password is needed"),
     78: message("engine", "access is denied"),
-    79: message("engine", "it is locked by a critical event; reset it"),
-    80: message("engine", "a flow command stands outside a macro"),
-    81: message("engine", "it does not know this flow command"),
+    79: message("engine", "the controller is locked by a critical event; reset it"),
+    80: message("engine", "a flow command is outside a macro"),
+    81: message("engine", "unknown flow command"),
     82: message("engine", "flow commands are nested too deeply"),
-    83: message("engine", "its memory is full"),
+    83: message("engine", "the memory is full"),
     84: message("engine", "a file cannot be opened"),
     85: message("engine", "the file system cannot be formatted"),
     86: message("engine", "the port cannot be used for this"),
@@ -105,7 +105,7 @@ _GRBL_HAL_ERRORS = {
     90: message("engine", "cutter compensation is already active"),
     91: message("engine", "this is not possible during cutter compensation"),
     92: message("engine", "cutter compensation does not fit this motion"),
-    253: message("engine", "an error that its own program defines"),
+    253: message("engine", "an error defined by the controller's maker or user"),
 }
 _FLUID_NC_ERRORS = {
     5: message("engine", "this setting is disabled"),
@@ -131,17 +131,17 @@ _FLUID_NC_ERRORS = {
     83: message("engine", "the file system cannot be formatted"),
     90: message("engine", "a message could not be sent"),
     100: message("engine", "a setting could not be stored"),
-    101: message("engine", "its storage of settings does not answer"),
+    101: message("engine", "the settings storage does not respond"),
     110: message("engine", "the password is wrong"),
     111: message("engine", "a line ends unexpectedly"),
     112: message("engine", "a file ends unexpectedly"),
-    113: message("engine", "it was reset"),
+    113: message("engine", "the controller was reset"),
     114: message("engine", "no data arrived"),
-    120: message("engine", "another program or interface uses it"),
+    120: message("engine", "another program or interface uses the controller"),
     130: message("engine", "the jog was cancelled"),
-    150: message("engine", "a pin is described wrongly in its configuration"),
-    151: message("engine", "a setting of its configuration is not valid"),
-    152: message("engine", "its configuration file is not valid; read its start-up messages"),
+    150: message("engine", "a pin is configured incorrectly"),
+    151: message("engine", "a setting in the configuration is not valid"),
+    152: message("engine", "the configuration file is not valid; read the start-up messages"),
     160: message("engine", "an upload failed"),
     161: message("engine", "a download failed"),
     162: message("engine", "this setting is read-only"),
@@ -151,9 +151,9 @@ _FLUID_NC_ERRORS = {
     173: message("engine", "an expression has an unknown operator"),
     174: message("engine", "an argument of an expression is out of range"),
     175: message("engine", "the syntax of an expression is wrong"),
-    176: message("engine", "it does not know this flow command"),
-    177: message("engine", "a flow command stands outside a macro"),
-    178: message("engine", "its memory is full"),
+    176: message("engine", "unknown flow command"),
+    177: message("engine", "a flow command is outside a macro"),
+    178: message("engine", "the memory is full"),
     179: message("engine", "flow commands are nested too deeply"),
     180: message("engine", "a parameter cannot be set"),
     181: message("engine", "the value of a word is not valid"),
@@ -161,12 +161,12 @@ _FLUID_NC_ERRORS = {
 _COMMON_ALARMS = {
     1: message("engine", "hard limit: a limit switch was reached"),
     2: message("engine", "soft limit: a target lies beyond the travel"),
-    3: message("engine", "it was reset during motion"),
-    4: message("engine", "probe: it was not in its expected state before probing"),
-    5: message("engine", "probe: it touched nothing within the way"),
+    3: message("engine", "the controller was reset during motion"),
+    4: message("engine", "probe: not in the expected state before probing"),
+    5: message("engine", "probe: no contact within the travel"),
     6: message("engine", "homing was ended by a reset"),
     7: message("engine", "the door was opened during homing"),
-    8: message("engine", "homing: pulling off did not clear the limit switch"),
+    8: message("engine", "homing: the pull-off did not clear the limit switch"),
     9: message("engine", "homing: the limit switch was not found"),
 }
 _GRBL_ALARMS = {
@@ -175,37 +175,37 @@ _GRBL_ALARMS = {
     ),
 }
 _GRBL_HAL_ALARMS = {
-    10: message("engine", "its emergency stop is pressed; release it, then clear the fault"),
-    11: message("engine", "it must be homed first"),
+    10: message("engine", "the emergency stop is pressed; release it, then clear the fault"),
+    11: message("engine", "home all axes first"),
     12: message("engine", "a limit switch is pressed; free the axis first"),
     13: message("engine", "the probe is in contact; free it first"),
     14: message("engine", "the spindle did not reach its speed"),
     15: message(
         "engine", "homing: the second limit switch of an axis with two motors was not found"
     ),
-    16: message("engine", "its self-test failed; switch it off and on"),
+    16: message("engine", "the self-test failed; switch the controller off and on"),
     17: message("engine", "a motor reports a fault"),
-    18: message("engine", "homing: its configuration does not permit it"),
+    18: message("engine", "homing: not permitted by the configuration"),
     19: message("engine", "a Modbus device does not answer"),
     20: message("engine", "an input/output expander does not answer"),
-    21: message("engine", "its stored settings cannot be read or written"),
-    22: message("engine", "its input buffer overflowed"),
+    21: message("engine", "the stored settings cannot be read or written"),
+    22: message("engine", "the input buffer overflowed"),
 }
 _FLUID_NC_ALARMS = {
     10: message("engine", "the spindle did not reach its speed"),
     11: message("engine", "an input was active at start; check switches and buttons"),
     12: message("engine", "homing: both ends of an axis report a limit switch"),
-    13: message("engine", "its hard stop was pressed; release it, then clear the fault"),
-    14: message("engine", "it must be homed first"),
-    15: message("engine", "it has just started; clear the fault, then home"),
+    13: message("engine", "the hard stop was pressed; release it, then clear the fault"),
+    14: message("engine", "home all axes first"),
+    15: message("engine", "the controller has just started; clear the fault, then home"),
     16: message("engine", "an input/output expander was reset"),
-    17: message("engine", "a G-code error stopped its program"),
+    17: message("engine", "a G-code error stopped the program"),
     18: message("engine", "a limit switch was reached while probing"),
 }
 
 
-class Firmware(StrEnum):
-    """The program that runs on a controller."""
+class ControllerFirmware(StrEnum):
+    """The firmware of a controller."""
 
     GRBL = "GRBL"
     GRBL_HAL = "grblHAL"
@@ -214,42 +214,44 @@ class Firmware(StrEnum):
 
 _ERRORS = MappingProxyType(
     {
-        Firmware.GRBL: _COMMON_ERRORS | _GRBL_ERRORS,
-        Firmware.GRBL_HAL: _COMMON_ERRORS | _GRBL_HAL_ERRORS,
-        Firmware.FLUID_NC: _COMMON_ERRORS | _FLUID_NC_ERRORS,
+        ControllerFirmware.GRBL: _COMMON_ERRORS | _GRBL_ERRORS,
+        ControllerFirmware.GRBL_HAL: _COMMON_ERRORS | _GRBL_HAL_ERRORS,
+        ControllerFirmware.FLUID_NC: _COMMON_ERRORS | _FLUID_NC_ERRORS,
     }
 )
 _ALARMS = MappingProxyType(
     {
-        Firmware.GRBL: _COMMON_ALARMS | _GRBL_ALARMS,
-        Firmware.GRBL_HAL: _COMMON_ALARMS | _GRBL_HAL_ALARMS,
-        Firmware.FLUID_NC: _COMMON_ALARMS | _FLUID_NC_ALARMS,
+        ControllerFirmware.GRBL: _COMMON_ALARMS | _GRBL_ALARMS,
+        ControllerFirmware.GRBL_HAL: _COMMON_ALARMS | _GRBL_HAL_ALARMS,
+        ControllerFirmware.FLUID_NC: _COMMON_ALARMS | _FLUID_NC_ALARMS,
     }
 )
 
 
-def identify_firmware(texts: str) -> Firmware:
-    """Return which firmware greets and describes itself with these texts."""
-    lowered = texts.lower()
-    if "fluidnc" in lowered:
-        return Firmware.FLUID_NC
-    return Firmware.GRBL_HAL if "grblhal" in lowered else Firmware.GRBL
+def identify_firmware(texts: str) -> ControllerFirmware:
+    """Identify the firmware from the greeting and the notes of a controller."""
+    lowercase = texts.lower()
+    if "fluidnc" in lowercase:
+        return ControllerFirmware.FLUID_NC
+    return ControllerFirmware.GRBL_HAL if "grblhal" in lowercase else ControllerFirmware.GRBL
 
 
-def describe_error(number: int, firmware: Firmware) -> str:
-    """Return ``error:N`` in words."""
+def describe_error(number: int, firmware: ControllerFirmware) -> str:
+    """Return the text of ``error:N`` for a user."""
     return _describe("error", number, _ERRORS[firmware], firmware)
 
 
-def describe_alarm(number: int, firmware: Firmware) -> str:
-    """Return ``ALARM:N`` in words."""
+def describe_alarm(number: int, firmware: ControllerFirmware) -> str:
+    """Return the text of ``ALARM:N`` for a user."""
     return _describe("ALARM", number, _ALARMS[firmware], firmware)
 
 
-def _describe(kind: str, number: int, meanings: Mapping[int, str], firmware: Firmware) -> str:
+def _describe(
+    prefix: str, number: int, meanings: Mapping[int, str], firmware: ControllerFirmware
+) -> str:
     unknown = message(
-        "engine", "a number that {firmware} does not document; see the manual of its maker"
+        "engine", "a number that {firmware} does not document; see the maker's manual"
     ).fill(firmware=firmware.value)
     return message("engine", "{what}:{number}, {meaning}").fill(
-        what=kind, number=number, meaning=meanings.get(number, unknown)
+        what=prefix, number=number, meaning=meanings.get(number, unknown)
     )

@@ -1,55 +1,55 @@
-"""What the state word of a report means: whether axes move, and what forbids a new move.
+"""Meaning of the state word in a status report: whether axes move, and whether they may move.
 
 Source: GRBL 1.1 (``report.c``), grblHAL (``report.c``, ``system.h``), FluidNC (``State.h``).
 """
 
 from dataclasses import dataclass
 
-from rotemina.drivers.gcode.grbl_reports import Status
+from rotemina.drivers.gcode.grbl_reports import StatusReport
 from rotemina.sim.messages import message
 
-# Door: 0 closed again, 1 open and at rest; above, the axes brake, retract, or return.
+# Substates of Door: 0 is closed again, and 1 is open and at rest. At higher ones axes brake,
+# retract or return.
 _LAST_DOOR_STATE_AT_REST = 1
 
 
 @dataclass(frozen=True, slots=True)
 class MachineState:
-    """What a state word says of the machine.
+    """The state of the machine according to a state word.
 
     Attributes
     ----------
-    moving : bool
-        Whether axes move, or still brake: a reset would lose steps now.
+    is_moving : bool
+        Whether axes move or brake. Then a reset would lose steps.
     fault : str or None
-        Why nothing may begin to move.
+        Reason why no motion may begin; None if motion may begin.
     position_lost : bool
-        Whether the motors may have been without current, or the axes halted abruptly.
-    holds, alarm : bool
-        Whether it is a feed hold, which a stop brings about, or an alarm, which a controller has
-        until it is homed.
-    recognized : bool
-        Whether the word is one that the firmware documents.
+        Whether steps may be lost, because the motors may have had no current or stopped abruptly.
+    is_hold, is_alarm : bool
+        Whether the state is a feed hold, as after a stop, or an alarm, as before homing.
+    is_recognized : bool
+        Whether the state word is documented.
     """
 
-    moving: bool = False
+    is_moving: bool = False
     fault: str | None = None
     position_lost: bool = False
-    holds: bool = False
-    alarm: bool = False
-    recognized: bool = True
+    is_hold: bool = False
+    is_alarm: bool = False
+    is_recognized: bool = True
 
 
-_REST = MachineState()
-_MOVING = MachineState(moving=True)
-_BY_WORD = {
-    "Idle": _REST,
+_AT_REST = MachineState()
+_MOVING = MachineState(is_moving=True)
+_STATE_BY_WORD = {
+    "Idle": _AT_REST,
     "Run": _MOVING,
     "Jog": _MOVING,
     "Home": _MOVING,
     "Alarm": MachineState(
         fault=message("engine", "the controller is locked by an alarm; clear the fault, then home"),
         position_lost=True,
-        alarm=True,
+        is_alarm=True,
     ),
     "Check": MachineState(
         fault=message(
@@ -59,7 +59,7 @@ _BY_WORD = {
     "Sleep": MachineState(
         fault=message(
             "engine",
-            "the controller sleeps, its motors are without current; clear the fault, then home",
+            "the controller sleeps and its motors have no current; clear the fault, then home",
         ),
         position_lost=True,
     ),
@@ -73,29 +73,29 @@ _BY_WORD = {
 }
 _DOOR_OPEN = message("engine", "the safety door is open; close it, then clear the fault")
 _DOOR_CLOSED = message("engine", "the safety door was opened and is closed again; clear the fault")
-_HELD = message(
+_PAUSED = message(
     "engine",
-    "the controller was paused (feed hold), by a button of its own or another program; "
-    "clear the fault",
+    "the controller was paused (feed hold) by one of its buttons or by another program; clear "
+    "the fault",
 )
 
 
-def interpret_state(status: Status) -> MachineState:
-    """Return what the state word of a report means, with its number after the colon."""
+def interpret_state(status: StatusReport) -> MachineState:
+    """Interpret the state word of a report and the substate after its colon."""
     if status.state == "Hold":
-        # Without a number nobody can tell whether the axes still brake.
-        return MachineState(moving=status.substate != 0, fault=_HELD, holds=True)
+        # Without a substate the axes may still be braking.
+        return MachineState(is_moving=status.substate != 0, fault=_PAUSED, is_hold=True)
     if status.state == "Door":
-        moving = status.substate is None or status.substate > _LAST_DOOR_STATE_AT_REST
+        is_moving = status.substate is None or status.substate > _LAST_DOOR_STATE_AT_REST
         return MachineState(
-            moving=moving, fault=_DOOR_CLOSED if status.substate == 0 else _DOOR_OPEN
+            is_moving=is_moving, fault=_DOOR_CLOSED if status.substate == 0 else _DOOR_OPEN
         )
-    known = _BY_WORD.get(status.state)
-    if known is not None:
-        return known
-    unknown = message(
+    state = _STATE_BY_WORD.get(status.state)
+    if state is not None:
+        return state
+    fault = message(
         "engine",
         "the controller reports a state that this program does not know, {state}; check the "
         "machine, then clear the fault",
     ).fill(state=repr(status.state))
-    return MachineState(moving=True, fault=unknown, recognized=False)
+    return MachineState(is_moving=True, fault=fault, is_recognized=False)

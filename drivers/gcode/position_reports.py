@@ -1,115 +1,123 @@
-"""The positions that a controller reports: which may be used, and of which axes they are known."""
+"""Check of reported positions: which reports are plausible, and which positions are known."""
 
 from collections.abc import Iterable, Sequence
 
+from rotemina.drivers.contract import ReadingCheck
 from rotemina.drivers.gcode.controller_settings import ControllerSettings
 from rotemina.drivers.gcode.coordinates import StageAxis
-from rotemina.drivers.gcode.dialogue import Reception
-from rotemina.drivers.gcode.grbl_reports import Status
+from rotemina.drivers.gcode.dialogue import ReceivedMessage
+from rotemina.drivers.gcode.grbl_reports import StatusReport
 from rotemina.drivers.gcode.jog_guard import JogGuard
 from rotemina.drivers.gcode.machine_states import interpret_state
-from rotemina.drivers.reading_check import ReadingCheck
 
 
 class PositionReports:
-    """Keeps the axes as the controller counts them, and what is known of their positions.
+    """Positions of the axes: checks reports, determines origins, and knows which are valid.
 
     Parameters
     ----------
     axes : tuple of StageAxis
     settings : ControllerSettings
     guard : JogGuard
-        It permits targets inside the ranges of these axes.
+        Updated with the permitted targets of the axes.
     """
 
     def __init__(
         self, axes: tuple[StageAxis, ...], settings: ControllerSettings, guard: JogGuard
     ) -> None:
         #: Axes whose position is known.
-        self.known: set[str] = set()
+        self.known_axes: set[str] = set()
         self._settings, self._guard = settings, guard
-        self._tried: set[str] = set()
-        self._strange_word: str | None = None  # a state that only the latest report had
+        self._confirmed_axes: set[str] = set()
+        # Unknown state word of the latest report, if it had one.
+        self._unknown_state: str | None = None
         self._use_axes(axes)
 
     @property
     def axes(self) -> tuple[StageAxis, ...]:
-        """The axes, with their present origins."""
+        """The axes with their current origins."""
         return self._axes
 
     @property
-    def names(self) -> tuple[str, ...]:
+    def axis_names(self) -> tuple[str, ...]:
         """The names of all axes."""
         return tuple(axis.name for axis in self._axes)
 
     @property
-    def untried(self) -> list[str]:
-        """The axes that were not seen to go where they are sent since they were homed."""
-        return [name for name in self.names if name not in self._tried]
+    def untried_axes(self) -> list[str]:
+        """The axes for which no reading since homing has confirmed the direction of motion."""
+        return [name for name in self.axis_names if name not in self._confirmed_axes]
 
     @property
     def is_in_doubt(self) -> bool:
-        """Whether the latest report could not be used: nothing may begin to move."""
+        """Whether the latest report was not usable, so that no motion may begin."""
         return self._readings.is_in_doubt
 
     @property
     def shows_new_position(self) -> bool:
-        """Whether reports in a row agree that the axes must be elsewhere."""
+        """Whether several refused reports agree on another position of the axes."""
         return self._readings.shows_new_position
 
-    def values(self, position: Sequence[float]) -> tuple[float, ...]:
-        """Return a report's position in m or rad."""
-        return tuple(axis.value(position[axis.number]) for axis in self._axes)
+    def convert_position(self, position: Sequence[float]) -> tuple[float, ...]:
+        """Convert the position of a report to m or rad."""
+        return tuple(axis.from_controller(position[axis.number]) for axis in self._axes)
 
-    def is_usable(self, status: Status, reception: Reception) -> bool:
-        """Return whether a report is complete, plausible, and of a state that is no slip."""
+    def is_usable(self, status: StatusReport, reception: ReceivedMessage) -> bool:
+        """Return whether a report is complete, plausible, and has a valid state word."""
         if status.position is None or len(status.position) < len(self._axes):
             return False
-        known = [index for index, name in enumerate(self.names) if name in self.known]
-        values = self.values(status.position)
-        if not self._readings.accepts(values, reception.asked_s, reception.received_s, known):
+        known_indices = [
+            index for index, name in enumerate(self.axis_names) if name in self.known_axes
+        ]
+        values = self.convert_position(status.position)
+        if not self._readings.accept_report(
+            values, reception.requested_s, reception.received_s, known_indices
+        ):
             return False
-        # A byte that was lost makes a strange word once; a strange state says it again.
-        strange = None if interpret_state(status).recognized else status.state
-        usable = strange is None or strange == self._strange_word
-        self._strange_word = strange
-        return usable
+        # A lost byte causes an unknown word only once. An unknown word that is repeated is a real
+        # state of the controller.
+        unknown_state = None if interpret_state(status).is_recognized else status.state
+        is_usable = unknown_state is None or unknown_state == self._unknown_state
+        self._unknown_state = unknown_state
+        return is_usable
 
-    def expect_anywhere(self) -> None:
-        """Accept the next report from wherever it is."""
+    def accept_any_position(self) -> None:
+        """Accept any position in the next report."""
         self._readings.restart()
 
-    def trust_count(self, position: Sequence[float]) -> None:
-        """Take the controller's count for the position, where it lies within the range."""
-        for axis, value in zip(self._axes, self.values(position), strict=True):
+    def accept_step_count(self, position: Sequence[float]) -> None:
+        """Accept the controller's step count as the position of each axis that is in its range."""
+        for axis, value in zip(self._axes, self.convert_position(position), strict=True):
             if axis.low - axis.tolerance <= value <= axis.high + axis.tolerance:
-                self.known.add(axis.name)
+                self.known_axes.add(axis.name)
 
-    def locate(self, homed: set[str], position: Sequence[float], taken_s: float) -> None:
-        """Find out where the count of homed axes begins; their position is known from now on.
+    def locate_axes(self, homed: set[str], position: Sequence[float], taken_s: float) -> None:
+        """Determine the origins of homed axes from their position. Their positions are then known.
 
         Raises
         ------
         InputError
-            If the count fits no machine space, or the range of the robot file.
+            If a position is outside the controller's travel or the range of the robot file.
         """
         axes = tuple(
-            axis.located(position[axis.number], self._settings) if axis.name in homed else axis
+            axis.with_homed_origin(position[axis.number], self._settings)
+            if axis.name in homed
+            else axis
             for axis in self._axes
         )
         self._use_axes(axes)
-        self._readings.restart(self.values(position), taken_s)
-        self.known |= homed
+        self._readings.restart(self.convert_position(position), taken_s)
+        self.known_axes |= homed
 
     def confirm_direction(self, names: Iterable[str]) -> None:
-        """Note that axes were seen to go where they are sent."""
-        self._tried.update(names)
+        """Note that readings have confirmed the direction of these axes."""
+        self._confirmed_axes.update(names)
 
-    def forget(self, names: Iterable[str]) -> None:
-        """Take the position of axes as unknown."""
+    def forget_positions(self, names: Iterable[str]) -> None:
+        """Mark the positions of axes as unknown."""
         forgotten = set(names)
-        self.known -= forgotten
-        self._tried -= forgotten
+        self.known_axes -= forgotten
+        self._confirmed_axes -= forgotten
 
     def _use_axes(self, axes: tuple[StageAxis, ...]) -> None:
         self._axes = axes

@@ -1,53 +1,56 @@
-"""A straight move sent piece by piece, so that a torn line ends it.
+"""Straight move that is sent in pieces, so that it ends if the connection breaks.
 
-A G-code controller has no watchdog: it goes on to the end of what it was told. So it is never told
-more than it needs in order not to brake: the way of `ahead_s`, and that of its braking. On a line
-that is too slow for that it brakes between pieces.
+A G-code controller has no watchdog and executes every line to its end. So the driver sends only as
+much of the path as the controller needs to move without braking: the path of the next `ahead_s`
+plus the braking distance. On a line that is too slow for that, the axes brake between pieces.
 """
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Self
 
-from rotemina.drivers.gcode.coordinates import StageAxis, feed_of
-from rotemina.sim.messages import message
-from rotemina.sim.quantities import fixed
+from rotemina.drivers.gcode.coordinates import StageAxis, compute_feed
+from rotemina.sim.messages import format_fixed, message
 
-_MIN_AHEAD_S = 0.25  # more than an answer and the next report take on a fast line
-_MAX_AHEAD_S = 0.5  # so long motion goes on after a line is torn, and while it brakes
+# On a fast line, an answer and the next report together take less time.
+_MIN_AHEAD_S = 0.25
+# After the connection breaks, motion continues for this time plus the braking time.
+_MAX_AHEAD_S = 0.5
 _PIECE_S = 0.1
-_REPORT_S = 0.05  # between two reports of a fast line
-# How far an axis goes before its reading has shown that it goes the right way, mm or degrees.
-_TRIAL_WAY = 1.0
-_SHARE_OF_TRIAL = 0.5  # of that, seen by a reading, is enough
+# Period of the reports on a fast line.
+_REPORT_PERIOD_S = 0.05
+# Maximum travel of an axis until a reading has confirmed its direction, mm or degrees.
+_TRIAL_DISTANCE = 1.0
+# A reading confirms the direction if it shows at least this fraction of the trial distance.
+_MIN_TRIAL_RATIO = 0.5
 
 
 @dataclass(slots=True)
 class StraightMove:
-    """A straight way from where the axes rest.
+    """A straight move from rest.
 
     Attributes
     ----------
     axes : tuple of StageAxis
-        Those that move.
+        The axes that move.
     start, end : tuple of float
-        Of each, mm or degrees, as the controller counts.
-    seconds : float
-        How long it takes without speeding up and braking.
+        Position of each of these axes in the controller's coordinates, mm or degrees.
+    duration_s : float
+        Duration if the axes did not have to accelerate and brake.
     braking_s : float
-        How long braking takes.
-    sent : float
-        The share that the controller knows of.
+        Duration of braking.
+    sent_fraction : float
+        Fraction of the path that has been sent, 0 to 1.
     ahead_s : float
-        The way of so many seconds is sent ahead of the readings.
+        How far ahead of the readings the path is sent, in seconds of motion.
     """
 
     axes: tuple[StageAxis, ...]
     start: tuple[float, ...]
     end: tuple[float, ...]
-    seconds: float
+    duration_s: float
     braking_s: float
-    sent: float = 0.0
+    sent_fraction: float = 0.0
     ahead_s: float = _MIN_AHEAD_S
 
     @classmethod
@@ -59,98 +62,115 @@ class StraightMove:
         speeds: Mapping[str, float],
         round_trip_s: float = 0.0,
     ) -> Self | None:
-        """Return the move from a report's position to targets, m or rad, or None.
+        """Create the move to targets, m or rad; return None if no axis has to move.
 
-        ``round_trip_s`` is how long the controller takes to answer.
+        ``position`` is the position in the latest report, and ``round_trip_s`` the time that the
+        controller takes to answer.
         """
-        moved, seconds, braking_s = [], 0.0, 0.0
+        moves, duration_s, braking_s = [], 0.0, 0.0
         for axis in axes:
             if axis.name not in targets:
                 continue
-            end = axis.rounded(targets[axis.name])
-            way = abs(end - position[axis.number])
-            if way == 0.0:
+            end = axis.to_controller(targets[axis.name])
+            distance = abs(end - position[axis.number])
+            if distance == 0.0:
                 continue
             speed = min(axis.speed, speeds.get(axis.name, axis.speed))
-            moved.append((axis, position[axis.number], end))
-            seconds = max(seconds, way / (speed * axis.scale))
+            moves.append((axis, position[axis.number], end))
+            duration_s = max(duration_s, distance / (speed * axis.scale))
             braking_s = max(braking_s, speed / axis.acceleration)
-        if not moved:
+        if not moves:
             return None
-        names, starts, ends = zip(*moved, strict=True)
-        # A report is a round trip and its period old when the next line arrives, one trip later.
-        ahead_s = min(max(_MIN_AHEAD_S, 2.0 * round_trip_s + _REPORT_S), _MAX_AHEAD_S)
-        return cls(names, starts, ends, seconds, braking_s, ahead_s=ahead_s)
+        moving_axes, starts, ends = zip(*moves, strict=True)
+        # When a line arrives at the controller, the report that it is based on is at most two round
+        # trips and one report period old.
+        ahead_s = min(max(_MIN_AHEAD_S, 2.0 * round_trip_s + _REPORT_PERIOD_S), _MAX_AHEAD_S)
+        return cls(moving_axes, starts, ends, duration_s, braking_s, ahead_s=ahead_s)
 
     @property
-    def fully_sent(self) -> bool:
-        """Whether the controller knows all of it."""
-        return self.sent >= 1.0
+    def is_fully_sent(self) -> bool:
+        """Whether the whole path has been sent."""
+        return self.sent_fraction >= 1.0
 
-    def line(self, position: Sequence[float], *, on_trial: Collection[str] = ()) -> str | None:
-        """Return the next piece as a jog, where the controller needs it by now; None before.
+    def make_next_line(
+        self, position: Sequence[float], *, on_trial: Collection[str] = ()
+    ) -> str | None:
+        """Return the next piece as a jog if the controller needs it now, otherwise None.
 
-        An axis ``on_trial`` goes no farther than a millimetre or a degree.
+        An axis ``on_trial`` moves by a millimetre or a degree at most.
         """
-        most = min((self._share_of_trial(axis) for axis in on_trial), default=1.0)
-        if self.sent >= most:
+        max_fraction = min((self._compute_trial_fraction(axis) for axis in on_trial), default=1.0)
+        if self.sent_fraction >= max_fraction:
             return None
-        ahead_s = (self.sent - self._share(position)) * self.seconds
-        least_s = self.ahead_s + self.braking_s
-        if ahead_s >= least_s:
+        sent_ahead_s = (
+            self.sent_fraction - self._compute_covered_fraction(position)
+        ) * self.duration_s
+        required_s = self.ahead_s + self.braking_s
+        if sent_ahead_s >= required_s:
             return None
-        share = self.sent + (least_s - ahead_s + _PIECE_S) / self.seconds
-        self.sent = most if share > most - 0.5 * _PIECE_S / self.seconds else share
+        fraction = self.sent_fraction + (required_s - sent_ahead_s + _PIECE_S) / self.duration_s
+        # The last piece may be up to half a piece longer, so that no tiny piece follows.
+        self.sent_fraction = (
+            max_fraction if fraction > max_fraction - 0.5 * _PIECE_S / self.duration_s else fraction
+        )
         words = [
-            f"{axis.letter}{start + self.sent * (end - start):.4f}"
+            f"{axis.letter}{start + self.sent_fraction * (end - start):.4f}"
             for axis, start, end in zip(self.axes, self.start, self.end, strict=True)
         ]
-        whole = {
+        distances = {
             axis: end - start
             for axis, start, end in zip(self.axes, self.start, self.end, strict=True)
         }
-        feed = feed_of(whole, self.seconds)
+        feed = compute_feed(distances, self.duration_s)
         return f"$J=G53 G21 G90 {' '.join(words)} F{feed:.3f}"
 
-    def passed_trial(self, position: Sequence[float]) -> list[str]:
-        """Return the axes that a reading shows on their way to their ends."""
+    def find_confirmed_axes(self, position: Sequence[float]) -> list[str]:
+        """Return the axes that a reading shows moving towards their targets."""
         return [
             axis.name
             for axis, start, end in zip(self.axes, self.start, self.end, strict=True)
             if (position[axis.number] - start) * (1.0 if end > start else -1.0)
-            >= _SHARE_OF_TRIAL * min(abs(end - start), _TRIAL_WAY)
+            >= _MIN_TRIAL_RATIO * min(abs(end - start), _TRIAL_DISTANCE)
         ]
 
-    def strayed(self, position: Sequence[float]) -> str:
-        """Return which axis reads outside its way, as one that goes backwards; "" if none."""
+    def describe_path_deviation(self, position: Sequence[float]) -> str:
+        """Describe an axis that is outside its path; return an empty text if there is none.
+
+        An axis that moves in the wrong direction leaves its path.
+        """
         for axis, start, end in zip(self.axes, self.start, self.end, strict=True):
-            at, slack = position[axis.number], axis.tolerance * axis.scale
-            if not min(start, end) - slack <= at <= max(start, end) + slack:
+            reading, slack = position[axis.number], axis.tolerance * axis.scale
+            if not min(start, end) - slack <= reading <= max(start, end) + slack:
                 return message(
                     "engine",
-                    "axis {name} reads {at} on its way from {start} to {end} by the controller's "
-                    "count; check the direction and the settings of this axis, then home",
-                ).fill(name=axis.name, at=fixed(at, 3), start=fixed(start, 3), end=fixed(end, 3))
+                    "axis {name} reads {at} during a move from {start} to {end} (controller "
+                    "coordinates); check the direction and the settings of this axis, then home",
+                ).fill(
+                    name=axis.name,
+                    at=format_fixed(reading, 3),
+                    start=format_fixed(start, 3),
+                    end=format_fixed(end, 3),
+                )
         return ""
 
-    def missed(self, position: Sequence[float]) -> str:
-        """Return which axis rests short of its end, and where; "" where all have arrived."""
+    def describe_position_error(self, position: Sequence[float]) -> str:
+        """Describe an axis that is not at its target; return an empty text if all have arrived."""
         for axis, end in zip(self.axes, self.end, strict=True):
-            at = position[axis.number]
-            if abs(at - end) > axis.tolerance * axis.scale:
+            reading = position[axis.number]
+            if abs(reading - end) > axis.tolerance * axis.scale:
                 return message(
-                    "engine", "axis {name} at {at} instead of {end} by the controller's count"
-                ).fill(name=axis.name, at=fixed(at, 3), end=fixed(end, 3))
+                    "engine", "axis {name} is at {at} instead of {end} (controller coordinates)"
+                ).fill(name=axis.name, at=format_fixed(reading, 3), end=format_fixed(end, 3))
         return ""
 
-    def _share_of_trial(self, name: str) -> float:
+    def _compute_trial_fraction(self, name: str) -> float:
         for axis, start, end in zip(self.axes, self.start, self.end, strict=True):
             if axis.name == name:
-                return min(1.0, _TRIAL_WAY / abs(end - start))
+                return min(1.0, _TRIAL_DISTANCE / abs(end - start))
         return 1.0
 
-    def _share(self, position: Sequence[float]) -> float:
-        """Return how much of it lies behind, by the axis that goes farthest."""
+    def _compute_covered_fraction(self, position: Sequence[float]) -> float:
+        """Return the fraction of the path that the axis with the most progress has covered."""
         return max(
             (position[axis.number] - start) / (end - start)
             for axis, start, end in zip(self.axes, self.start, self.end, strict=True)

@@ -1,39 +1,36 @@
-"""The joystick at the machine's controller: potentiometers and buttons as an input device."""
+"""The joystick wired to the machine's controller: potentiometers and buttons as an input device."""
 
 import time
 from collections.abc import Callable, Sequence
 
 from rotemina.drivers.abilities import AnalogInputs
-from rotemina.drivers.clock import Clock
-from rotemina.drivers.driver import Driver
-from rotemina.drivers.errors import StateError
+from rotemina.drivers.contract import Clock, DeviceState, Driver, InputLostError, StateError
 from rotemina.drivers.inputs.device import (
-    CONFIRM_S,
+    KEEPALIVE_PERIOD_S,
     InputDevice,
     InputIdentity,
-    InputLostError,
     InputReading,
     InputSource,
 )
-from rotemina.drivers.samples import DeviceState
-from rotemina.sim.errors import reason_of
-from rotemina.sim.messages import marked, message
+from rotemina.sim.errors import describe_exception
+from rotemina.sim.messages import marked
 
-Told = tuple[tuple[float, ...], tuple[bool, ...]]
+#: Readings of the potentiometers, 0 to 1, and whether each button is held.
+JoystickState = tuple[tuple[float, ...], tuple[bool, ...]]
 
 
-class BoardInputs(InputSource):
-    """The source of the joystick at the controller, if the driver in use has one.
+class BoardJoystickSource(InputSource):
+    """Finds and opens the joystick wired to the machine's controller, if the driver has one.
 
-    The driver belongs to a worker that alone talks to the device. Nothing is asked of the device
-    here: its driver's latest status and readings are looked at, as any thread may.
+    Only the driver's worker thread communicates with the controller. This class only reads the
+    driver's latest status and readings, which any thread may do.
 
     Parameters
     ----------
     driver : callable
-        Returns the driver in use now; the program exchanges it.
+        Returns the driver in use, which may be replaced while the program runs.
     clock : callable
-        The host's time, s.
+        Returns the host's time, s.
     """
 
     name = marked("engine", "Joystick of the controller")
@@ -42,142 +39,128 @@ class BoardInputs(InputSource):
         self, driver: Callable[[], Driver | None], *, clock: Clock = time.monotonic
     ) -> None:
         super().__init__(clock=clock)
-        self._driver = driver
+        self._get_driver = driver
 
     def devices(self) -> Sequence[InputIdentity]:
-        """Return the device, if the driver in use has and reports it."""
-        driver = self._driver()
+        """Return the joystick, if the driver in use has one and reports its readings."""
+        driver = self._get_driver()
         if not isinstance(driver, AnalogInputs):
             return ()
         try:
-            _latest(driver)
+            _read_joystick(driver)
         except InputLostError:
             return ()
-        return (_identity(driver),)
+        return (_make_identity(driver),)
 
     def open(self, identity: InputIdentity) -> "BoardJoystick":
-        """Open it; see :class:`InputSource`."""
-        driver = self._driver()
-        if not isinstance(driver, AnalogInputs) or _identity(driver) != identity:
-            raise InputLostError(
-                message("engine", "{name} does not belong to the driver in use").fill(
-                    name=identity.name
-                )
-            )
-        return BoardJoystick(identity, driver, self._driver, self.clock)
+        """Open the joystick; see :class:`InputSource`."""
+        driver = self._get_driver()
+        if not isinstance(driver, AnalogInputs) or _make_identity(driver) != identity:
+            raise InputLostError("{name} does not belong to the driver in use", name=identity.name)
+        return BoardJoystick(identity, driver, self._get_driver, self.clock)
 
 
 class BoardJoystick(InputDevice):
-    """Potentiometers and buttons, as long as the driver that they were opened on is in use.
+    """The potentiometers and buttons of a driver. Reading fails once another driver is in use.
 
     Parameters
     ----------
     identity : InputIdentity
     driver : AnalogInputs
-        The driver that has them.
-    in_use : callable
-        Returns the driver in use now.
+        The driver that has the joystick.
+    get_driver_in_use : callable
+        Returns the driver in use.
     clock : callable
-        The host's time, s.
+        Returns the host's time, s.
     """
 
-    # The driver says at any moment whether its readings are still true.
+    # An unchanged state is reported in every period, and a silent driver ends the readings. So a
+    # pause in the readings is a fault.
     streams = True
 
     def __init__(
         self,
         identity: InputIdentity,
         driver: AnalogInputs,
-        in_use: Callable[[], Driver | None],
+        get_driver_in_use: Callable[[], Driver | None],
         clock: Clock,
     ) -> None:
         self.identity = identity
-        readings, buttons = _latest(driver)
+        readings, buttons = _read_joystick(driver)
         self.axes = tuple(f"Potentiometer {number}" for number in range(1, len(readings) + 1))
         self.buttons = tuple(f"Button {number}" for number in range(1, len(buttons) + 1))
         self._driver = driver
-        self._in_use = in_use
+        self._get_driver_in_use = get_driver_in_use
         self._clock = clock
-        self._told: Told | None = None
-        self._told_s = 0.0
+        self._last_state: JoystickState | None = None
+        self._last_reading_s = 0.0
         self._is_open = True
 
     def read(self) -> tuple[InputReading, ...]:
-        """Return a reading after a change, and every ``CONFIRM_S``; see :class:`InputDevice`."""
+        """Return a reading if the state has changed, or if the latest reading is too old.
+
+        An unchanged state is reported again after ``KEEPALIVE_PERIOD_S``; see :class:`InputDevice`.
+        """
         if not self._is_open:
-            raise StateError(
-                message("engine", "{name} was closed; open it again").fill(name=self.identity.name)
-            )
-        if self._in_use() is not self._driver:
-            raise InputLostError(
-                message("engine", "{name}: another driver is in use now").fill(
-                    name=self.identity.name
-                )
-            )
-        readings, buttons = told = _latest(self._driver)
+            raise StateError("{name} was closed; open it again", name=self.identity.name)
+        if self._get_driver_in_use() is not self._driver:
+            raise InputLostError("{name}: another driver is in use now", name=self.identity.name)
+        readings, buttons = state = _read_joystick(self._driver)
         if (len(readings), len(buttons)) != (len(self.axes), len(self.buttons)):
             raise InputLostError(
-                message(
-                    "engine",
-                    "{name} now has {axes} axes and {buttons} buttons instead of "
-                    "{axes_before} and {buttons_before}; open it again",
-                ).fill(
-                    name=self.identity.name,
-                    axes=len(readings),
-                    buttons=len(buttons),
-                    axes_before=len(self.axes),
-                    buttons_before=len(self.buttons),
-                )
+                "{name} now has {axes} axes and {buttons} buttons instead of "
+                "{axes_before} and {buttons_before}; open it again",
+                name=self.identity.name,
+                axes=len(readings),
+                buttons=len(buttons),
+                axes_before=len(self.axes),
+                buttons_before=len(self.buttons),
             )
         now_s = self._clock()
-        if told == self._told and now_s - self._told_s < CONFIRM_S:
+        if state == self._last_state and now_s - self._last_reading_s < KEEPALIVE_PERIOD_S:
             return ()
-        self._told, self._told_s = told, now_s
+        self._last_state, self._last_reading_s = state, now_s
         axes = tuple(2.0 * reading - 1.0 for reading in readings)
         return (InputReading(now_s, axes, buttons),)
 
     def close(self) -> None:
-        """Release it; see :class:`InputDevice`."""
+        """Release the joystick; see :class:`InputDevice`."""
         self._is_open = False
 
 
-def _identity(driver: Driver) -> InputIdentity:
-    return InputIdentity(f"board:{driver.name}", f"Joystick of {driver.name}", "board")
+def _make_identity(driver: Driver) -> InputIdentity:
+    return InputIdentity(
+        key=f"board:{driver.name}", name=f"Joystick of {driver.name}", source="board"
+    )
 
 
-def _latest(driver: AnalogInputs) -> Told:
-    """Return the latest readings of a sound driver; raise :class:`InputLostError` otherwise."""
+def _read_joystick(driver: AnalogInputs) -> JoystickState:
+    """Return the driver's latest readings; raise :class:`InputLostError` if it has none."""
     try:
         status = driver.status()
         readings, buttons = driver.analog_inputs()
-    except Exception as error:  # its worker may be closing it at this very moment
+    # The worker may close the driver at the same time, which may raise any exception here.
+    except Exception as error:
         raise InputLostError(
-            message("engine", "{name}: the joystick cannot be read: {error}").fill(
-                name=driver.name, error=reason_of(error)
-            )
+            "{name}: the joystick cannot be read: {error}",
+            name=driver.name,
+            error=describe_exception(error),
         ) from error
     if status.state is DeviceState.CLOSED:
         raise InputLostError(
-            message("engine", "{name} is not connected; connect it to use its joystick").fill(
-                name=driver.name
-            )
+            "{name} is not connected; connect it to use its joystick", name=driver.name
         )
     if status.state is DeviceState.FAULT:
         raise InputLostError(
-            message(
-                "engine", "{name}: the joystick is not trusted during a fault; clear the fault"
-            ).fill(name=driver.name)
+            "{name}: the joystick is disabled during a fault; clear the fault", name=driver.name
         )
+    # Above 0 only if the device has missed its time-out.
     if status.silent_s > 0.0:
         raise InputLostError(
-            message("engine", "{name} and its joystick have been silent for a while").fill(
-                name=driver.name
-            )
+            "{name} and its joystick do not respond; check the connection", name=driver.name
         )
     if not readings and not buttons:
         raise InputLostError(
-            message("engine", "{name}: no joystick reports; check whether one is plugged in").fill(
-                name=driver.name
-            )
+            "{name}: no joystick responds; check that one is plugged in", name=driver.name
         )
     return readings, buttons

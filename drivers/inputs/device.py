@@ -1,8 +1,8 @@
-"""The contract of input devices: found by a source, opened, and read.
+"""The contract of input devices: a source finds a device, which is then opened and read.
 
-A source is a plugin (``rotemina.inputs``). Readings are what the device says, neither calibrated
-nor trusted: that a stick stands at its centre, which axis it is for and how far it goes is the
-business of :mod:`rotemina.app.motion.teleoperation`.
+A source is a plugin (``rotemina.inputs``). Readings are not calibrated or checked here:
+:mod:`rotemina.app.motion.teleoperation` knows the centre and the range of a stick, and the axis
+that it moves.
 """
 
 import time
@@ -10,32 +10,28 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import nan
-from typing import ClassVar, Protocol, Self
+from typing import TYPE_CHECKING, ClassVar, Protocol, Self
 
-from rotemina.drivers.clock import Clock
-from rotemina.drivers.errors import DriverError
+from rotemina.drivers.contract import Clock
+from rotemina.sim.compatibility import FormerMember, serve_former_names
 from rotemina.sim.plugin_points import API_VERSIONS
 
-#: How often a source that knows the state of its device at any moment confirms it, s.
-CONFIRM_S = 0.1
-
-
-class InputLostError(DriverError, ConnectionError):
-    """The input device was unplugged, or no longer responds."""
+#: Period at which a device that always knows its state reports an unchanged state again, s.
+KEEPALIVE_PERIOD_S = 0.1
 
 
 @dataclass(frozen=True, slots=True)
 class InputIdentity:
-    """Which device it is: ``key`` stays the same over restarts and replugging.
+    """Identity of a device. The ``key`` stays the same when the device is restarted or replugged.
 
     Attributes
     ----------
     key : str
-        For example ``hid:046d:c215:0001``; calibrations and profiles are kept under it.
+        For example ``hid:046d:c215:0001``. Calibrations and profiles are stored under this key.
     name : str
-        What its maker calls it, for screens.
+        The manufacturer's name of the device, for display.
     source : str
-        The entry point of the source that found it.
+        Name of the source's entry point.
     """
 
     key: str
@@ -43,35 +39,36 @@ class InputIdentity:
     source: str
 
 
-class HasControls(Protocol):
+class ControlNames(Protocol):
     """Names of axes and buttons, in the order of the readings."""
 
     @property
     def axes(self) -> tuple[str, ...]:
-        """What the axes are called."""
+        """Names of the axes."""
 
     @property
     def buttons(self) -> tuple[str, ...]:
-        """What the buttons are called."""
+        """Names of the buttons."""
 
 
 @dataclass(frozen=True, slots=True)
 class InputReading:
-    """The latest reading of a device.
+    """One reading of a device.
 
     Attributes
     ----------
     host_time_s : float
-        When it came in, on the host's monotonic clock.
+        Time of arrival on the host's monotonic clock.
     axes : tuple of float
-        −1 to 1 each, of the whole range that the device declares; a hat is two axes of −1, 0, 1.
-        NaN: the device has not told this axis yet (one with several reports tells a few at a time);
-        it is nowhere, and not to be taken for centred.
+        −1 to 1 each, over the whole range that the device declares. A hat is two axes with the
+        values −1, 0, 1. NaN means that the device has not reported the axis yet, because a device
+        with several reports sends only some axes at a time. Such an axis must not be taken as
+        centred.
     buttons : tuple of bool
-        Whether each is held.
+        Whether each button is held.
     fault : str or None
-        Why what came in could not be understood; None if it could. The device then counts as
-        released: every axis is NaN and no button is held.
+        Why the received data could not be decoded; None if they could. With a fault the device
+        counts as released: every axis is NaN, and no button is held.
     """
 
     host_time_s: float
@@ -80,39 +77,41 @@ class InputReading:
     fault: str | None = None
 
     @classmethod
-    def unusable(cls, host_time_s: float, device: "HasControls", fault: str) -> Self:
-        """Return the reading for something that came in and could not be understood."""
+    def make_unusable(cls, host_time_s: float, device: "ControlNames", fault: str) -> Self:
+        """Return a reading for data that could not be decoded."""
         return cls(host_time_s, (nan,) * len(device.axes), (False,) * len(device.buttons), fault)
+
+    # Former names, which work for one more release.
+    unusable = FormerMember("make_unusable")
 
 
 class InputDevice(ABC):
-    """One open input device. It is made, read and closed by one thread."""
+    """An open input device. One thread creates, reads and closes it."""
 
-    #: Which device this is.
     identity: InputIdentity
-    #: What its axes and buttons are called, in the order of the readings.
+    #: Names of the axes and buttons, in the order of the readings.
     axes: tuple[str, ...]
     buttons: tuple[str, ...]
-    #: Whether it goes on reporting while nothing changes, so that a quarter of a second without a
-    #: reading is a fault even at rest. Only where that is certain. The program finds out by itself
-    #: which devices keep reporting, and never lets a silent device move anything for long.
+    #: Whether the device is certain to keep reporting while nothing changes, so that a quarter of a
+    #: second without a reading is a fault even at rest. If False, the program detects whether the
+    #: device keeps reporting. In both cases a silent device soon stops moving anything.
     streams: bool = False
 
     @abstractmethod
     def read(self) -> tuple[InputReading, ...]:
-        """Return what came in since the last call, oldest first; never waits.
+        """Return the readings since the last call, oldest first; never waits.
 
-        A device that says something only when it changes returns nothing while it is left alone.
-        Never repeat an old reading for a device that may be gone: silence ends a motion, and what
-        is repeated counts as said anew. A report that cannot be understood is returned as
-        :meth:`InputReading.unusable`, never left out.
+        A device that reports only changes returns nothing while it is not touched. Never repeat an
+        old reading if the device may be gone: silence ends a motion, but a repeated reading counts
+        as a new one. For a report that cannot be decoded, return :meth:`InputReading.make_unusable`
+        instead of omitting the report.
 
         Raises
         ------
         InputLostError
-            If the device has gone; it is then to be closed.
+            If the device is gone. The caller must then close it.
         StateError
-            If it was closed.
+            If the device was closed.
         """
 
     @abstractmethod
@@ -120,27 +119,29 @@ class InputDevice(ABC):
         """Release the device; safe to call twice."""
 
 
-class Rumbler(InputDevice, ABC):
-    """An input device that can shake in the hand."""
+class RumbleDevice(InputDevice, ABC):
+    """An input device with a rumble motor."""
 
     @abstractmethod
     def rumble(self, strength: float) -> None:
-        """Rumble with a strength of 0 (off) to 1 until changed; never waits."""
+        """Rumble with a strength from 0 (off) to 1 until the next call; never waits."""
 
 
 class InputSource(ABC):
-    """Finds input devices of one kind; what an entry point of ``rotemina.inputs`` names.
+    """Base class of sources, which find input devices of one kind.
+
+    The entry points of ``rotemina.inputs`` are subclasses.
 
     Parameters
     ----------
     clock : callable
-        The host's time, s: what readings are stamped with. An entry point's class is made with
-        this alone.
+        Returns the host's time, s, for the time stamps of readings. The class of an entry point is
+        called with only this argument.
     """
 
-    #: The version of this interface that the class was written for.
+    #: The version of this interface for which the class was written.
     api_version: ClassVar[int] = API_VERSIONS["rotemina.inputs"]
-    #: How screens call this kind of device.
+    #: Name of this kind of device for display.
     name: ClassVar[str] = "input"
 
     def __init__(self, *, clock: Clock = time.monotonic) -> None:
@@ -148,21 +149,32 @@ class InputSource(ABC):
 
     @property
     def problem(self) -> str | None:
-        """Why it can find nothing at the moment, in words for the operator; None if it can."""
+        """A message for the operator that says why no devices are found; None if there is none."""
         return None
 
     @abstractmethod
     def devices(self) -> Sequence[InputIdentity]:
-        """Return what is plugged in now; asked about once a second, never raises for none."""
+        """Return the devices that are plugged in, if any; called about once per second."""
 
     @abstractmethod
     def open(self, identity: InputIdentity) -> InputDevice:
-        """Open one of :meth:`devices`.
+        """Open a device that :meth:`devices` has returned.
 
         Raises
         ------
         InputLostError
-            If it is there no more.
+            If it is no longer plugged in.
         DriverError
-            If it cannot be opened: permission, used by another program, an unreadable descriptor.
+            If it cannot be opened, for example for lack of permission, because another program
+            uses it, or because its descriptor is unreadable.
         """
+
+
+if not TYPE_CHECKING:
+    __getattr__ = serve_former_names(
+        __name__,
+        CONFIRM_S="KEEPALIVE_PERIOD_S",
+        HasControls="ControlNames",
+        InputLostError="rotemina.drivers.contract.errors.InputLostError",
+        Rumbler="RumbleDevice",
+    )

@@ -1,4 +1,4 @@
-"""All available input devices: arrivals, removals, and opening by key."""
+"""The input devices of all sources: finds added and removed devices, and opens them by key."""
 
 import logging
 import time
@@ -9,53 +9,48 @@ from threading import Lock
 from types import MappingProxyType
 from typing import Self
 
-from rotemina.drivers.clock import Clock
-from rotemina.drivers.errors import DriverError
-from rotemina.drivers.inputs.device import (
-    InputDevice,
-    InputIdentity,
-    InputLostError,
-    InputSource,
-)
-from rotemina.drivers.registry import make_sources
-from rotemina.sim.errors import reason_of
-from rotemina.sim.messages import marked, message
+from rotemina.drivers.contract import Clock, DriverError, InputLostError, make_sources
+from rotemina.drivers.inputs.device import InputDevice, InputIdentity, InputSource
+from rotemina.sim.errors import describe_exception
+from rotemina.sim.messages import marked
 
 _LOG = logging.getLogger(__name__)
 
-INPUTS = "rotemina.inputs"
+INPUT_GROUP = "rotemina.inputs"
 
-# The system gives permissions a moment after a device has appeared.
-_MOST_TRIES = 4
+# A new device that cannot be opened is reported again, because the system may grant the permission
+# a moment later.
+_MAX_OPEN_TRIES = 4
 
 
 @dataclass(frozen=True, slots=True)
-class Changes:
-    """What has changed since the poll before.
+class InputChanges:
+    """Changes since the previous poll.
 
     Attributes
     ----------
-    arrived, left : tuple of InputIdentity
-        One that was unplugged and came back between two polls has arrived, if it was open. One that
-        could not be opened is told a few times: it may be ready a moment later.
+    added, removed : tuple of InputIdentity
+        An open device that was unplugged and plugged in again between two polls counts as added. A
+        device that could not be opened is reported as added a few times, because it may be ready a
+        moment later.
     """
 
-    arrived: tuple[InputIdentity, ...] = ()
-    left: tuple[InputIdentity, ...] = ()
+    added: tuple[InputIdentity, ...] = ()
+    removed: tuple[InputIdentity, ...] = ()
 
 
 class InputHub:
-    """Finds the devices of all sources.
+    """Access to the devices of all sources.
 
-    It has no thread: :meth:`poll` is called about once a second. That may take some ms and be done
-    by another thread than the one that opens, reads and closes devices.
+    The hub has no thread; the program calls :meth:`poll` about once per second. A poll may take a
+    few milliseconds, and may run on another thread than opening, reading and closing devices.
 
     Parameters
     ----------
     sources : mapping of str to InputSource
-        By the name of their entry point, or one that the program gives.
+        By the name of the entry point, or by a name that the program chooses.
     broken : mapping of str to str
-        Sources that could not be loaded, and why.
+        Why a source could not be loaded, by its name.
     """
 
     def __init__(
@@ -65,56 +60,58 @@ class InputHub:
     ) -> None:
         self._sources = dict(sources)
         self._broken = dict(broken)
-        # Guards what follows; never held while a source is called.
+        # Protects the attributes below; never held while a source is called.
         self._lock = Lock()
-        self._there: dict[str, tuple[InputIdentity, InputSource]] = {}
-        self._lost: set[str] = set()
+        self._available: dict[str, tuple[InputIdentity, InputSource]] = {}
+        self._lost_keys: set[str] = set()
         self._source_problems: dict[str, str] = {}
         self._device_problems: dict[str, str] = {}
-        self._failed: Counter[str] = Counter()  # how often each could not be opened
+        # How often a device could not be opened, by key.
+        self._failure_counts: Counter[str] = Counter()
 
     @classmethod
-    def installed(
+    def from_plugins(
         cls,
-        own: Mapping[str, InputSource] = MappingProxyType({}),
+        program_sources: Mapping[str, InputSource] = MappingProxyType({}),
         *,
         clock: Clock = time.monotonic,
     ) -> Self:
-        """Return a hub of all installed sources and those that the program makes itself."""
-        return cls(*make_sources(INPUTS, InputSource, own, clock=clock))
+        """Create a hub of all installed sources and the program's own sources."""
+        return cls(*make_sources(INPUT_GROUP, InputSource, program_sources, clock=clock))
 
     @property
     def devices(self) -> tuple[InputIdentity, ...]:
-        """What was plugged in at the latest poll."""
+        """The devices that were plugged in at the latest poll."""
         with self._lock:
-            return tuple(identity for identity, _ in self._there.values())
+            return tuple(identity for identity, _ in self._available.values())
 
     @property
     def problems(self) -> Mapping[str, str]:
-        """Problems by source name or device key."""
+        """Problems by the name of the source or the key of the device."""
         with self._lock:
             return MappingProxyType(
                 {**self._broken, **self._source_problems, **self._device_problems}
             )
 
-    def poll(self) -> Changes:
-        """Look what is plugged in; return what has changed. A bad source is named and left out."""
-        there: dict[str, tuple[InputIdentity, InputSource]] = {}
+    def poll(self) -> InputChanges:
+        """Search for devices and return the changes; a source that fails becomes a problem."""
+        available: dict[str, tuple[InputIdentity, InputSource]] = {}
         problems: dict[str, str] = {}
         for name, source in self._sources.items():
             try:
-                found = [_checked(identity) for identity in source.devices()]
+                identities = [_check_identity(identity) for identity in source.devices()]
                 problem = source.problem
-            except Exception as error:  # a plugin may raise anything; the others are to be found
-                problems[name] = f"it cannot look for devices: {type(error).__name__}: {error}"
+            # A plugin may raise any exception; the devices of other sources must still be found.
+            except Exception as error:
+                problems[name] = f"it cannot search for devices: {type(error).__name__}: {error}"
                 continue
             if problem is not None:
                 problems[name] = problem
-            for identity in found:
-                other = there.setdefault(identity.key, (identity, source))[1]
-                if other is not source:
+            for identity in identities:
+                _, owner = available.setdefault(identity.key, (identity, source))
+                if owner is not source:
                     problems[name] = f"{identity.key}: another source already has this device"
-        return self._exchange(there, problems)
+        return self._update_devices(available, problems)
 
     def open(self, key: str) -> InputDevice:
         """Open a device that is plugged in.
@@ -122,76 +119,82 @@ class InputHub:
         Raises
         ------
         InputLostError
-            If there is none of this key.
+            If there is no device with this key.
         DriverError
-            If it cannot be opened; :attr:`problems` keeps the reason until it can, or has left.
+            If it cannot be opened. :attr:`problems` gives the reason until the device is opened or
+            removed.
         """
         with self._lock:
-            found = self._there.get(key)
-            keys = ", ".join(self._there) or marked("engine", "none")
-        if found is None:
+            entry = self._available.get(key)
+            available_keys = ", ".join(self._available) or marked("engine", "none")
+        if entry is None:
             raise InputLostError(
-                message("engine", "input device {key} is not plugged in; available: {keys}").fill(
-                    key=repr(key), keys=keys
-                )
+                "input device {key} is not plugged in; available: {keys}",
+                key=repr(key),
+                keys=available_keys,
             )
-        identity, source = found
+        identity, source = entry
         try:
             device = source.open(identity)
         except DriverError as error:
-            self._note(key, str(error))
+            self._record_problem(key, str(error))
             raise
-        except Exception as error:  # a plugin may raise anything
-            self._note(key, f"{type(error).__name__}: {error}")
+        # A plugin may raise any exception.
+        except Exception as error:
+            self._record_problem(key, f"{type(error).__name__}: {error}")
             raise DriverError(
-                message("engine", "{name} ({key}) cannot be opened: {type_name}: {error}").fill(
-                    name=identity.name,
-                    key=key,
-                    type_name=type(error).__name__,
-                    error=reason_of(error),
-                )
+                "{name} ({key}) cannot be opened: {type_name}: {error}",
+                name=identity.name,
+                key=key,
+                type_name=type(error).__name__,
+                error=describe_exception(error),
             ) from error
         with self._lock:
-            self._clear(key)
+            self._clear_problem(key)
         return device
 
-    def lost(self, key: str) -> None:
-        """Note that an open device raised :class:`InputLostError`.
+    def note_loss(self, key: str) -> None:
+        """Register that an open device raised :class:`InputLostError`.
 
-        The next poll tells that it has left, or, where it is back already, that it has arrived.
+        The next poll reports the device as removed, or as added if it is already back.
         """
         with self._lock:
-            self._lost.add(key)
+            self._lost_keys.add(key)
 
-    def _exchange(
-        self, there: dict[str, tuple[InputIdentity, InputSource]], problems: dict[str, str]
-    ) -> Changes:
+    def _update_devices(
+        self, available: dict[str, tuple[InputIdentity, InputSource]], problems: dict[str, str]
+    ) -> InputChanges:
         with self._lock:
-            before, self._there = self._there, there
+            previous, self._available = self._available, available
             for name, problem in problems.items():
                 if self._source_problems.get(name) != problem:
                     _LOG.warning("input devices of %s: %s", name, problem)
             self._source_problems = problems
-            again = {key for key, count in self._failed.items() if count < _MOST_TRIES}
-            new = (there.keys() - before.keys()) | (there.keys() & (self._lost | again))
-            self._lost.clear()
-            arrived = tuple(one for key, (one, _) in there.items() if key in new)
-            left = tuple(one for key, (one, _) in before.items() if key not in there)
-            for one in left:
-                self._clear(one.key)
-        return Changes(arrived, left)
+            retry_keys = {
+                key for key, count in self._failure_counts.items() if count < _MAX_OPEN_TRIES
+            }
+            returned_keys = available.keys() & (self._lost_keys | retry_keys)
+            added_keys = (available.keys() - previous.keys()) | returned_keys
+            self._lost_keys.clear()
+            added = tuple(identity for key, (identity, _) in available.items() if key in added_keys)
+            removed = tuple(
+                identity for key, (identity, _) in previous.items() if key not in available
+            )
+            for identity in removed:
+                self._clear_problem(identity.key)
+        return InputChanges(added, removed)
 
-    def _note(self, key: str, problem: str) -> None:
+    def _record_problem(self, key: str, problem: str) -> None:
         with self._lock:
             self._device_problems[key] = problem
-            self._failed[key] += 1
+            self._failure_counts[key] += 1
 
-    def _clear(self, key: str) -> None:
+    def _clear_problem(self, key: str) -> None:
         self._device_problems.pop(key, None)
-        self._failed.pop(key, None)
+        self._failure_counts.pop(key, None)
 
 
-def _checked(identity: object) -> InputIdentity:
+def _check_identity(identity: object) -> InputIdentity:
     if not isinstance(identity, InputIdentity):
         raise TypeError(f"{identity!r} is no InputIdentity")
     return identity

@@ -1,4 +1,4 @@
-"""Keys and an on-screen pad: a device set by the program itself."""
+"""Keyboard and on-screen pad: an input device whose state the program sets."""
 
 import time
 from collections import deque
@@ -6,40 +6,40 @@ from collections.abc import Sequence
 from math import inf
 from threading import Lock
 
-from rotemina.drivers.clock import Clock
-from rotemina.drivers.errors import LimitError, StateError
+from rotemina.drivers.contract import Clock, InputLostError, LimitError, StateError
 from rotemina.drivers.inputs.device import (
-    CONFIRM_S,
+    KEEPALIVE_PERIOD_S,
     InputDevice,
     InputIdentity,
-    InputLostError,
     InputReading,
     InputSource,
 )
-from rotemina.sim.messages import marked, message
+from rotemina.sim.messages import marked
 
-_MOST_WAITING = 1024  # readings that nobody has read; the newest are kept
+# If more readings wait, the oldest are dropped.
+_MAX_UNREAD_READINGS = 1024
 
 
-class Pad(InputSource):
-    """One device, set by one thread and read by another.
+class InputPad(InputSource):
+    """Source of one device, whose state one thread sets and another thread reads.
 
     The program calls :meth:`release_all` when its window loses the focus, is left or is covered, so
-    that no key stays down that nobody holds. With a lease it also calls :meth:`renew` in time while
-    something is held, or all is released: a program that hangs steers no more. Until then the pad
-    confirms what is held. Without a lease it reports only changes.
+    that no key stays pressed. With a lease, the program must also call :meth:`renew` in time while
+    something is held. Otherwise everything is released, so that a program that hangs does not
+    steer. During the lease the pad repeats its state regularly. Without a lease it reports only
+    changes.
 
     Parameters
     ----------
     label : str
-        Tells several pads apart, for example "keyboard".
+        Distinguishes several pads, for example "keyboard".
     axes, buttons : sequence of str
-        What they are called.
+        Names of the axes and buttons.
     lease_s : float, optional
-        For how long something is held without being set or renewed. Infinite only where what sets
-        the pad cannot hang while what reads it goes on.
+        How long something is held without being set or renewed. It may be infinite only if the
+        thread that reads cannot continue while the thread that sets the state hangs.
     clock : callable
-        The host's time, s.
+        Returns the host's time, s.
     """
 
     name = marked("engine", "Keys and on-screen pad")
@@ -58,165 +58,163 @@ class Pad(InputSource):
         self.identity = InputIdentity(f"keys:{label}", label, "keys")
         self.axes = tuple(axes)
         self.buttons = tuple(buttons)
-        # Guards what follows, and the readings that wait in the devices.
+        # Protects the attributes below and the unread readings of the devices.
         self._lock = Lock()
-        self._there = True
-        self._said_s = self._told_s = -inf
-        self._let_go = False  # by itself: what was held must be taken anew
+        self._is_plugged_in = True
+        self._last_renewal_s = self._last_report_s = -inf
+        # If the lease has expired, keys that are still pressed have to be pressed again.
+        self._has_lease_expired = False
         self._deflections = dict.fromkeys(self.axes, 0.0)
-        self._held = dict.fromkeys(self.buttons, False)
+        self._held_buttons = dict.fromkeys(self.buttons, False)
         self._devices: list[PadDevice] = []
 
     def deflect(self, axis: str, deflection: float) -> None:
-        """Set an axis, −1 to 1; any thread.
+        """Set an axis, −1 to 1; may be called on any thread.
 
         Raises
         ------
         LimitError
-            If there is no such axis, or the deflection is beyond; then nothing changes.
+            If there is no such axis, or the deflection is out of range; then nothing changes.
         """
-        self._require(axis, self.axes, "axis")
+        self._check_name(axis, self.axes, "axis")
         if not -1.0 <= deflection <= 1.0:
             raise LimitError(
-                message("engine", "{name}: {axis} at {deflection}: must be -1 to 1").fill(
-                    name=self.identity.name, axis=axis, deflection=deflection
-                )
+                "{name}: {axis} at {deflection}: must be -1 to 1",
+                name=self.identity.name,
+                axis=axis,
+                deflection=deflection,
             )
         with self._lock:
             self._deflections[axis] = float(deflection)
-            self._let_go = False
-            self._tell()
+            self._has_lease_expired = False
+            self._renew_and_report()
 
     def hold(self, button: str, held: bool = True) -> None:
-        """Hold a button, or release it; any thread.
+        """Hold or release a button; may be called on any thread.
 
         Raises
         ------
         LimitError
             If there is no such button.
         """
-        self._require(button, self.buttons, "button")
+        self._check_name(button, self.buttons, "button")
         with self._lock:
-            self._held[button] = held
-            self._let_go = False
-            self._tell()
+            self._held_buttons[button] = held
+            self._has_lease_expired = False
+            self._renew_and_report()
 
     def renew(self) -> bool:
-        """Continue holding what is held; return False where the pad release it. Any thread.
+        """Renew the lease; return False if it has expired and everything was released.
 
-        A deflection of 0 is held like any other.
+        May be called on any thread. A deflection of 0 is held like any other.
         """
         with self._lock:
-            self._lapse()
-            self._said_s = self.clock()
-            return not self._let_go
+            self._end_expired_lease()
+            self._last_renewal_s = self.clock()
+            return not self._has_lease_expired
 
     def release_all(self) -> None:
-        """Bring all axes to 0 and release all buttons; any thread."""
+        """Set all axes to 0 and release all buttons; may be called on any thread."""
         with self._lock:
-            self._let_go = False
-            self._release()
+            self._has_lease_expired = False
+            self._set_to_rest()
 
-    def withdraw(self) -> None:
-        """Take the device away, as unplugging does; what was held is released. Any thread."""
+    def unplug(self) -> None:
+        """Remove the device as if it were unplugged, and release everything; for any thread."""
         with self._lock:
-            self._there, self._let_go = False, True
-            self._release()
+            self._is_plugged_in, self._has_lease_expired = False, True
+            self._set_to_rest()
             for device in self._devices:
                 device.lost = True
             self._devices.clear()
 
-    def offer(self) -> None:
-        """Let the device be there again; any thread."""
+    def plug_in(self) -> None:
+        """Make the device available again; may be called on any thread."""
         with self._lock:
-            self._there = True
+            self._is_plugged_in = True
 
     def devices(self) -> Sequence[InputIdentity]:
-        """Return the one device, unless it was withdrawn."""
-        return (self.identity,) if self._there else ()
+        """Return the device, unless it is unplugged."""
+        return (self.identity,) if self._is_plugged_in else ()
 
     def open(self, identity: InputIdentity) -> "PadDevice":
-        """Open the device, which first reports its state; see :class:`InputSource`."""
+        """Open the device, whose first reading is its current state; see :class:`InputSource`."""
         with self._lock:
-            if not self._there or identity != self.identity:
+            if not self._is_plugged_in or identity != self.identity:
                 raise InputLostError(
-                    message("engine", "{name} ({key}) is not connected").fill(
-                        name=identity.name, key=identity.key
-                    )
+                    "{name} ({key}) is not connected", name=identity.name, key=identity.key
                 )
             device = PadDevice(self)
             self._devices.append(device)
-            device.waiting.append(self._reading())
+            device.unread_readings.append(self._make_reading())
         return device
 
-    def readings(self, device: "PadDevice") -> tuple[InputReading, ...]:
-        """Return the unreported readings of a device, including an expired lease.
+    def take_readings(self, device: "PadDevice") -> tuple[InputReading, ...]:
+        """Return the unread readings of a device, and release everything if the lease expired.
 
         Raises
         ------
         InputLostError
-            If it was taken away.
+            If the device was unplugged.
         """
         with self._lock:
             if device.lost:
-                raise InputLostError(
-                    message("engine", "{name} was removed").fill(name=self.identity.name)
-                )
-            self._lapse()
-            # Within its lease what is held is known to be held, as a device that streams would say.
-            leased = self._lease_s is not None and self._holds
-            if leased and self.clock() - self._told_s >= CONFIRM_S:
+                raise InputLostError("{name} was removed", name=self.identity.name)
+            self._end_expired_lease()
+            # During a lease the state is certain to be up to date, so it is repeated as a streaming
+            # device would do.
+            is_lease_running = self._lease_s is not None and self._is_anything_held
+            if is_lease_running and self.clock() - self._last_report_s >= KEEPALIVE_PERIOD_S:
                 self._report()
-            readings = tuple(device.waiting)
-            device.waiting.clear()
+            readings = tuple(device.unread_readings)
+            device.unread_readings.clear()
         return readings
 
-    def forget(self, device: "PadDevice") -> None:
-        """Stop reporting to a closed device."""
+    def forget_device(self, device: "PadDevice") -> None:
+        """Stop adding readings to a closed device."""
         with self._lock:
             if device in self._devices:
                 self._devices.remove(device)
 
-    def _require(self, name: str, names: tuple[str, ...], kind: str) -> None:
+    def _check_name(self, name: str, names: tuple[str, ...], kind: str) -> None:
         if name not in names:
             raise LimitError(
-                message("engine", "{name}: no {kind} {wanted}; it has {known}").fill(
-                    name=self.identity.name,
-                    kind=kind,
-                    wanted=repr(name),
-                    known=", ".join(names) or marked("engine", "none"),
-                )
+                "{name}: no {kind} {wanted}; it has {known}",
+                name=self.identity.name,
+                kind=kind,
+                wanted=repr(name),
+                known=", ".join(names) or marked("engine", "none"),
             )
 
     @property
-    def _holds(self) -> bool:
-        return any(self._deflections.values()) or any(self._held.values())
+    def _is_anything_held(self) -> bool:
+        return any(self._deflections.values()) or any(self._held_buttons.values())
 
-    def _lapse(self) -> None:
+    def _end_expired_lease(self) -> None:
         lease_s = inf if self._lease_s is None else self._lease_s
-        if self._holds and self.clock() - self._said_s > lease_s:
-            self._let_go = True
-            self._release()
+        if self._is_anything_held and self.clock() - self._last_renewal_s > lease_s:
+            self._has_lease_expired = True
+            self._set_to_rest()
 
-    def _release(self) -> None:
+    def _set_to_rest(self) -> None:
         self._deflections = dict.fromkeys(self.axes, 0.0)
-        self._held = dict.fromkeys(self.buttons, False)
-        self._tell()
+        self._held_buttons = dict.fromkeys(self.buttons, False)
+        self._renew_and_report()
 
-    def _reading(self) -> InputReading:
+    def _make_reading(self) -> InputReading:
         return InputReading(
-            self.clock(), tuple(self._deflections.values()), tuple(self._held.values())
+            self.clock(), tuple(self._deflections.values()), tuple(self._held_buttons.values())
         )
 
-    def _tell(self) -> None:
-        self._said_s = self.clock()
+    def _renew_and_report(self) -> None:
+        self._last_renewal_s = self.clock()
         self._report()
 
     def _report(self) -> None:
-        reading = self._reading()
-        self._told_s = reading.host_time_s
+        reading = self._make_reading()
+        self._last_report_s = reading.host_time_s
         for device in self._devices:
-            device.waiting.append(reading)
+            device.unread_readings.append(reading)
 
 
 class PadDevice(InputDevice):
@@ -224,28 +222,26 @@ class PadDevice(InputDevice):
 
     Parameters
     ----------
-    pad : Pad
-        Its lock is held while ``waiting`` and ``lost`` are touched.
+    pad : InputPad
+        The lock of the pad protects ``waiting`` and ``lost``.
     """
 
-    def __init__(self, pad: Pad) -> None:
+    def __init__(self, pad: InputPad) -> None:
         self.identity = pad.identity
         self.axes = pad.axes
         self.buttons = pad.buttons
-        self.waiting: deque[InputReading] = deque(maxlen=_MOST_WAITING)
+        self.unread_readings: deque[InputReading] = deque(maxlen=_MAX_UNREAD_READINGS)
         self.lost = False
         self._pad = pad
         self._is_open = True
 
     def read(self) -> tuple[InputReading, ...]:
-        """Return what was set since the last call; see :class:`InputDevice`."""
+        """Return the readings since the last call; see :class:`InputDevice`."""
         if not self._is_open:
-            raise StateError(
-                message("engine", "{name} was closed; open it again").fill(name=self.identity.name)
-            )
-        return self._pad.readings(self)
+            raise StateError("{name} was closed; open it again", name=self.identity.name)
+        return self._pad.take_readings(self)
 
     def close(self) -> None:
-        """Release it; see :class:`InputDevice`."""
+        """Release the pad; see :class:`InputDevice`."""
         self._is_open = False
-        self._pad.forget(self)
+        self._pad.forget_device(self)

@@ -1,273 +1,311 @@
-"""One board as its host knows it: who it is, what it said last, and what it has yet to be told."""
+"""One board as the host knows it: identity, latest telemetry, and pending orders."""
 
 from collections import deque
 from dataclasses import dataclass
 
-from rotemina.drivers.errors import ProtocolError
-from rotemina.drivers.mc68hc11.axes import BoardAxis
-from rotemina.drivers.mc68hc11.board_clock import BoardClock
-from rotemina.drivers.mc68hc11.board_messages import Identity, Inputs, Rates, Telemetry
-from rotemina.drivers.mc68hc11.dialogue import Dialogue, Urgency
-from rotemina.drivers.mc68hc11.payload import Message
-from rotemina.drivers.mc68hc11.pending_orders import Orders
-from rotemina.drivers.mc68hc11.protocol_codes import Ability, Fault, State
-from rotemina.drivers.mc68hc11.sampling_grid import Grid
-from rotemina.drivers.mc68hc11.serial_link import Link
-from rotemina.drivers.reading_check import REPORTS_OF_A_NEW_POSITION, ReadingCheck
-from rotemina.drivers.samples import DeviceState
+from rotemina.drivers.contract import (
+    NEW_POSITION_REPORT_COUNT,
+    DeviceState,
+    ProtocolError,
+    ReadingCheck,
+)
+from rotemina.drivers.mc68hc11.board_clock import BoardClockEstimator
+from rotemina.drivers.mc68hc11.dialogue import BoardDialogue, RequestUrgency
+from rotemina.drivers.mc68hc11.pending_orders import PendingOrders
+from rotemina.drivers.mc68hc11.protocol import (
+    BoardAbility,
+    BoardAxis,
+    BoardFault,
+    BoardIdentity,
+    BoardRates,
+    BoardState,
+    OperatorInputs,
+    Telemetry,
+    WireMessage,
+)
+from rotemina.drivers.mc68hc11.sampling_grid import SamplingGrid
+from rotemina.drivers.mc68hc11.serial_link import SerialLink
 from rotemina.sim.messages import marked, message
 
-_KEPT = 4096  # samples that nobody has asked for yet
+# If more samples than this are not read, the oldest ones are dropped.
+_MAX_UNREAD_SAMPLES = 4096
 _TELEMETRY_BYTES = 31
-# Commands change with set-points, of which each may hold for so long, s.
+# Commands may change in jumps, because each set-point may be held for this time.
 _MAX_HOLD_S = 0.1
-_FAULTS = frozenset(Fault)
-_LOW = marked("engine", "low")  # ends of an axis that has switches
-_HIGH = marked("engine", "high")
-_WORDS = {
-    Fault.STOPPED: marked(
-        "engine", "stopped by a stop on the line that this program did not send; check the line"
+_KNOWN_FAULTS = frozenset(BoardFault)
+_LOW_END_TEXT = marked("engine", "low")
+_HIGH_END_TEXT = marked("engine", "high")
+_FAULT_TEXTS = {
+    BoardFault.STOPPED: marked(
+        "engine",
+        "stopped by a stop signal on the line that this program did not send; check the line",
     ),
-    Fault.WATCHDOG: marked("engine", "the host was silent for too long; the board halted"),
-    Fault.LIMIT_SWITCH: marked("engine", "a limit switch was reached"),
-    Fault.SOFT_LIMIT: marked("engine", "an axis reached an end of its range"),
-    Fault.SENSOR: marked("engine", "a position sensor failed"),
-    Fault.BROWN_OUT: marked("engine", "the supply voltage dropped; home it again"),
-    Fault.RESET: marked("engine", "the board was reset; home it again"),
-    Fault.LATE_SETPOINT: marked("engine", "a set-point came too late; the trajectory ended there"),
-    Fault.PROFILE: marked("engine", "the profile could not be run"),
-    Fault.TOO_FAST: marked(
-        "engine", "a set-point was farther away than the axis can move in that time; it was refused"
+    BoardFault.WATCHDOG: marked("engine", "the host was silent for too long; the board halted"),
+    BoardFault.LIMIT_SWITCH: marked("engine", "a limit switch was reached"),
+    BoardFault.SOFT_LIMIT: marked("engine", "an axis reached an end of its range"),
+    BoardFault.SENSOR: marked("engine", "a position sensor failed"),
+    BoardFault.BROWN_OUT: marked("engine", "the supply voltage dropped; home it again"),
+    BoardFault.RESET: marked("engine", "the board was reset; home it again"),
+    BoardFault.LATE_SETPOINT: marked(
+        "engine", "a set-point came too late; the trajectory ended there"
+    ),
+    BoardFault.PROFILE: marked("engine", "the profile could not be run"),
+    BoardFault.TOO_FAST: marked(
+        "engine",
+        "a set-point was too far away for the axis to reach it in time; the set-point was refused",
     ),
 }
 
 
 @dataclass(frozen=True, slots=True)
 class BoardSample:
-    """What a board told of one sample: readings and commands of its axes, steps.
+    """Sample of one board: readings and commands of its axes, steps.
 
-    ``number`` counts the sampling instants that all boards share; ``sound``: no fault then.
+    ``number`` is the number of the sampling instant, which is the same for all boards.
+    ``fault_free`` says whether the board had no fault.
     """
 
-    number: int
+    instant_number: int
     time_us: int
     readings: tuple[int, ...]
     commands: tuple[int, ...]
-    sound: bool
+    fault_free: bool
 
 
 class Board:
-    """A board at the end of a link.
+    """Board at the end of a serial link.
 
     Parameters
     ----------
     address : int
     axes : tuple of BoardAxis
-        That it should have.
+        Axes that the board should have, according to the robot file.
     """
 
     def __init__(self, address: int, axes: tuple[BoardAxis, ...]) -> None:
         self.address = address
         self.axes = axes
-        self.clock = BoardClock()
-        self.grid: Grid | None = None
-        self.identity: Identity | None = None
-        self.rates: Rates | None = None
-        self.kind = b""  # as it said when it was opened
-        self.round_trip_s = 0.0  # as it was measured when the board was opened
-        self.telemetry_ms = 0  # the period that it has acknowledged
+        self.clock = BoardClockEstimator()
+        self.grid: SamplingGrid | None = None
+        self.identity: BoardIdentity | None = None
+        self.rates: BoardRates | None = None
+        self.kind = b""
+        # Measured while the connection is opened.
+        self.round_trip_s = 0.0
+        # The period that the board has acknowledged.
+        self.telemetry_period_ms = 0
         self.latest: Telemetry | None = None
         self.latest_us = 0
-        self.state = State(0)  # what it said last that it does
-        self.telemetry_fault = Fault.NONE  # that it told last, whoever caused it
-        self._told = DeviceState.IDLE  # by that state
-        self.telemetry_s = 0.0  # host time of the latest
-        self.inputs: Inputs | None = None
-        self.samples: deque[BoardSample] = deque(maxlen=_KEPT)
-        self.rest_number = -1  # the first sample after it came to rest
-        self.reset = False
-        self.wary = False  # whether a reset counts as one: not while it is being opened
-        self.orders = Orders(address, self.clock, lambda: self.latest)
-        #: What commands its telemetry may tell; None while it is being opened.
-        self.reports: ReadingCheck | None = None
-        self._link: Link | None = None
+        # State, fault and activity in the latest telemetry.
+        self.state = BoardState(0)
+        self.telemetry_fault = BoardFault.NONE
+        self._reported_activity = DeviceState.IDLE
+        # Host time of the latest telemetry.
+        self.last_telemetry_s = 0.0
+        self.inputs: OperatorInputs | None = None
+        self.samples: deque[BoardSample] = deque(maxlen=_MAX_UNREAD_SAMPLES)
+        # Number of the first sample after the board came to rest.
+        self.rest_number = -1
+        self.was_reset = False
+        # False while the connection is opened, because an earlier reset does not matter.
+        self.detects_reset = False
+        self.orders = PendingOrders(address, self.clock, lambda: self.latest)
+        #: Check of the commands that telemetry reports; None while the connection is opened.
+        self.reading_check: ReadingCheck | None = None
+        self._link: SerialLink | None = None
 
     @property
-    def link(self) -> Link:
-        """The line that it is on."""
-        assert self._link is not None, "a board is put on a line before it is spoken to"
+    def link(self) -> SerialLink:
+        """Serial link to which the board is connected."""
+        assert self._link is not None, "a board is assigned to a link before it is used"
         return self._link
 
     @link.setter
-    def link(self, link: Link) -> None:
+    def link(self, link: SerialLink) -> None:
         self._link = link
         self.orders.dialogue = link.dialogues[self.address]
 
     @property
-    def dialogue(self) -> Dialogue:
-        """What is said to it, one request after the other."""
+    def dialogue(self) -> BoardDialogue:
+        """Queue of requests to the board."""
         return self.orders.dialogue
 
     @property
     def where(self) -> str:
-        """How messages call it."""
+        """Address and port of the board, for messages."""
         return message("engine", "board {address} on {url}").fill(
             address=self.address, url=self.link.url
         )
 
     @property
-    def fault(self) -> str | None:
-        """Why it halted, in words; None for a stop that was asked for."""
+    def fault_text(self) -> str | None:
+        """Description of the board's fault.
+
+        None if there is no fault, or if a stop by this host has caused it.
+        """
         fault = self.telemetry_fault
-        if fault is Fault.NONE or self.orders.explains(fault):
+        if fault is BoardFault.NONE or self.orders.is_expected_fault(fault):
             return None
-        words = _WORDS[fault]
-        if fault is Fault.LIMIT_SWITCH and (switches := self._switches()):
-            words = message("engine", "limit switch reached: {switches}").fill(switches=switches)
-        return message("engine", "board {address}: {words}").fill(address=self.address, words=words)
+        text = _FAULT_TEXTS[fault]
+        if fault is BoardFault.LIMIT_SWITCH and (switches := self._name_closed_switches()):
+            text = message("engine", "limit switch reached: {switches}").fill(switches=switches)
+        return message("engine", "board {address}: {words}").fill(address=self.address, words=text)
 
     @property
     def activity(self) -> DeviceState:
-        """What it does, or will as soon as it has heard of it."""
-        if (expected := self.orders.expected) is not None:
+        """State of motion: the one that the pending orders will cause, or else the reported one."""
+        if (expected := self.orders.expected_state) is not None:
             return expected
-        return self._told
+        return self._reported_activity
 
     @property
     def at_rest(self) -> bool:
-        """Whether nothing moves, and nothing is about to."""
+        """Whether no axis moves and no motion is pending."""
         return self.activity is DeviceState.IDLE
 
     @property
-    def unknown(self) -> bool:
-        """Whether it does not know where it stands."""
-        return self.latest is None or bool(self.state & State.POSITION_UNKNOWN)
+    def is_position_unknown(self) -> bool:
+        """Whether the position is unknown."""
+        return self.latest is None or bool(self.state & BoardState.POSITION_UNKNOWN)
 
-    def able(self, ability: Ability) -> bool:
-        """Whether it said that it can do something."""
+    def has_ability(self, ability: BoardAbility) -> bool:
+        """Return whether the board has reported an ability."""
         return self.identity is not None and bool(self.identity.abilities & ability)
 
-    def commanded(self) -> tuple[int, ...]:
-        """Return where its axes were commanded last, steps."""
-        samples = self.latest.samples() if self.latest is not None else ()
+    def read_commands(self) -> tuple[int, ...]:
+        """Return the latest reported commands of the axes, steps; empty if there is no report."""
+        samples = self.latest.unpack_samples() if self.latest is not None else ()
         return tuple(command for _, command in samples)
 
-    def told_s(self) -> float:
-        """Return the time within which telemetry tells what has reached the board, s."""
-        return self.link.answer_s + 2e-3 * self.telemetry_ms
+    def compute_report_delay_s(self) -> float:
+        """Return the longest time until telemetry shows the effect of a frame, s."""
+        return self.link.answer_s + 2e-3 * self.telemetry_period_ms
 
-    def number_at(self, host_time_s: float) -> int:
-        """Return the number of the latest sample at a time of the host."""
-        assert self.grid is not None, "telemetry is on"
-        return self.grid.latest(self.clock.time_us(host_time_s))
+    def find_sample_number(self, host_time_s: float) -> int:
+        """Return the number of the latest sample at a host time."""
+        assert self.grid is not None, "telemetry must be on"
+        return self.grid.find_latest_number(self.clock.to_board_time_us(host_time_s))
 
-    def receive(self, message: Message, now_s: float) -> None:
-        """Take what it said, answer or not."""
+    def receive(self, message: WireMessage, now_s: float) -> None:
+        """Handle a message from the board."""
         if isinstance(message, Telemetry):
-            self._sampled(message, now_s)
-        elif isinstance(message, Inputs):
+            self._handle_telemetry(message, now_s)
+        elif isinstance(message, OperatorInputs):
             self.inputs = message
 
     def stop(self) -> None:
-        """Forget what it was to do, and tell it to stop until it says that it has."""
+        """Drop all orders for the board, and repeat the stop until the board acknowledges it."""
         self.link.end_stream(self.address)
         self.orders.stop()
 
-    def busy_line(self) -> bool:
-        """Whether there is anything to be said to it yet."""
-        return self.dialogue.busy
+    def has_pending_requests(self) -> bool:
+        """Return whether a request is queued or waits for its answer."""
+        return self.dialogue.has_requests
 
-    def keeps_quiet(self, now_s: float, silence_s: float) -> bool:
-        """Whether it has not been spoken to for so long, and nothing is about to be said."""
-        said_s = self.link.said_s[self.address]
-        return now_s - said_s >= silence_s and not self.dialogue.has(Urgency.BACKGROUND)
+    def needs_keep_alive(self, now_s: float, period_s: float) -> bool:
+        """Return whether the host has sent the board nothing for a period, and has nothing queued.
 
-    def _sampled(self, told: Telemetry, now_s: float) -> None:
-        if len(told.axes) != 5 * len(self.axes):
-            return  # of another machine: told apart when the board was identified
-        time_us = self.clock.unwrapped(told.time_us)
-        said_s = now_s - self._wire_s()
-        # A fault of before, which nobody was allowed to clear, is no reset of now.
-        newly = told.fault == Fault.RESET and self.telemetry_fault is not Fault.RESET
-        if self.wary and (self.clock.jumped(time_us, said_s) or newly):
-            self.reset = True
+        Only background requests count as queued.
+        """
+        last_sent_s = self.link.last_sent_s[self.address]
+        return now_s - last_sent_s >= period_s and not self.dialogue.has_request(
+            RequestUrgency.BACKGROUND
+        )
+
+    def _handle_telemetry(self, telemetry: Telemetry, now_s: float) -> None:
+        if len(telemetry.axes) != 5 * len(self.axes):
+            # The board belongs to another machine. The check of its identity reports that.
             return
-        if self.latest is not None and time_us <= self.latest_us and self.clock.known:
-            return  # said twice, or polled before the next one was taken
-        if not self._is_plausible(told, time_us):
+        time_us = self.clock.unwrap(telemetry.time_us)
+        sent_s = now_s - self._compute_telemetry_duration_s()
+        # A reset fault that was reported before and is not cleared yet does not mean another reset.
+        is_new_reset = (
+            telemetry.fault == BoardFault.RESET and self.telemetry_fault is not BoardFault.RESET
+        )
+        if self.detects_reset and (self.clock.has_jumped(time_us, sent_s) or is_new_reset):
+            self.was_reset = True
+            return
+        if self.latest is not None and time_us <= self.latest_us and self.clock.is_known:
+            # The board has sent this sample before, for example because it was polled twice.
+            return
+        if not self._is_plausible(telemetry, time_us):
             self.link.count_discarded()
             return
         was_busy = not self.at_rest
-        self.clock.observe(time_us, said_s)
-        self.latest, self.latest_us, self.telemetry_s = told, time_us, now_s
-        self.state, self._told = State(told.state), _activity(State(told.state))
-        self.telemetry_fault = Fault(told.fault) if told.fault in _FAULTS else Fault.SENSOR
-        self.orders.seen(time_us)
-        number = self.grid.number(time_us) if self.grid is not None else None
+        self.clock.observe(time_us, sent_s)
+        self.latest, self.latest_us, self.last_telemetry_s = telemetry, time_us, now_s
+        self.state, self._reported_activity = (
+            BoardState(telemetry.state),
+            _find_activity(BoardState(telemetry.state)),
+        )
+        self.telemetry_fault = (
+            BoardFault(telemetry.fault) if telemetry.fault in _KNOWN_FAULTS else BoardFault.SENSOR
+        )
+        self.orders.note_telemetry(time_us)
+        number = self.grid.find_number(time_us) if self.grid is not None else None
         if number is not None:
             if was_busy and self.at_rest:
                 self.rest_number = number
-            pairs = told.samples()
+            pairs = telemetry.unpack_samples()
             self.samples.append(
                 BoardSample(
                     number,
                     time_us,
                     tuple(reading for reading, _ in pairs),
                     tuple(command for _, command in pairs),
-                    told.fault == Fault.NONE,
+                    telemetry.fault == BoardFault.NONE,
                 )
             )
 
-    def _is_plausible(self, told: Telemetry, time_us: int) -> bool:
-        """Return whether its axes can be where it says that they are commanded.
+    def _is_plausible(self, telemetry: Telemetry, time_us: int) -> bool:
+        """Return whether the reported commands are possible.
 
-        Readings are not judged: noise, hysteresis and ringing are what they are there to show.
+        Readings are not checked, because noise, hysteresis and ringing may change them at any rate.
 
         Raises
         ------
         ProtocolError
-            If several reports in a row put them elsewhere.
+            If several consecutive reports agree on a position that the axes cannot have reached.
         """
-        if self.reports is None:
+        if self.reading_check is None:
             return True
-        if State(told.state) & (State.POSITION_UNKNOWN | State.HOMING):
-            self.reports.restart()
+        if BoardState(telemetry.state) & (BoardState.POSITION_UNKNOWN | BoardState.HOMING):
+            self.reading_check.restart()
             return True
-        commands = [float(command) for _, command in told.samples()]
-        device_s = 1e-6 * time_us
-        known = range(len(self.axes))
-        if self.reports.accepts(commands, device_s - _MAX_HOLD_S, device_s, known):
+        commands = [float(command) for _, command in telemetry.unpack_samples()]
+        board_time_s = 1e-6 * time_us
+        axis_numbers = range(len(self.axes))
+        if self.reading_check.accept_report(
+            commands, board_time_s - _MAX_HOLD_S, board_time_s, axis_numbers
+        ):
             return True
-        if self.reports.shows_new_position:
+        if self.reading_check.shows_new_position:
             raise ProtocolError(
-                message(
-                    "engine",
-                    "{where}: {count} reports in a row put its axes where they cannot have gone "
-                    "by themselves. Check the board, connect again, and home or confirm the "
-                    "position",
-                ).fill(where=self.where, count=REPORTS_OF_A_NEW_POSITION)
+                "{where}: {count} reports in a row show a position that its axes cannot have "
+                "reached. Check the board, connect again, and home or confirm the position",
+                where=self.where,
+                count=NEW_POSITION_REPORT_COUNT,
             )
         return False
 
-    def _wire_s(self) -> float:
-        """Return how long telemetry is on the line, s."""
-        return self.link.seconds(_TELEMETRY_BYTES)
+    def _compute_telemetry_duration_s(self) -> float:
+        return self.link.compute_duration_s(_TELEMETRY_BYTES)
 
-    def _switches(self) -> str:
-        assert self.latest is not None, "it told a fault"
-        told = self.latest.switches
-        ends = [
+    def _name_closed_switches(self) -> str:
+        assert self.latest is not None, "telemetry has reported a fault"
+        switches = self.latest.switches
+        texts = [
             message("engine", "{name} {end}").fill(name=axis.name, end=end)
             for number, axis in enumerate(self.axes)
-            for bit, end in ((2 * number, _LOW), (2 * number + 1, _HIGH))
-            if told >> bit & 1
+            for bit, end in ((2 * number, _LOW_END_TEXT), (2 * number + 1, _HIGH_END_TEXT))
+            if switches >> bit & 1
         ]
-        return ", ".join(ends)
+        return ", ".join(texts)
 
 
-def _activity(state: State) -> DeviceState:
-    if state & State.HOMING:
+def _find_activity(state: BoardState) -> DeviceState:
+    if state & BoardState.HOMING:
         return DeviceState.HOMING
-    if state & State.PLAYING:
+    if state & BoardState.PLAYING:
         return DeviceState.PLAYING
-    return DeviceState.MOVING if state & State.MOVING else DeviceState.IDLE
+    return DeviceState.MOVING if state & BoardState.MOVING else DeviceState.IDLE

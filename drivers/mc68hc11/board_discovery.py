@@ -1,4 +1,4 @@
-"""Getting to know the boards: who is there, what they are, and their samples in step."""
+"""Handshake with the boards: identifies and checks them, and starts their telemetry."""
 
 import logging
 from collections.abc import Callable, Sequence
@@ -6,75 +6,98 @@ from functools import partial
 from math import ceil
 from typing import NamedTuple, Self
 
-from rotemina.drivers.clock import Clock
-from rotemina.drivers.errors import DriverError, DriverTimeoutError, ProtocolError
-from rotemina.drivers.gate import Permit
-from rotemina.drivers.mc68hc11.board import Board
-from rotemina.drivers.mc68hc11.board_messages import (
-    AxisDescription,
-    BoardKind,
-    Identity,
-    Rates,
-    Telemetry,
+from rotemina.drivers.contract import (
+    Clock,
+    DriverError,
+    DriverTimeoutError,
+    Permit,
+    ProtocolError,
 )
-from rotemina.drivers.mc68hc11.dialogue import Request, Urgency
-from rotemina.drivers.mc68hc11.host_messages import (
+from rotemina.drivers.mc68hc11.board import Board
+from rotemina.drivers.mc68hc11.dialogue import BoardRequest, RequestUrgency
+from rotemina.drivers.mc68hc11.line_budget import BAUD_RATES, ROWS_PER_SEGMENT, LineCapacity
+from rotemina.drivers.mc68hc11.parameter_check import ParameterCheck
+from rotemina.drivers.mc68hc11.protocol import (
+    PROTOCOL_VERSION,
     AskKind,
-    AskRates,
+    AxisDescription,
+    BoardAbility,
+    BoardFault,
+    BoardIdentity,
+    BoardKind,
+    BoardRates,
+    BoardState,
     ClearFault,
     DescribeAxis,
-    Identify,
-    Poll,
+    IdentifyBoard,
+    PollBoard,
+    RequestRates,
     SetTelemetry,
-    Stop,
-    Watch,
+    SetWatchdog,
+    StopBoard,
+    Telemetry,
+    WireMessage,
 )
-from rotemina.drivers.mc68hc11.line_budget import BAUDS, ROWS, Line
-from rotemina.drivers.mc68hc11.parameter_check import Trust
-from rotemina.drivers.mc68hc11.payload import Message
-from rotemina.drivers.mc68hc11.protocol_codes import VERSION, Ability, Fault, State
-from rotemina.drivers.mc68hc11.sampling_grid import Grid
-from rotemina.drivers.mc68hc11.serial_link import Link
-from rotemina.sim.messages import joined, marked, message
-from rotemina.sim.quantities import exact, rounded
-from rotemina.sim.robot.model import Robot
+from rotemina.drivers.mc68hc11.sampling_grid import SamplingGrid
+from rotemina.drivers.mc68hc11.serial_link import SerialLink
+from rotemina.sim.messages import (
+    format_rounded,
+    join_messages,
+    marked,
+    message,
+)
+from rotemina.sim.robot import Robot
+from rotemina.sim.units import format_exact
 
 _LOG = logging.getLogger(__name__)
-_PAUSE_S = 5e-4
-_PATIENCE_S = 1.5  # for the first answer of a board, at last; from `answer_s` on twice as long each
-_TRIPS_A_WATCH = 3  # the longest that a board hears nothing while it is opened, in round trips
-_TRIPS_A_SAMPLE = 4  # on a shared bus, where boards are polled and requests take turns with polls
-_MAX_SAMPLE_S = 0.5  # between two samples: longer is a lost connection
-_SLOW_S = 0.1  # from such a round trip on a warning says that a stop takes longer
-_TRIPS_TO_SAY_KIND = 4  # a board that ignores the question is a real one
-_TRIPS = 3  # of which the quickest counts: one may be late on a busy computer
-_ASK_S = 1.0
-_REQUESTS, _PARAMETERS = 12, 30  # one after the other, of the boards of a line
-_READ_S = 2.5
-_REST_S = 2.0
-_UNDER_WAY = State.MOVING | State.PLAYING | State.HOMING
-_LOOKS = 4  # at each board's clock
-_RATES_HZ = (200, 100, 50, 20, 10, 5, 4)
-_MOST = 0.95  # of a line
-# What a board says of the time before this session: a silent host, a stop, power that came.
-_OF_BEFORE = (Fault.STOPPED, Fault.WATCHDOG, Fault.RESET)
+_EXCHANGE_PAUSE_S = 5e-4
+# The first trial waits for `answer_s`, and each further trial twice as long, up to this time.
+_MAX_FIRST_ANSWER_S = 1.5
+# While the connection is opened, a board may receive nothing for this many round trips.
+_MIN_WATCHDOG_ROUND_TRIPS = 3
+# On a shared bus polls alternate with requests, and each of two boards is polled separately.
+_ROUND_TRIPS_PER_BUS_SAMPLE = 4
+# A board that sends no sample for a longer time counts as lost.
+_MAX_SAMPLE_PERIOD_S = 0.5
+# Longer round trips cause a warning, because a stop takes longer.
+_SLOW_ROUND_TRIP_S = 0.1
+# A board that does not report its kind within this many answer times counts as a real one.
+_KIND_ROUND_TRIPS = 4
+# The shortest of these round trips counts, because a busy computer may delay some of them.
+_ROUND_TRIP_TRIALS = 3
+_REQUEST_TIMEOUT_S = 1.0
+# Number of requests that the boards of a line answer one after the other.
+_DESCRIPTION_REQUEST_COUNT, _PARAMETER_REQUEST_COUNT = 12, 30
+_PARAMETER_TIMEOUT_S = 2.5
+_REST_TIMEOUT_S = 2.0
+_MOTION_STATES = BoardState.MOVING | BoardState.PLAYING | BoardState.HOMING
+# Each poll gives an estimate of the board's clock.
+_POLL_COUNT = 4
+_TELEMETRY_RATES_HZ = (200, 100, 50, 20, 10, 5, 4)
+_MAX_LINE_LOAD = 0.95
+# Faults from before this connection: a stop, a silent host, or power-up.
+_EARLIER_FAULTS = (BoardFault.STOPPED, BoardFault.WATCHDOG, BoardFault.RESET)
 
 
-class Opening:
-    """The first conversation with all boards.
+class BoardHandshake:
+    """Handshake with all boards, which opens the connection.
 
     Parameters
     ----------
     robot : Robot
     boards : sequence of Board
-        On their links.
+        Boards that are already assigned to their links.
     baud : int
-    watch_ms : int
-        After what silence of the host a board is to halt.
-    clock, pause : callable
-        Host time, s; let some of it pass.
+    watchdog_ms : int
+        Time without a message from the host after which a board halts.
+    clock : callable
+        Return the host time, s.
+    pause : callable
+        Wait for some seconds.
     exchange : callable
-        Receive and send what there is.
+        Receive and send pending frames on all links.
+    permit : Permit
+        Permit for clearing faults from before this connection.
     """
 
     def __init__(
@@ -82,7 +105,7 @@ class Opening:
         robot: Robot,
         boards: Sequence[Board],
         baud: int,
-        watch_ms: int,
+        watchdog_ms: int,
         *,
         clock: Clock,
         pause: Callable[[float], None],
@@ -92,422 +115,445 @@ class Opening:
         self._robot = robot
         self._boards = tuple(boards)
         self._baud = baud
-        self._watch_ms = watch_ms
+        self._watchdog_ms = watchdog_ms
         self._clock = clock
         self._pause = pause
         self._exchange = exchange
         self._permit = permit
         self.period_ms = 0
-        self.setpoint_every = 1
+        self.samples_per_setpoint = 1
 
-    def run(self) -> Trust:
-        """Go through all of it; return what is thought of the boards' parameters.
+    def run(self) -> ParameterCheck:
+        """Identify and check the boards, and start their telemetry.
+
+        Returns
+        -------
+        ParameterCheck
+            The comparison of the boards' parameters with the robot file.
 
         Raises
         ------
         DriverError
-            If the boards do not answer, or are not those of the robot; with what to do.
+            If the boards do not answer, or do not belong to the robot. The message says what to do.
         """
         for board in self._boards:
             self._identify(board)
         for board in self._boards:
-            self._check(board)
-            board.link.half_duplex = board.able(Ability.HALF_DUPLEX)
-            board.clock.drifts = not board.link.half_duplex
+            self._check_identity(board)
+            board.link.half_duplex = board.has_ability(BoardAbility.HALF_DUPLEX)
+            board.clock.follows_drift = not board.link.half_duplex
         for board in self._boards:
-            self._measure(board)
+            self._measure_round_trip(board)
         self._ask_kinds()
-        self._ask()
-        trust = Trust(self._robot, self._boards)
-        trust.compare()
-        self._wait(
-            self._quiet,
-            _READ_S,
+        self._check_axes()
+        parameter_check = ParameterCheck(self._robot, self._boards)
+        parameter_check.compare_fingerprints()
+        self._wait_until(
+            self._is_idle,
+            _PARAMETER_TIMEOUT_S,
             marked("engine", "to report all parameters"),
-            requests=_PARAMETERS * len(self._boards),
+            request_count=_PARAMETER_REQUEST_COUNT * len(self._boards),
         )
-        self._look()
-        self._settle()
+        self._poll_clocks()
+        self._bring_to_rest()
         self._begin_telemetry()
         for board in self._boards:
-            board.wary = True
-        return trust
+            board.detects_reset = True
+        return parameter_check
 
     def _identify(self, board: Board) -> None:
         link, dialogue = board.link, board.dialogue
-        begin = _Reply.on(link)
+        counts_before = _ReceivedCounts.read(link)
         refusals: list[int | None] = []
         wait_s = link.answer_s
         while board.identity is None:
-            if not dialogue.busy:
-                if wait_s > max(_PATIENCE_S, 2.0 * link.answer_s):
-                    raise _nobody(board, self._baud, _Reply.on(link) - begin, any(refusals))
-                # Never repeated: a board that counts the same number would repeat another answer.
+            if not dialogue.has_requests:
+                if wait_s > max(_MAX_FIRST_ANSWER_S, 2.0 * link.answer_s):
+                    raise _explain_silence(
+                        board, self._baud, _ReceivedCounts.read(link) - counts_before, any(refusals)
+                    )
+                # The frame is never repeated. If the board has seen its number before, it would
+                # repeat its answer to an earlier frame with that number.
                 dialogue.answer_s = wait_s
                 dialogue.ask(
-                    Request(
-                        message=Identify(VERSION),
-                        answer=Identity,
-                        answered=partial(_identified, board),
-                        refused=refusals.append,
+                    BoardRequest(
+                        message=IdentifyBoard(PROTOCOL_VERSION),
+                        answer_type=BoardIdentity,
+                        on_answer=partial(_note_identity, board),
+                        on_refusal=refusals.append,
                         expires_s=self._clock() + wait_s,
                     )
                 )
                 wait_s *= 2.0
             self._exchange()
-            self._pause(_PAUSE_S)
+            self._pause(_EXCHANGE_PAUSE_S)
         dialogue.answer_s = link.answer_s
 
-    def _measure(self, board: Board) -> None:
-        """Learn how long the line takes to a board and back, and wait as long from now on."""
-        trips: list[float] = []
-        board.dialogue.answer_s = _PATIENCE_S  # never repeated, so that the answer is to this one
-        while not trips or (min(trips) > board.link.answer_s and len(trips) < _TRIPS):
-            begin_s = self._clock()
+    def _measure_round_trip(self, board: Board) -> None:
+        """Measure the round trip to a board, and extend the time for its answers accordingly."""
+        round_trips_s: list[float] = []
+        # The request is not repeated within this time, so the answer belongs to it.
+        board.dialogue.answer_s = _MAX_FIRST_ANSWER_S
+        while not round_trips_s or (
+            min(round_trips_s) > board.link.answer_s and len(round_trips_s) < _ROUND_TRIP_TRIALS
+        ):
+            start_s = self._clock()
             board.dialogue.ask(
-                Request(message=AskRates(), answer=Rates, answered=partial(_rated, board))
+                BoardRequest(
+                    message=RequestRates(),
+                    answer_type=BoardRates,
+                    on_answer=partial(_note_rates, board),
+                )
             )
-            self._wait(self._quiet, 2.0 * _PATIENCE_S, marked("engine", "to tell its rates"))
-            trips.append(self._clock() - begin_s)
+            self._wait_until(
+                self._is_idle, 2.0 * _MAX_FIRST_ANSWER_S, marked("engine", "to report its rates")
+            )
+            round_trips_s.append(self._clock() - start_s)
         board.dialogue.answer_s = board.link.answer_s
-        board.round_trip_s = min(trips)
-        self._require_quick(board)
-        if board.round_trip_s > _SLOW_S:
-            trip = exact(board.round_trip_s, "s")
-            _LOG.warning("%s answers after %s: a stop takes half as long", board.where, trip)
-        board.link.await_answers(board.round_trip_s)
+        board.round_trip_s = min(round_trips_s)
+        self._require_short_round_trip(board)
+        if board.round_trip_s > _SLOW_ROUND_TRIP_S:
+            round_trip = format_exact(board.round_trip_s, "s")
+            _LOG.warning("%s answers after %s: a stop takes half as long", board.where, round_trip)
+        board.link.extend_answer_time(board.round_trip_s)
 
-    def _require_quick(self, board: Board) -> None:
-        """Refuse a line that is too slow to be worked with."""
+    def _require_short_round_trip(self, board: Board) -> None:
         trip_s = board.round_trip_s
-        sample_s = _TRIPS_A_SAMPLE * trip_s
-        if board.link.half_duplex and sample_s > _MAX_SAMPLE_S:
+        sample_s = _ROUND_TRIPS_PER_BUS_SAMPLE * trip_s
+        if board.link.half_duplex and sample_s > _MAX_SAMPLE_PERIOD_S:
             raise DriverError(
-                message(
-                    "engine",
-                    "{where} answers, but after {trip}: on a shared bus that is a sample every "
-                    "{sample} at best, and at least one every {limit} is needed. Use a faster "
-                    "connection, or a line for each board",
-                ).fill(
-                    where=board.where,
-                    trip=exact(trip_s, "s"),
-                    sample=exact(sample_s, "s"),
-                    limit=exact(_MAX_SAMPLE_S, "s"),
-                )
+                "{where} answers, but takes {trip}: on a shared bus this allows a sample every"
+                " {sample} at best, but one every {limit} is needed. Use a faster connection, "
+                "or a separate line for each board",
+                where=board.where,
+                trip=format_exact(trip_s, "s"),
+                sample=format_exact(sample_s, "s"),
+                limit=format_exact(_MAX_SAMPLE_PERIOD_S, "s"),
             )
-        watch_s, least_s = 1e-3 * self._watch_ms, _TRIPS_A_WATCH * trip_s
-        if watch_s < least_s:
+        watchdog_s, min_watchdog_s = 1e-3 * self._watchdog_ms, _MIN_WATCHDOG_ROUND_TRIPS * trip_s
+        if watchdog_s < min_watchdog_s:
             raise DriverError(
-                message(
-                    "engine",
-                    "{where} answers, but after {trip}: with watchdog_s = {watch} it would halt "
-                    "between two messages. Use a faster connection, or set watchdog_s to {least} "
-                    "or more: the axes go on for as long when the connection is lost",
-                ).fill(
-                    where=board.where,
-                    trip=exact(trip_s, "s"),
-                    watch=rounded(watch_s),
-                    least=rounded(least_s, 2),
-                )
+                "{where} answers, but takes {trip}: with watchdog_s = {watch} it would halt "
+                "between two messages. Use a faster connection, or set watchdog_s to {least} "
+                "or more; after a lost connection the axes keep moving for that time",
+                where=board.where,
+                trip=format_exact(trip_s, "s"),
+                watch=format_rounded(watchdog_s),
+                least=format_rounded(min_watchdog_s, 2),
             )
 
-    def _check(self, board: Board) -> None:
-        told = board.identity
-        assert told is not None, "it was identified"
-        if told.version != VERSION:
-            older = (
+    def _check_identity(self, board: Board) -> None:
+        identity = board.identity
+        assert identity is not None, "the board has been identified"
+        if identity.version != PROTOCOL_VERSION:
+            outdated_part = (
                 marked("engine", "board's program")
-                if told.version < VERSION
+                if identity.version < PROTOCOL_VERSION
                 else marked("engine", "program on this computer")
             )
             raise ProtocolError(
-                message(
-                    "engine",
-                    "{where} uses version {version} of the protocol, this program {own}; "
-                    "update the {older}",
-                ).fill(where=board.where, version=told.version, own=VERSION, older=older)
+                "{where} uses version {version} of the protocol, this program {own}; "
+                "update the {older}",
+                where=board.where,
+                version=identity.version,
+                own=PROTOCOL_VERSION,
+                older=outdated_part,
             )
-        if told.axes != len(board.axes):
+        if identity.axes != len(board.axes):
             names = ", ".join(axis.name for axis in board.axes)
             raise DriverError(
-                message(
-                    "engine",
-                    "{where} has {axes} axes, but robot {name} has {count} there ({names}); "
-                    "choose the robot file of this machine",
-                ).fill(
-                    where=board.where,
-                    axes=told.axes,
-                    name=repr(self._robot.name),
-                    count=len(board.axes),
-                    names=names,
-                )
+                "{where} has {axes} axes, but robot {name} has {count} there ({names}); "
+                "choose the robot file of this machine",
+                where=board.where,
+                axes=identity.axes,
+                name=repr(self._robot.name),
+                count=len(board.axes),
+                names=names,
             )
 
     def _ask_kinds(self) -> None:
-        """Ask each board whether it is a program; one that does not say so is a real board."""
+        """Ask each board for its kind. A board counts as real unless it says that it is virtual."""
         for board in self._boards:
-            wait_s = _TRIPS_TO_SAY_KIND * len(self._boards) * board.link.answer_s
+            wait_s = _KIND_ROUND_TRIPS * len(self._boards) * board.link.answer_s
             board.dialogue.ask(
-                Request(
+                BoardRequest(
                     message=AskKind(),
-                    answer=BoardKind,
-                    answered=partial(_told_kind, board),
+                    answer_type=BoardKind,
+                    on_answer=partial(_note_kind, board),
                     expires_s=self._clock() + wait_s,
                 )
             )
-        self._wait(
-            self._quiet,
-            _ASK_S,
-            marked("engine", "to say what it is"),
-            requests=2 * _TRIPS_TO_SAY_KIND * len(self._boards),
+        self._wait_until(
+            self._is_idle,
+            _REQUEST_TIMEOUT_S,
+            marked("engine", "to report its kind"),
+            request_count=2 * _KIND_ROUND_TRIPS * len(self._boards),
         )
 
-    def _ask(self) -> None:
-        wrong: list[str] = []
+    def _check_axes(self) -> None:
+        mismatches: list[str] = []
         for board in self._boards:
-            board.dialogue.ask(Request(message=Watch(self._watch_ms)))
+            board.dialogue.ask(BoardRequest(message=SetWatchdog(self._watchdog_ms)))
             for axis in board.axes:
                 board.dialogue.ask(
-                    Request(
+                    BoardRequest(
                         message=DescribeAxis(axis.number),
-                        answer=AxisDescription,
-                        matches=partial(_describes, axis.number),
-                        answered=partial(self._described, board, wrong),
+                        answer_type=AxisDescription,
+                        is_answer=partial(_is_description_of, axis.number),
+                        on_answer=partial(self._check_description, board, mismatches),
                     )
                 )
-        self._wait(
-            self._quiet, _ASK_S, marked("engine", "to describe its axes"), requests=_REQUESTS
+        self._wait_until(
+            self._is_idle,
+            _REQUEST_TIMEOUT_S,
+            marked("engine", "to describe its axes"),
+            request_count=_DESCRIPTION_REQUEST_COUNT,
         )
-        if wrong:
+        if mismatches:
             raise DriverError(
-                message("engine", "{wrong}; choose the robot file of this machine").fill(
-                    wrong=joined(wrong, "; ")
-                )
+                "{wrong}; choose the robot file of this machine",
+                wrong=join_messages(mismatches, "; "),
             )
 
-    def _described(self, board: Board, wrong: list[str], told: Message, _now_s: float) -> None:
-        assert isinstance(told, AxisDescription), "it was matched"
-        axis = board.axes[told.axis]
-        wanted = axis.described(self._robot)
-        for what in ("kind", "role", "unit"):
-            if getattr(told, what) != getattr(wanted, what):
-                wrong.append(
+    def _check_description(
+        self, board: Board, mismatches: list[str], description: WireMessage, _now_s: float
+    ) -> None:
+        assert isinstance(description, AxisDescription), "the request accepts only this type"
+        axis = board.axes[description.axis]
+        expected = axis.describe(self._robot)
+        for field in ("kind", "role", "unit"):
+            if getattr(description, field) != getattr(expected, field):
+                mismatches.append(
                     message(
                         "engine",
                         "{where}: {what} of axis {axis} is {told}, but {wanted} in the robot file",
                     ).fill(
                         where=board.where,
-                        what=what,
+                        what=field,
                         axis=axis.name,
-                        told=str(getattr(told, what)),
-                        wanted=str(getattr(wanted, what)),
+                        told=str(getattr(description, field)),
+                        wanted=str(getattr(expected, field)),
                     )
                 )
-        step = told.mantissa * 10.0**told.exponent
-        if abs(step - axis.step) > 1e-6 * axis.step:
-            wrong.append(
+        step = description.mantissa * 10.0**description.exponent
+        if abs(step - axis.step_size) > 1e-6 * axis.step_size:
+            mismatches.append(
                 message(
                     "engine",
                     "{where}: the step of axis {axis} is {step}, but {wanted} in the robot file",
-                ).fill(where=board.where, axis=axis.name, step=step, wanted=axis.step)
+                ).fill(where=board.where, axis=axis.name, step=step, wanted=axis.step_size)
             )
 
-    def _look(self) -> None:
-        """Look at each board's clock and state a few times."""
-        for _ in range(_LOOKS):
+    def _poll_clocks(self) -> None:
+        for _ in range(_POLL_COUNT):
             self._poll_all()
-            self._wait(self._quiet, _ASK_S, marked("engine", "to report its position"))
-        self._wait(
+            self._wait_until(
+                self._is_idle, _REQUEST_TIMEOUT_S, marked("engine", "to report its position")
+            )
+        self._wait_until(
             lambda: all(board.latest is not None for board in self._boards),
-            _ASK_S,
+            _REQUEST_TIMEOUT_S,
             marked("engine", "to report its position"),
             self._poll_all,
         )
 
-    def _settle(self) -> None:
-        """Bring to rest what still moves, and forget what happened before this session.
+    def _bring_to_rest(self) -> None:
+        """Stop axes that still move, and clear faults from before this connection.
 
-        Where a stop is latched, or comes meanwhile, the boards keep their faults.
+        If the gate is stopped, now or in the meantime, the boards keep their faults.
         """
         for board in self._boards:
-            # One with a fault comes to rest by itself, or ramps its piezos after power came.
-            if board.telemetry_fault is Fault.NONE and board.state & _UNDER_WAY:
-                board.dialogue.ask(Request(message=Stop(), urgency=Urgency.STOP))
-        self._wait(
-            lambda: not any(board.state & State.MOVING for board in self._boards),
-            _REST_S,
+            # A board with a fault is not stopped: it comes to rest by itself. After power-up it may
+            # still ramp its piezos.
+            if board.telemetry_fault is BoardFault.NONE and board.state & _MOTION_STATES:
+                board.dialogue.ask(BoardRequest(message=StopBoard(), urgency=RequestUrgency.STOP))
+        self._wait_until(
+            lambda: not any(board.state & BoardState.MOVING for board in self._boards),
+            _REST_TIMEOUT_S,
             marked("engine", "to come to rest"),
             self._poll_all,
         )
         for board in self._boards:
-            if board.telemetry_fault in _OF_BEFORE:
-                board.dialogue.ask(Request(message=ClearFault(), permit=self._permit))
-        self._wait(self._quiet, _ASK_S, marked("engine", "to clear its fault"))
+            if board.telemetry_fault in _EARLIER_FAULTS:
+                board.dialogue.ask(BoardRequest(message=ClearFault(), permit=self._permit))
+        self._wait_until(self._is_idle, _REQUEST_TIMEOUT_S, marked("engine", "to clear its fault"))
 
     def _begin_telemetry(self) -> None:
-        self.period_ms, self.setpoint_every = self._periods()
+        self.period_ms, self.samples_per_setpoint = self._choose_periods()
         period_us = 1000 * self.period_ms
         begin_s = self._clock() + 2.0 * max(board.link.answer_s for board in self._boards)
         for board in self._boards:
-            begin_us = board.clock.time_us(begin_s)
-            board.grid = Grid(period_us, begin_us)
+            begin_us = board.clock.to_board_time_us(begin_s)
+            board.grid = SamplingGrid(period_us, begin_us)
             board.samples.clear()
-            board.dialogue.ask(Request(message=SetTelemetry(self.period_ms, begin_us % (1 << 32))))
-        self._wait(
+            board.dialogue.ask(
+                BoardRequest(message=SetTelemetry(self.period_ms, begin_us % (1 << 32)))
+            )
+        self._wait_until(
             lambda: all(board.samples for board in self._boards),
-            _ASK_S + 4e-3 * self.period_ms,
+            _REQUEST_TIMEOUT_S + 4e-3 * self.period_ms,
             marked("engine", "to send telemetry"),
         )
 
-    def _periods(self) -> tuple[int, int]:
-        """Return the period of telemetry, ms, and of how many samples one has a set-point.
+    def _choose_periods(self) -> tuple[int, int]:
+        """Return the period of telemetry, ms, and the number of samples per set-point.
 
-        On a shared bus segments go between the samples: there are fewer of both meanwhile.
+        On a shared bus segments are sent between the samples, so both rates are lower.
         """
-        told = [board.rates for board in self._boards if board.rates is not None]
-        announced = min(one.telemetry for one in told)
-        segments = min(one.segments for one in told)
-        if announced <= 0 or segments <= 0:
+        all_rates = [board.rates for board in self._boards if board.rates is not None]
+        max_telemetry_hz = min(rates.telemetry for rates in all_rates)
+        segments_hz = min(rates.segments for rates in all_rates)
+        if max_telemetry_hz <= 0 or segments_hz <= 0:
             raise ProtocolError(
-                message("engine", "{where} announces no rate of telemetry or segments").fill(
-                    where=self._boards[0].where
-                )
+                "{where} reports no rate of telemetry or segments", where=self._boards[0].where
             )
-        line = Line(self._baud, self._boards[0].link.half_duplex)
-        fits = (one for one in _RATES_HZ if one <= announced and line.load(one) <= _MOST)
-        rate = next(fits, announced)
-        period_ms = 1000 // rate
-        for board, one in zip(self._boards, told, strict=True):
-            if one.tick <= 0 or period_ms * one.tick % 1000:
+        line = LineCapacity(self._baud, self._boards[0].link.half_duplex)
+        suitable_rates_hz = (
+            hz
+            for hz in _TELEMETRY_RATES_HZ
+            if hz <= max_telemetry_hz and line.compute_load(hz) <= _MAX_LINE_LOAD
+        )
+        telemetry_hz = next(suitable_rates_hz, max_telemetry_hz)
+        period_ms = 1000 // telemetry_hz
+        for board, rates in zip(self._boards, all_rates, strict=True):
+            if rates.tick <= 0 or period_ms * rates.tick % 1000:
                 raise ProtocolError(
-                    message(
-                        "engine",
-                        "{where} announces {tick} ticks a second: none, or no whole number of "
-                        "them in the {period_ms} ms between two samples",
-                    ).fill(where=board.where, tick=one.tick, period_ms=period_ms)
+                    "{where} reports {tick} ticks per second, but the {period_ms} ms between "
+                    "two samples must be a whole number of ticks",
+                    where=board.where,
+                    tick=rates.tick,
+                    period_ms=period_ms,
                 )
-        return period_ms, ceil(rate / (ROWS * segments))
+        return period_ms, ceil(telemetry_hz / (ROWS_PER_SEGMENT * segments_hz))
 
     def _poll_all(self) -> None:
         for board in self._boards:
-            if not board.dialogue.busy:
-                # An answer of another kind may come: then this one is not asked again.
+            if not board.dialogue.has_requests:
+                # The poll is not repeated, because the board may answer with another message.
                 expires_s = self._clock() + board.link.answer_s
-                board.dialogue.ask(Request(message=Poll(), answer=Telemetry, expires_s=expires_s))
-
-    def _quiet(self) -> bool:
-        return not any(board.busy_line() for board in self._boards)
-
-    def _wait(
-        self,
-        done: Callable[[], bool],
-        limit_s: float,
-        what: str,
-        meanwhile: Callable[[], None] = lambda: None,
-        requests: int = _TRIPS,
-    ) -> None:
-        """Go on until something is done; the limit grows with the time that answers may take."""
-        limit_s += requests * max(board.link.answer_s for board in self._boards)
-        end_s = self._clock() + limit_s
-        while not done():
-            if self._clock() > end_s:
-                late = [board.where for board in self._boards if board.busy_line()]
-                who = ", ".join(late) or self._boards[0].where
-                raise DriverTimeoutError(
-                    message(
-                        "engine",
-                        "{who} took longer than {limit_s} s {what}; check cable and supply",
-                    ).fill(who=who, limit_s=rounded(limit_s, 2), what=what)
+                board.dialogue.ask(
+                    BoardRequest(message=PollBoard(), answer_type=Telemetry, expires_s=expires_s)
                 )
-            meanwhile()
+
+    def _is_idle(self) -> bool:
+        return not any(board.has_pending_requests() for board in self._boards)
+
+    def _wait_until(
+        self,
+        is_done: Callable[[], bool],
+        limit_s: float,
+        task: str,
+        run_meanwhile: Callable[[], None] = lambda: None,
+        request_count: int = _ROUND_TRIP_TRIALS,
+    ) -> None:
+        """Exchange frames until a condition holds.
+
+        The time limit is extended by the time for the answers to all requests. A time-out error
+        says which ``task`` was not completed.
+        """
+        limit_s += request_count * max(board.link.answer_s for board in self._boards)
+        end_s = self._clock() + limit_s
+        while not is_done():
+            if self._clock() > end_s:
+                busy_boards = [
+                    board.where for board in self._boards if board.has_pending_requests()
+                ]
+                names = ", ".join(busy_boards) or self._boards[0].where
+                raise DriverTimeoutError(
+                    "{who} took longer than {limit_s} s {what}; check cable and supply",
+                    who=names,
+                    limit_s=format_rounded(limit_s, 2),
+                    what=task,
+                )
+            run_meanwhile()
             self._exchange()
-            self._pause(_PAUSE_S)
+            self._pause(_EXCHANGE_PAUSE_S)
 
 
-def _identified(board: Board, told: Message, _now_s: float) -> None:
-    assert isinstance(told, Identity), "it was matched"
-    board.identity = told
+def _note_identity(board: Board, identity: WireMessage, _now_s: float) -> None:
+    assert isinstance(identity, BoardIdentity), "the request accepts only this type"
+    board.identity = identity
 
 
-def _told_kind(board: Board, told: Message, _now_s: float) -> None:
-    assert isinstance(told, BoardKind), "it was matched"
-    board.kind = told.kind
+def _note_kind(board: Board, answer: WireMessage, _now_s: float) -> None:
+    assert isinstance(answer, BoardKind), "the request accepts only this type"
+    board.kind = answer.kind
 
 
-def _rated(board: Board, told: Message, _now_s: float) -> None:
-    assert isinstance(told, Rates), "it was matched"
-    board.rates = told
+def _note_rates(board: Board, rates: WireMessage, _now_s: float) -> None:
+    assert isinstance(rates, BoardRates), "the request accepts only this type"
+    board.rates = rates
 
 
-def _describes(axis: int, told: Message) -> bool:
-    return isinstance(told, AxisDescription) and told.axis == axis
+def _is_description_of(axis: int, answer: WireMessage) -> bool:
+    return isinstance(answer, AxisDescription) and answer.axis == axis
 
 
-class _Reply(NamedTuple):
-    """What has come over a line, counted."""
-
+class _ReceivedCounts(NamedTuple):
     received_bytes: int
-    echoes: int
-    unknown_messages: int
-    strangers: frozenset[int]
+    echo_count: int
+    unknown_message_count: int
+    unexpected_addresses: frozenset[int]
 
     @classmethod
-    def on(cls, link: Link) -> Self:
-        """Return what has come so far."""
+    def read(cls, link: SerialLink) -> Self:
+        """Return the current counts of a link."""
         return cls(
-            link.received_bytes, link.echoes, link.unknown_messages, frozenset(link.strangers)
+            link.received_bytes,
+            link.echo_count,
+            link.unknown_message_count,
+            frozenset(link.unexpected_addresses),
         )
 
     def __sub__(self, earlier: Self) -> Self:
-        """Return what has come since."""
+        """Return the counts since ``earlier``. Unexpected addresses are not subtracted."""
         return self._replace(
             received_bytes=self.received_bytes - earlier.received_bytes,
-            echoes=self.echoes - earlier.echoes,
-            unknown_messages=self.unknown_messages - earlier.unknown_messages,
+            echo_count=self.echo_count - earlier.echo_count,
+            unknown_message_count=self.unknown_message_count - earlier.unknown_message_count,
         )
 
 
-def _nobody(board: Board, baud: int, heard: _Reply, is_refused: bool) -> DriverError:
-    """Return what to say about a board that did not tell who it is."""
-    others = ", ".join(f"{one}" for one in BAUDS if one != baud)
-    if is_refused or heard.unknown_messages:
+def _explain_silence(
+    board: Board, baud: int, counts: _ReceivedCounts, is_refused: bool
+) -> DriverError:
+    other_rates = ", ".join(f"{rate}" for rate in BAUD_RATES if rate != baud)
+    if is_refused or counts.unknown_message_count:
         return ProtocolError(
-            message(
-                "engine",
-                "{where} answers, but not in version {own} of the protocol, which this program "
-                "uses; update the board's program",
-            ).fill(where=board.where, own=VERSION)
+            "{where} answers, but not in version {own} of the protocol, which this program "
+            "uses; update the board's program",
+            where=board.where,
+            own=PROTOCOL_VERSION,
         )
-    if heard.strangers:
+    if counts.unexpected_addresses:
         return ProtocolError(
-            message(
-                "engine",
-                "{where}: board {other} answers there instead; exchange the cables, or the "
-                "settings port and second_port",
-            ).fill(where=board.where, other=", ".join(map(str, sorted(heard.strangers))))
+            "{where}: board {other} answers there instead; swap the cables, or the settings "
+            "port and second_port",
+            where=board.where,
+            other=", ".join(map(str, sorted(counts.unexpected_addresses))),
         )
-    if heard.echoes:
+    if counts.echo_count:
         return DriverTimeoutError(
-            message(
-                "engine",
-                "{where}: what this program sends comes back ({count} frames), and no board "
-                "answers; check the power of the board, and whether transmit and receive lines "
-                "are connected to each other",
-            ).fill(where=board.where, count=heard.echoes)
+            "{where}: this program receives its own frames ({count}), and no board answers; "
+            "check the power of the board, and whether transmit and receive lines are "
+            "connected to each other",
+            where=board.where,
+            count=counts.echo_count,
         )
-    if heard.received_bytes:
+    if counts.received_bytes:
         return ProtocolError(
-            message(
-                "engine",
-                "{where}: {count} bytes arrive at {baud} baud, but no valid frame of a board; "
-                "check the baud rate (others: {others}), and whether an MC68HC11 board is "
-                "connected to this port",
-            ).fill(where=board.where, count=heard.received_bytes, baud=baud, others=others)
+            "{where}: {count} bytes arrive at {baud} baud, but no valid frame of a board; "
+            "check the baud rate (others: {others}), and whether an MC68HC11 board is "
+            "connected to this port",
+            where=board.where,
+            count=counts.received_bytes,
+            baud=baud,
+            others=other_rates,
         )
     return DriverTimeoutError(
-        message(
-            "engine",
-            "{where}: no answer at {baud} baud; check the power of the board, its cable (at "
-            "this port, not the other board's), and the baud rate (others: {others})",
-        ).fill(where=board.where, baud=baud, others=others)
+        "{where}: no answer at {baud} baud; check the power of the board, its cable (at "
+        "this port, not the other board's), and the baud rate (others: {others})",
+        where=board.where,
+        baud=baud,
+        others=other_rates,
     )

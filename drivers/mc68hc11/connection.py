@@ -1,4 +1,4 @@
-"""The driver's connection: opened, served, stopped, and what its state is."""
+"""Connection of the driver: opens, serves, stops and closes the boards, and reports state."""
 
 import time
 from collections.abc import Callable, Mapping
@@ -7,32 +7,38 @@ from itertools import count
 from types import MappingProxyType
 from typing import ClassVar
 
-from rotemina.drivers.clock import Clock
-from rotemina.drivers.driver import Driver, MachineKind
-from rotemina.drivers.errors import ConnectionLostError, DriverError
-from rotemina.drivers.gate import Permit, Purpose
-from rotemina.drivers.mc68hc11.axes import board_axes
+from rotemina.drivers.contract import (
+    Clock,
+    ConnectionLostError,
+    DeviceSamples,
+    DeviceState,
+    DeviceStatus,
+    Driver,
+    DriverError,
+    DriverSettingError,
+    MachineKind,
+    Permit,
+    PermitPurpose,
+    SettingValue,
+)
 from rotemina.drivers.mc68hc11.board import Board
-from rotemina.drivers.mc68hc11.dialogue import Urgency
-from rotemina.drivers.mc68hc11.driver_session import Session
-from rotemina.drivers.mc68hc11.protocol_codes import VIRTUAL
-from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
-from rotemina.drivers.serial_port import OpenPort, open_port
-from rotemina.drivers.settings import SettingError, SettingValue
+from rotemina.drivers.mc68hc11.dialogue import RequestUrgency
+from rotemina.drivers.mc68hc11.driver_session import BoardSession
+from rotemina.drivers.mc68hc11.protocol import VIRTUAL_KIND, make_board_axes
+from rotemina.drivers.serial_lines import OpenPort, open_port
 from rotemina.sim.errors import InputError
-from rotemina.sim.messages import message
-from rotemina.sim.quantities import rounded
-from rotemina.sim.robot.model import Robot, StepperAxis
-from rotemina.sim.trajectory.speed_and_acceleration import SETPOINT_PERIOD_S
+from rotemina.sim.messages import format_rounded, message
+from rotemina.sim.robot import Robot, StepperAxis
+from rotemina.sim.trajectory import DEFAULT_SETPOINT_PERIOD_S
 
-#: A longer pause of this program, s, ends what was under way: longer than those of a busy computer,
-#: far shorter than the suspension of one, of which nobody knows what has changed meanwhile.
+#: All motion is cancelled if this program does not run for a longer time. A busy computer causes
+#: shorter pauses. A suspended one causes much longer pauses, and meanwhile the machine may change.
 MAX_PAUSE_S = 1.0
-_BUSY = (DeviceState.HOMING, DeviceState.PLAYING, DeviceState.MOVING)
+_BUSY_STATES = (DeviceState.HOMING, DeviceState.PLAYING, DeviceState.MOVING)
 
 
-class Connected(Driver):
-    """A connection to the boards; see :class:`rotemina.drivers.mc68hc11.driver.MC68HC11`."""
+class BoardConnection(Driver):
+    """Connection to the boards; see :class:`rotemina.drivers.mc68hc11.driver.MC68HC11Driver`."""
 
     name = "mc68hc11"
     service_period_s = 0.001
@@ -59,74 +65,79 @@ class Connected(Driver):
         super().__init__(robot, settings, clock=clock)
         self._open_port = open_port
         self._pause = pause
-        self._baud = int(self._number("baud", 300, 4_000_000))
-        self._settle_s = self._number("settle_s", 0.0, 60.0)
-        self._watchdog_s = self._number("watchdog_s", 0.05, 10.0)
-        self._latency_s = self._number("latency_s", 0.0, 1.0)
-        self._session: Session | None = None
-        self._period_s = SETPOINT_PERIOD_S
-        # Counted by whichever thread stops, compared by the driver's own.
-        self._stops = count(1)
-        self._asked_stop = self._seen_stop = 0
-        self._fault: str | None = None  # noted here, not on a board
-        self._searched: set[str] = set()  # by a homing that is under way
-        self._distrusted: set[str] = set()  # axes whose homing was ended before its end
-        self._ended = False  # by a fault or refusal that was followed up
+        self._baud = int(self._read_number("baud", 300, 4_000_000))
+        self._settle_s = self._read_number("settle_s", 0.0, 60.0)
+        self._watchdog_s = self._read_number("watchdog_s", 0.05, 10.0)
+        self._latency_s = self._read_number("latency_s", 0.0, 1.0)
+        self._session: BoardSession | None = None
+        self._setpoint_period_s = DEFAULT_SETPOINT_PERIOD_S
+        # A stop increments the requested number, in any thread. The driver's own thread handles the
+        # stop when it finds that the two numbers differ.
+        self._stop_counter = count(1)
+        self._requested_stop = self._handled_stop = 0
+        # A fault that the driver has found, in contrast to faults that boards report.
+        self._fault: str | None = None
+        # Axes that are being homed now.
+        self._axes_being_homed: set[str] = set()
+        # Axes whose homing was started but not completed.
+        self._untrusted_axes: set[str] = set()
+        # Whether all boards were already stopped because of the current fault or refusal.
+        self._has_stopped_after_fault = False
         self._progress = 0.0
-        self._profile: Board | None = None
-        self._called_s = float("-inf")  # host time of the latest call that goes on with anything
+        # The board with a profile that waits for its trigger.
+        self._profile_board: Board | None = None
+        # Host time of the latest call that continues any motion.
+        self._last_call_s = float("-inf")
 
     @property
     def setpoint_period_s(self) -> float:
-        """The interval of set-points, s: that of the boards once they were opened."""
-        return self._period_s
+        """Interval between set-points, s. The boards determine it while they are open."""
+        return self._setpoint_period_s
 
     @property
     def stop_pending(self) -> bool:
-        """Whether a board has yet to acknowledge a stop."""
+        """Whether some board has not yet acknowledged a stop."""
         session = self._session
         return session is not None and (
-            self._asked_stop != self._seen_stop
-            or any(board.dialogue.has(Urgency.STOP) for board in session.boards)
+            self._requested_stop != self._handled_stop
+            or any(board.dialogue.has_request(RequestUrgency.STOP) for board in session.boards)
         )
 
     def _open(self) -> None:
         try:
-            axes = board_axes(self.robot)
+            axes = make_board_axes(self.robot)
         except InputError as error:
-            raise DriverError(
-                message("engine", "{name}: {error}").fill(name=self.name, error=str(error))
-            ) from error
+            raise DriverError("{name}: {error}", name=self.name, error=str(error)) from error
         urls = [str(self.settings["port"])]
-        second = str(self.settings["second_port"])
-        if second and len(axes) == 1:
+        second_url = str(self.settings["second_port"])
+        if second_url and len(axes) == 1:
             raise DriverError(
-                message(
-                    "engine", "{name}: robot {robot_name} has one board; leave second_port empty"
-                ).fill(name=self.name, robot_name=repr(self.robot.name))
+                "{name}: robot {robot_name} has one board; leave second_port empty",
+                name=self.name,
+                robot_name=repr(self.robot.name),
             )
-        self._asked_stop = self._seen_stop = 0
-        self._fault, self._progress, self._profile = None, 0.0, None
-        self._searched, self._distrusted = set(), set()
-        self._ended = False
-        self._called_s = float("-inf")
-        self._session = Session(
+        self._requested_stop = self._handled_stop = 0
+        self._fault, self._progress, self._profile_board = None, 0.0, None
+        self._axes_being_homed, self._untrusted_axes = set(), set()
+        self._has_stopped_after_fault = False
+        self._last_call_s = float("-inf")
+        self._session = BoardSession(
             self.robot,
             axes,
-            [*urls, second] if second else urls,
+            [*urls, second_url] if second_url else urls,
             self._baud,
             latency_s=self._latency_s,
-            watch_ms=round(1e3 * self._watchdog_s),
+            watchdog_ms=round(1e3 * self._watchdog_s),
             clock=self.clock,
             pause=self._pause,
             open_port=self._open_port,
-            permit=self.gate.permit(Purpose.SERVICE),
+            permit=self.gate.permit(PermitPurpose.SERVICE),
         )
-        self._period_s = self._session.setpoint_period_s
+        self._setpoint_period_s = self._session.setpoint_period_s
 
     def _identify(self) -> MachineKind:
-        virtual = all(board.kind == VIRTUAL for board in self._running.boards)
-        return MachineKind.VIRTUAL if virtual else MachineKind.REAL
+        is_virtual = all(board.kind == VIRTUAL_KIND for board in self._open_session.boards)
+        return MachineKind.VIRTUAL if is_virtual else MachineKind.REAL
 
     def _close(self) -> None:
         session, self._session = self._session, None
@@ -134,162 +145,171 @@ class Connected(Driver):
             session.close()
 
     def _status(self) -> DeviceStatus:
-        session = self._running
+        session = self._open_session
         boards = session.boards
-        steppers = [n for n, axis in self.robot.axes.items() if isinstance(axis, StepperAxis)]
-        # A board tells of all its axes at once.
+        steppers = [name for name, axis in self.robot.axes.items() if isinstance(axis, StepperAxis)]
+        # A board reports one position state for all its axes together.
         unhomed = tuple(
             axis.name
             for board in boards
             for axis in board.axes
-            if axis.name in steppers and (board.unknown or axis.name in self._distrusted)
+            if axis.name in steppers
+            and (board.is_position_unknown or axis.name in self._untrusted_axes)
         )
-        if session.lost is not None:
+        if session.loss is not None:
             return DeviceStatus(
-                DeviceState.FAULT, self._progress, str(session.lost), False, unhomed
+                DeviceState.FAULT, self._progress, str(session.loss), False, unhomed
             )
-        known = not self._distrusted and not any(board.unknown for board in boards)
-        state, fault = self._state(session), self._fault_of(session)
+        is_known = not self._untrusted_axes and not any(
+            board.is_position_unknown for board in boards
+        )
+        state, fault = self._find_state(session), self._describe_fault(session)
         if fault is not None:
             state = DeviceState.FAULT
-        return DeviceStatus(state, self._progress, fault, known, unhomed, session.silent_s)
+        return DeviceStatus(state, self._progress, fault, is_known, unhomed, session.silent_s)
 
-    def _state(self, session: Session) -> DeviceState:
-        if self._asked_stop != self._seen_stop:
-            return DeviceState.MOVING  # until it is known what the stop did
+    def _find_state(self, session: BoardSession) -> DeviceState:
+        if self._requested_stop != self._handled_stop:
+            # The effect of the stop is not known yet.
+            return DeviceState.MOVING
         if session.player is not None:
             return DeviceState.PLAYING
         activities = {board.activity for board in session.boards}
-        if busy := next((one for one in _BUSY if one in activities), None):
-            return busy
-        # The samples that show where they came to rest are to be there first.
-        rested = max(board.rest_number for board in session.boards)
-        return DeviceState.IDLE if session.sampling.settled >= rested else DeviceState.MOVING
+        if busy_state := next((state for state in _BUSY_STATES if state in activities), None):
+            return busy_state
+        # The device counts as idle only when the samples with the final position have arrived.
+        rest_number = max(board.rest_number for board in session.boards)
+        return (
+            DeviceState.IDLE
+            if session.sample_assembler.latest_finished_number >= rest_number
+            else DeviceState.MOVING
+        )
 
-    def _fault_of(self, session: Session) -> str | None:
-        if self._asked_stop != self._seen_stop:
+    def _describe_fault(self, session: BoardSession) -> str | None:
+        if self._requested_stop != self._handled_stop:
             return self._fault
-        told = [board.fault for board in session.boards]
-        found = [one for one in (*told, self._fault) if one is not None]
-        return "; ".join(found) or None
+        faults = [board.fault_text for board in session.boards]
+        texts = [fault for fault in (*faults, self._fault) if fault is not None]
+        return "; ".join(texts) or None
 
     def _stop(self) -> None:
         session = self._session
         if session is None:
             return
-        self._asked_stop = next(self._stops)
+        self._requested_stop = next(self._stop_counter)
         failures = []
         for link in session.links:
             try:
                 link.stop()
-            except DriverError as error:  # the other board is to hear it all the same
+            except DriverError as error:
+                # The other board must still receive the stop.
                 failures.append(error)
         if failures:
             raise failures[0]
 
     def _clear_fault(self, permit: Permit) -> None:
-        session = self._running
-        if session.lost is not None:
-            raise DriverError(
-                message("engine", "{name}: {lost}").fill(name=self.name, lost=str(session.lost))
-            )
-        self._follow_stop(session)
+        session = self._open_session
+        if session.loss is not None:
+            raise DriverError("{name}: {lost}", name=self.name, lost=str(session.loss))
+        self._handle_stop(session)
         self._fault = None
         for board in session.boards:
-            board.orders.forget()
-            if board.fault is not None:
+            board.orders.drop_orders()
+            if board.fault_text is not None:
                 board.orders.clear_fault(permit)
         self._serve()
 
-    def _read(self) -> Samples:
-        session = self._running
-        if session.lost is not None:
-            raise ConnectionLostError(str(session.lost)) from session.lost
+    def _read(self) -> DeviceSamples:
+        session = self._open_session
+        if session.loss is not None:
+            raise ConnectionLostError(str(session.loss)) from session.loss
         self._serve()
-        return session.samples()
+        return session.take_samples()
 
     @property
-    def _running(self) -> Session:
+    def _open_session(self) -> BoardSession:
         assert self._session is not None, "the base class calls hooks of an open device only"
         return self._session
 
     def _serve(self) -> None:
-        """Carry on with the conversation, after whatever stop came meanwhile."""
-        session = self._running
-        self._follow_stop(session)
+        session = self._open_session
+        self._handle_stop(session)
         player = session.player
         session.serve()
         if player is not None:
             self._progress = player.progress
-        self._note_faults(session)
-        self._note_homing(session)
+        self._handle_faults(session)
+        self._update_homing(session)
 
-    def _note_homing(self, session: Session) -> None:
-        """Trust the axes of a homing that has come to its end, and only those."""
-        if self._searched and self._state(session) is not DeviceState.HOMING:
-            if self._fault_of(session) is None and not session.silent_s:
-                self._distrusted -= self._searched
-            self._searched = set()
+    def _update_homing(self, session: BoardSession) -> None:
+        """Trust the positions of the axes whose homing has been completed."""
+        if self._axes_being_homed and self._find_state(session) is not DeviceState.HOMING:
+            if self._describe_fault(session) is None and not session.silent_s:
+                self._untrusted_axes -= self._axes_being_homed
+            self._axes_being_homed = set()
 
-    def _note_faults(self, session: Session) -> None:
-        """End what goes on where a board has halted or refused."""
-        refused = [b.orders.refusal for b in session.boards if b.orders.refusal is not None]
-        refused += session.held_back()
+    def _handle_faults(self, session: BoardSession) -> None:
+        """Stop all boards if one of them has a fault or has refused an order."""
+        refusals = [
+            board.orders.refusal for board in session.boards if board.orders.refusal is not None
+        ]
+        refusals += session.take_rejection_reasons()
         player = session.player
         if player is not None and player.failure is not None:
-            refused.append(player.failure)
-        halted = any(board.fault is not None for board in session.boards)
-        if refused:
-            self._fault = "; ".join(refused)
-        ends = bool(refused or halted) and not self._ended
-        self._ended = bool(refused or halted)
-        if ends and (player is not None or self._waits(session)):
-            # What one board cannot do the other is not to do alone.
-            self._profile = None
+            refusals.append(player.failure)
+        has_board_fault = any(board.fault_text is not None for board in session.boards)
+        if refusals:
+            self._fault = "; ".join(refusals)
+        must_stop = bool(refusals or has_board_fault) and not self._has_stopped_after_fault
+        self._has_stopped_after_fault = bool(refusals or has_board_fault)
+        if must_stop and (player is not None or self._is_any_board_moving(session)):
+            # The other board must not continue alone.
+            self._profile_board = None
             self._stop()
 
-    def _waits(self, session: Session) -> bool:
-        return any(not board.at_rest and board.fault is None for board in session.boards)
+    def _is_any_board_moving(self, session: BoardSession) -> bool:
+        return any(not board.at_rest and board.fault_text is None for board in session.boards)
 
-    def _cancel_after_pause(self, session: Session) -> None:
-        """End what was under way before a long pause of this program: nothing resumes by itself."""
+    def _cancel_after_pause(self, session: BoardSession) -> None:
+        """Cancel all motion after a long pause of this program. Nothing may resume by itself."""
         now_s = self.clock()
-        paused_s, self._called_s = now_s - self._called_s, now_s
-        under_way = session.player is not None or not all(one.at_rest for one in session.boards)
-        if not MAX_PAUSE_S < paused_s < float("inf") or not under_way or session.lost is not None:
+        paused_s, self._last_call_s = now_s - self._last_call_s, now_s
+        is_moving = session.player is not None or not all(board.at_rest for board in session.boards)
+        if not MAX_PAUSE_S < paused_s < float("inf") or not is_moving or session.loss is not None:
             return
         self._fault = message(
             "engine",
-            "this program did not run for {seconds} s, at most {limit} s are allowed while axes "
-            "move; all motion was cancelled. Check the machine, clear the fault and move again",
-        ).fill(seconds=rounded(paused_s, 3), limit=rounded(MAX_PAUSE_S))
-        with suppress(DriverError):  # the exchange that follows says why a port takes no stop
+            "this program did not run for {seconds} s (limit {limit} s while axes move), so all "
+            "motion was cancelled. Check the machine, clear the fault and move again",
+        ).fill(seconds=format_rounded(paused_s, 3), limit=format_rounded(MAX_PAUSE_S))
+        # If a port does not accept the stop, the next exchange reports the reason.
+        with suppress(DriverError):
             self._stop()
 
-    def _follow_stop(self, session: Session) -> None:
-        """Forget what was asked before the latest stop, or a pause of this program."""
+    def _handle_stop(self, session: BoardSession) -> None:
+        """Cancel all requests from before the latest stop, or before a long pause."""
         self._cancel_after_pause(session)
-        asked = self._asked_stop
-        if asked != self._seen_stop:
-            session.stopped()
-            self._profile = None
-            self._searched = set()
-            self._seen_stop = asked
+        requested_stop = self._requested_stop
+        if requested_stop != self._handled_stop:
+            session.handle_stop()
+            self._profile_board = None
+            self._axes_being_homed = set()
+            self._handled_stop = requested_stop
 
-    def _prepare(self, action: str) -> None:
-        """Refuse to move with parameters that nobody knows; what is asked now is after any stop."""
-        self._follow_stop(self._running)
-        self._running.trust.demand(self.name, action)
+    def _prepare_action(self, action: str) -> None:
+        """Handle a pending stop, and refuse an action if parameters differ from the robot file."""
+        self._handle_stop(self._open_session)
+        self._open_session.parameter_check.require_agreement(self.name, action)
 
-    def _number(self, name: str, least: float, greatest: float) -> float:
+    def _read_number(self, name: str, min_value: float, max_value: float) -> float:
         value = self.settings[name]
-        if isinstance(value, str) or not least <= value <= greatest:
-            raise SettingError(
-                message(
-                    "engine",
-                    "{name}: setting {setting} = {value} is not between {least} and {greatest}",
-                ).fill(
-                    name=self.name, setting=name, value=repr(value), least=least, greatest=greatest
-                )
+        if isinstance(value, str) or not min_value <= value <= max_value:
+            raise DriverSettingError(
+                "{name}: setting {setting} = {value} is not between {least} and {greatest}",
+                name=self.name,
+                setting=name,
+                value=repr(value),
+                least=min_value,
+                greatest=max_value,
             )
         return value

@@ -1,7 +1,8 @@
-"""What is said to one board, one request after the other, each until it is answered.
+"""Requests to one board: each is repeated until the board answers, and then the next one is sent.
 
-A board executes no frame twice in a row, but knows the number of the last one alone. So while a
-request is unanswered nothing else is said to its board; set-points, which are counted, excepted.
+A board does not execute a repeated frame again, but it remembers only the number of the last frame.
+So nothing else is sent to the board while a request is unanswered. Set-points are an exception,
+because they have their own index.
 """
 
 from collections import deque
@@ -10,18 +11,22 @@ from dataclasses import dataclass
 from enum import IntEnum
 from typing import NamedTuple
 
-from rotemina.drivers.errors import StateError
-from rotemina.drivers.gate import Permit
-from rotemina.drivers.mc68hc11.board_messages import Done, Refused
-from rotemina.drivers.mc68hc11.framing import RESYNC, Frame, encoded
-from rotemina.drivers.mc68hc11.payload import Message
-from rotemina.sim.messages import message
+from rotemina.drivers.contract import Permit, StateError
+from rotemina.drivers.mc68hc11.protocol import (
+    RESYNC_BYTES,
+    FrameDone,
+    FrameRefused,
+    SerialFrame,
+    WireMessage,
+    encode_frame,
+)
 
-_MOST_QUEUED = 96  # requests of one urgency: a profile and all parameters, and some
+# Limit for each urgency. It is sufficient for a profile together with all parameters.
+_MAX_QUEUED_REQUESTS = 96
 
 
-class Urgency(IntEnum):
-    """Which request goes first."""
+class RequestUrgency(IntEnum):
+    """Urgency of a request. Requests with the lowest number are sent first."""
 
     STOP = 0
     COMMAND = 1
@@ -29,176 +34,204 @@ class Urgency(IntEnum):
     BACKGROUND = 3
 
 
-Answered = Callable[[Message, float], None]  # the answer, and the host's time
+# Called with the answer and the host time, s, at which it arrived.
+AnswerHandler = Callable[[WireMessage, float], None]
 
 
 @dataclass(slots=True, kw_only=True, eq=False)
-class Request:
-    """Something that is asked of a board.
+class BoardRequest:
+    """Message to a board that expects an answer.
 
     Attributes
     ----------
-    message : Message
-    urgency : Urgency
-    answer : type
-        Of the message that answers it; a refusal ends it too.
-    matches : callable
-        Whether a message of this type is the answer.
-    answered, refused : callable
-        Called with the answer, or with the reason of a refusal (None: nobody answered in time).
+    message : WireMessage
+    urgency : RequestUrgency
+    answer_type : type
+        Type of the message that answers the request. A refusal is always an answer, too.
+    is_answer : callable
+        Return whether a message of this type is the answer.
+    on_answer : callable
+        Called with the answer and the host time, s.
+    on_refusal : callable
+        Called with the reason of a refusal, or with None if the request was not answered in time.
     expires_s : float
-        Host time after which it is said no more.
+        Host time after which the request is no longer sent.
     permit : Permit or None
-        What its frame passes the gate with; None for what moves nothing.
+        Permit with which the frame passes the gate. None for a message that causes no motion.
     """
 
-    message: Message
-    urgency: Urgency = Urgency.COMMAND
-    answer: type[Message] = Done
-    matches: Callable[[Message], bool] = lambda _: True
-    answered: Answered = lambda _message, _at_s: None
-    refused: Callable[[int | None], None] = lambda _: None
+    message: WireMessage
+    urgency: RequestUrgency = RequestUrgency.COMMAND
+    answer_type: type[WireMessage] = FrameDone
+    is_answer: Callable[[WireMessage], bool] = lambda _: True
+    on_answer: AnswerHandler = lambda _message, _now_s: None
+    on_refusal: Callable[[int | None], None] = lambda _: None
     expires_s: float = float("inf")
     permit: Permit | None = None
 
 
-class Offered(NamedTuple):
-    """The bytes of a frame, and what they pass the gate with."""
+class OutgoingFrame(NamedTuple):
+    """Bytes of a frame, and the permit with which they pass the gate.
+
+    ``begins`` is false if the frame continues a motion that has already begun.
+    """
 
     data: bytes
     permit: Permit | None
-    begins: bool = True  # False where a motion that has begun goes on
+    starts_motion: bool = True
 
 
 @dataclass(slots=True)
 class _SentRequest:
-    """A request that waits for its answer."""
-
-    request: Request
+    request: BoardRequest
     number: int
     frame: bytes
-    said_s: float  # when its last byte was out, as far as one can tell
-    due_s: float
-    times: int = 1
+    sent_s: float
+    # Host time at which the frame is repeated, s.
+    repeat_at_s: float
+    send_count: int = 1
 
 
-class Dialogue:
-    """The requests to one board.
+class BoardDialogue:
+    """Queue of requests to one board.
 
     Parameters
     ----------
     address : int
-        The board's.
+        Address of the board.
     answer_s : float
-        After what time an answer is missing.
+        Time, s, after which an unanswered request is repeated.
+
+    Attributes
+    ----------
+    repeat_count : int
+        Number of frames that were repeated.
+    round_trip_s : float or None
+        Smoothed time from a request to its answer, s.
     """
 
     def __init__(self, address: int, answer_s: float) -> None:
         self.address = address
         self.answer_s = answer_s
-        self.repeated = 0
+        self.repeat_count = 0
         self.round_trip_s: float | None = None
-        self._queues: dict[Urgency, deque[Request]] = {each: deque() for each in Urgency}
+        self._queues: dict[RequestUrgency, deque[BoardRequest]] = {
+            urgency: deque() for urgency in RequestUrgency
+        }
         self._sent: _SentRequest | None = None
 
     @property
-    def busy(self) -> bool:
-        """Whether a request waits for its turn or its answer."""
+    def has_requests(self) -> bool:
+        """Whether a request is queued or waits for its answer."""
         return self._sent is not None or any(self._queues.values())
 
     @property
-    def waiting(self) -> bool:
-        """Whether a request waits for its answer."""
+    def is_awaiting_answer(self) -> bool:
+        """Whether a sent request has not been answered yet."""
         return self._sent is not None
 
-    def has(self, urgency: Urgency) -> bool:
-        """Whether a request of this urgency waits for its turn or its answer."""
-        said = self._sent is not None and self._sent.request.urgency is urgency
-        return said or bool(self._queues[urgency])
+    def has_request(self, urgency: RequestUrgency) -> bool:
+        """Return whether a request of this urgency is queued or waits for its answer."""
+        is_sent = self._sent is not None and self._sent.request.urgency is urgency
+        return is_sent or bool(self._queues[urgency])
 
-    def ask(self, request: Request) -> None:
+    def ask(self, request: BoardRequest) -> None:
         """Queue a request.
 
         Raises
         ------
         StateError
-            If too many wait already.
+            If too many requests of its urgency are queued already.
         """
         queue = self._queues[request.urgency]
-        if len(queue) >= _MOST_QUEUED:
+        if len(queue) >= _MAX_QUEUED_REQUESTS:
             raise StateError(
-                message("engine", "board {address}: {count} requests wait for it; wait").fill(
-                    address=self.address, count=len(queue)
-                )
+                "board {address}: {count} requests are already waiting; try again later",
+                address=self.address,
+                count=len(queue),
             )
         queue.append(request)
 
-    def drop(self) -> None:
-        """Forget every request but stops: what is under way too is never said again."""
+    def cancel_requests(self) -> None:
+        """Cancel all requests except stops, including the one that has been sent."""
         for urgency, queue in self._queues.items():
-            if urgency is not Urgency.STOP:
+            if urgency is not RequestUrgency.STOP:
                 queue.clear()
-        if self._sent is not None and self._sent.request.urgency is not Urgency.STOP:
+        if self._sent is not None and self._sent.request.urgency is not RequestUrgency.STOP:
             self._sent = None
 
-    def give_up(self) -> None:
-        """Forget the request that was taken last: it is never said."""
-        said, self._sent = self._sent, None
-        if said is not None:
-            said.request.refused(None)
+    def cancel_current(self) -> None:
+        """Cancel the request of the latest :meth:`take_frame`, because its frame was not sent."""
+        sent_request, self._sent = self._sent, None
+        if sent_request is not None:
+            sent_request.request.on_refusal(None)
 
-    def offer(self, now_s: float) -> Urgency | None:
-        """Return the urgency of what there is to say now, or None."""
-        said = self._sent
-        if said is not None:
-            if now_s < said.due_s:
+    def find_next_urgency(self, now_s: float) -> RequestUrgency | None:
+        """Return the urgency of the next frame to send, or None if there is none to send now."""
+        sent_request = self._sent
+        if sent_request is not None:
+            if now_s < sent_request.repeat_at_s:
                 return None
-            if now_s < said.request.expires_s:
-                return said.request.urgency
+            if now_s < sent_request.request.expires_s:
+                return sent_request.request.urgency
             self._sent = None
-            said.request.refused(None)
+            sent_request.request.on_refusal(None)
         for urgency, queue in self._queues.items():
             while queue:
                 if now_s < queue[0].expires_s:
                     return urgency
-                queue.popleft().refused(None)
+                queue.popleft().on_refusal(None)
         return None
 
-    def take(self, now_s: float, number: int, out_s: float) -> Offered:
-        """Return what `offer` had; ``out_s`` from the call each of 32 bytes is out."""
-        said = self._sent
-        if said is not None:
-            self.repeated += 1
-            said.times += 1
-            said.due_s = now_s + out_s + self.answer_s
-            return Offered(RESYNC + said.frame, said.request.permit)
+    def take_frame(self, now_s: float, number: int, out_s: float) -> OutgoingFrame:
+        """Return the frame of the request that :meth:`find_next_urgency` has found.
+
+        Parameters
+        ----------
+        now_s : float
+            Host time, s.
+        number : int
+            Number of the frame.
+        out_s : float
+            Time from now until a frame of full length has left the line, s.
+        """
+        sent_request = self._sent
+        if sent_request is not None:
+            self.repeat_count += 1
+            sent_request.send_count += 1
+            sent_request.repeat_at_s = now_s + out_s + self.answer_s
+            return OutgoingFrame(RESYNC_BYTES + sent_request.frame, sent_request.request.permit)
         queue = next(queue for queue in self._queues.values() if queue)
         request = queue.popleft()
         message = request.message
-        frame = encoded(Frame(self.address, number, message.TYPE, message.packed()))
+        frame = encode_frame(SerialFrame(self.address, number, message.TYPE, message.pack()))
         self._sent = _SentRequest(request, number, frame, now_s, now_s + out_s + self.answer_s)
-        return Offered(frame, request.permit)
+        return OutgoingFrame(frame, request.permit)
 
-    def receive(self, message: Message, now_s: float) -> bool:
-        """Take a message as the answer if it is one; return whether it was."""
-        said = self._sent
-        if said is None:
+    def receive(self, message: WireMessage, now_s: float) -> bool:
+        """Handle a message if it answers the current request. Return whether it does."""
+        sent_request = self._sent
+        if sent_request is None:
             return False
-        request = said.request
-        if isinstance(message, Refused):
-            if message.number != said.number:
+        request = sent_request.request
+        if isinstance(message, FrameRefused):
+            if message.number != sent_request.number:
                 return False
             self._sent = None
-            request.refused(message.reason)
+            request.on_refusal(message.reason)
             return True
-        if not isinstance(message, request.answer) or not request.matches(message):
+        if not isinstance(message, request.answer_type) or not request.is_answer(message):
             return False
-        if isinstance(message, Done) and message.number != said.number:
-            return False  # late, of a request that was given up
+        if isinstance(message, FrameDone) and message.number != sent_request.number:
+            # This is a late answer to a request that was cancelled.
+            return False
         self._sent = None
-        if said.times == 1:
-            took_s = now_s - said.said_s
-            before = self.round_trip_s
-            self.round_trip_s = took_s if before is None else before + 0.125 * (took_s - before)
-        request.answered(message, now_s)
+        # If the request was repeated, it is unknown which of its frames is answered.
+        if sent_request.send_count == 1:
+            elapsed_s = now_s - sent_request.sent_s
+            average_s = self.round_trip_s
+            self.round_trip_s = (
+                elapsed_s if average_s is None else average_s + 0.125 * (elapsed_s - average_s)
+            )
+        request.on_answer(message, now_s)
         return True

@@ -1,107 +1,159 @@
-"""What a serial line can carry: the rates that a board announces, and the time a stop takes.
+"""Capacity of a serial line: data rates that a board may offer, and the latency of a stop.
 
-All of it is counted in bytes of ten bits. On a shared bus every frame is followed by a slot in
-which the host alone may begin to speak, so that a stop never waits for more than one frame.
+All loads are counted in bytes on the wire, ten bits each. On a shared bus each frame is followed
+by a slot in which only the host may start a frame. So a stop waits for at most one frame.
 
-A telemetry frame has 31 bytes, and every fourth is followed by 14 bytes of inputs. A capture frame
-holds up to 11 samples of one axis, or 3 of three.
+A telemetry frame has 31 bytes, and every fourth one is followed by a 14-byte frame of inputs. A
+capture frame holds up to 11 samples of one axis, or 3 samples of three axes.
 """
 
 from dataclasses import dataclass
 from math import ceil
+from typing import NamedTuple
 
-from rotemina.drivers.mc68hc11.board_messages import AXIS_BYTES, Captured, Inputs, Rates, Telemetry
-from rotemina.drivers.mc68hc11.framing import MAX_FRAME
-from rotemina.drivers.mc68hc11.payload import Message
-from rotemina.drivers.mc68hc11.protocol_codes import AXES
-
-BITS_A_BYTE = 10  # start, eight, stop
-BAUDS = (125_000, 9_600)
-_OVERHEAD = 7  # address, number, type, check, stuffing, the zero behind
-_ZERO_BEFORE = 1  # of what a board says
-_READINGS = 5  # bytes: a joystick's three potentiometers
-_INPUTS_EVERY = 4  # telemetry frames
-_SAMPLE = 2  # bytes of one axis
-_SLOT = 3  # bytes of silence after a frame on a shared bus
-_BOARDS = 2  # on a shared bus
-_MOST = 0.95  # of a line that is used
-TICK_HZ = 2000  # of the chip at E = 4 MHz
-# Hz at a tick of 1 kHz, E = 2 MHz: what the chip keeps up, see ``firmware/budget.py``.
-_CHIP_HZ, _CHIP = 1000, (100, 25, 1000, 250)
-ROWS = 2  # of a trajectory in one segment of a stream
-_WISHED = (  # Hz: telemetry alone and while capturing, capture of one axis and of three
-    (200, 50, 2000, 1000),
-    (100, 25, 1000, 500),
-    (50, 10, 500, 200),
-    (20, 10, 200, 100),
-    (10, 5, 100, 50),
-    (5, 2, 100, 25),
-    (4, 2, 50, 25),
+from rotemina.drivers.mc68hc11.protocol import (
+    AXES_PER_BOARD,
+    AXIS_BYTES,
+    MAX_FRAME_BYTES,
+    BoardRates,
+    CaptureSamples,
+    OperatorInputs,
+    Telemetry,
+    WireMessage,
 )
+
+# A start bit, eight data bits and a stop bit.
+BITS_PER_BYTE = 10
+BAUD_RATES = (125_000, 9_600)
+# Address, number, type, CRC (two bytes), stuffing and the final zero.
+_OVERHEAD_BYTES = 7
+# Each frame of a board begins with a zero.
+_LEADING_ZERO_BYTES = 1
+# Three 12-bit readings of the joystick's potentiometers.
+_INPUT_READINGS_BYTES = 5
+# One frame of inputs is sent after this many telemetry frames.
+_TELEMETRY_FRAMES_PER_INPUTS = 4
+_CAPTURED_VALUE_BYTES = 2
+# Silence after each frame on a shared bus.
+_SLOT_BYTES = 3
+_BOARDS_ON_BUS = 2
+_MAX_LOAD = 0.95
+# Control ticks of the chip at E = 4 MHz.
+DEFAULT_TICK_HZ = 2000
+# Rows of a trajectory in one segment of a stream.
+ROWS_PER_SEGMENT = 2
+
+
+class _RateSet(NamedTuple):
+    telemetry_hz: int
+    telemetry_while_capturing_hz: int
+    capture_one_axis_hz: int
+    capture_three_axes_hz: int
+
+
+# Candidates from fast to slow. A board offers the first rates that fit the line.
+_CANDIDATE_RATES = (
+    _RateSet(200, 50, 2000, 1000),
+    _RateSet(100, 25, 1000, 500),
+    _RateSet(50, 10, 500, 200),
+    _RateSet(20, 10, 200, 100),
+    _RateSet(10, 5, 100, 50),
+    _RateSet(5, 2, 100, 25),
+    _RateSet(4, 2, 50, 25),
+)
+# The chip sustains these rates at E = 2 MHz, with control ticks of 1 kHz. See
+# ``firmware/chip_load.py``.
+_CHIP_TICK_HZ, _CHIP_RATES = 1000, _RateSet(100, 25, 1000, 250)
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
-    """A serial line: its speed, and whether both directions, and both boards, share it."""
+class LineCapacity:
+    """Capacity of a serial line.
+
+    If ``half_duplex`` is set, both directions and both boards share the line.
+    """
 
     baud: int
     half_duplex: bool = False
 
     @property
     def bytes_per_s(self) -> float:
-        """What goes over it in one direction."""
-        return self.baud / BITS_A_BYTE
+        """Bytes per second that the line carries in one direction."""
+        return self.baud / BITS_PER_BYTE
 
-    def seconds(self, count: int) -> float:
-        """Return how long some bytes take."""
+    def compute_duration_s(self, count: int) -> float:
+        """Return the time that a number of bytes takes on the line, s."""
         return count / self.bytes_per_s
 
-    def stop_s(self) -> float:
-        """Return the time from the call to the board's stop, at most.
+    def compute_stop_latency_s(self) -> float:
+        """Return the maximum time from the host's stop until the board has received it, s.
 
-        One frame is under way. On two lines the board has heard its end, so that a single zero is
-        enough; on a shared bus a board may be speaking, which hears the slot's first zero.
+        A zero where a frame should begin means stop. At most one frame, of maximum length, is on
+        the line before it. In full duplex this is a frame of the host, and the zero follows its
+        end. On a shared bus it may be a frame of a board, and the zero is sent at the beginning of
+        the slot after it.
         """
-        return self.seconds(MAX_FRAME + 1)
+        return self.compute_duration_s(MAX_FRAME_BYTES + 1)
 
-    def load(self, telemetry_hz: float, capture_hz: float = 0.0, axes: int = 0) -> float:
-        """Return the share of the line, from board to host, that telemetry and a capture take.
+    def compute_load(
+        self, telemetry_hz: float, capture_hz: float = 0.0, axis_count: int = 0
+    ) -> float:
+        """Return the fraction of the board-to-host capacity that telemetry and a capture use.
 
-        On a shared bus: of both boards' telemetry, one board's capture, and the polls.
+        On a shared bus this includes the telemetry of both boards, a capture by one board, and the
+        polls. ``axis_count`` is the number of captured axes.
         """
-        inputs = (_wire(Inputs) + _READINGS) / _INPUTS_EVERY
-        telemetry = _wire(Telemetry) + AXES * AXIS_BYTES + inputs
-        captured = frames_hz = 0.0
-        if axes:
-            samples = (MAX_FRAME - _wire(Captured)) // (_SAMPLE * axes)
-            frames_hz = capture_hz / samples
-            captured = frames_hz * (_wire(Captured) + samples * _SAMPLE * axes)
+        inputs_bytes = (
+            _count_wire_bytes(OperatorInputs) + _INPUT_READINGS_BYTES
+        ) / _TELEMETRY_FRAMES_PER_INPUTS
+        bytes_per_telemetry = (
+            _count_wire_bytes(Telemetry) + AXES_PER_BOARD * AXIS_BYTES + inputs_bytes
+        )
+        capture_bytes_per_s = frames_hz = 0.0
+        if axis_count:
+            samples_per_frame = (MAX_FRAME_BYTES - _count_wire_bytes(CaptureSamples)) // (
+                _CAPTURED_VALUE_BYTES * axis_count
+            )
+            frames_hz = capture_hz / samples_per_frame
+            capture_bytes_per_s = frames_hz * (
+                _count_wire_bytes(CaptureSamples)
+                + samples_per_frame * _CAPTURED_VALUE_BYTES * axis_count
+            )
         if self.half_duplex:
-            poll = _OVERHEAD + _SLOT
-            telemetry = poll + _BOARDS * (telemetry + _SLOT)
-            captured += frames_hz * (poll + _SLOT)
-        return (telemetry_hz * telemetry + captured) / self.bytes_per_s
+            poll_and_slot_bytes = _OVERHEAD_BYTES + _SLOT_BYTES
+            bytes_per_telemetry = poll_and_slot_bytes + _BOARDS_ON_BUS * (
+                bytes_per_telemetry + _SLOT_BYTES
+            )
+            capture_bytes_per_s += frames_hz * (poll_and_slot_bytes + _SLOT_BYTES)
+        return (telemetry_hz * bytes_per_telemetry + capture_bytes_per_s) / self.bytes_per_s
 
 
-def rates(line: Line, tick_hz: int = TICK_HZ) -> Rates:
-    """Return the greatest rates that a board announces on a line, at its control ticks a second.
+def compute_rates(line: LineCapacity, tick_hz: int = DEFAULT_TICK_HZ) -> BoardRates:
+    """Return the maximum rates that a board offers on a line, given the rate of its control ticks.
 
-    Segments: two rows each, at the rate of telemetry, or half of it on a shared bus.
+    Trajectory rows are streamed at the telemetry rate, or at half of it on a shared bus, and a
+    segment holds two rows.
     """
 
-    def fits(telemetry_hz: float, capture_hz: float = 0.0, axes: int = 0) -> bool:
-        return line.load(telemetry_hz, capture_hz, axes) <= _MOST
+    def is_possible(telemetry_hz: float, capture_hz: float = 0.0, axis_count: int = 0) -> bool:
+        return line.compute_load(telemetry_hz, capture_hz, axis_count) <= _MAX_LOAD
 
-    telemetry = next(one[0] for one in _WISHED if fits(one[0]))
-    slower, one, three = next(
-        own[1:] for own in _WISHED if fits(own[1], own[2], 1) and fits(own[1], own[3], 3)
+    telemetry_hz = next(
+        rates.telemetry_hz for rates in _CANDIDATE_RATES if is_possible(rates.telemetry_hz)
     )
-    chip = (rate * tick_hz // _CHIP_HZ for rate in _CHIP)
-    telemetry, slower, one, three = map(min, (telemetry, slower, one, three), chip)
-    segments = ceil(telemetry / (ROWS * (2 if line.half_duplex else 1)))
-    return Rates(telemetry, slower, one, three, segments, tick_hz)
+    capture_rates = next(
+        rates
+        for rates in _CANDIDATE_RATES
+        if is_possible(rates.telemetry_while_capturing_hz, rates.capture_one_axis_hz, 1)
+        and is_possible(rates.telemetry_while_capturing_hz, rates.capture_three_axes_hz, 3)
+    )
+    line_rates = capture_rates._replace(telemetry_hz=telemetry_hz)
+    chip_rates = (rate_hz * tick_hz // _CHIP_TICK_HZ for rate_hz in _CHIP_RATES)
+    rates = _RateSet(*map(min, line_rates, chip_rates))
+    segments_hz = ceil(rates.telemetry_hz / (ROWS_PER_SEGMENT * (2 if line.half_duplex else 1)))
+    return BoardRates(*rates, segments_hz, tick_hz)
 
 
-def _wire(message: type[Message]) -> int:
-    """Return the bytes on the wire of what a board says, without its tail."""
-    return _ZERO_BEFORE + _OVERHEAD + message.LAYOUT.size
+def _count_wire_bytes(message_class: type[WireMessage]) -> int:
+    """Return the wire size of a board's message, bytes, without its variable-length field."""
+    return _LEADING_ZERO_BYTES + _OVERHEAD_BYTES + message_class.LAYOUT.size

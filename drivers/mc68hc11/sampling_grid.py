@@ -1,55 +1,60 @@
-"""The sampling instants of one board, counted so that all boards' are the same."""
+"""Sampling instants of one board. Instants with the same number are simultaneous on all boards."""
 
-_TICK_US = 1000  # a board samples at its own ticks, which are no longer
+# A board takes its samples at its control ticks, whose period is at most this.
+_MAX_TICK_US = 1000
 
 
-class Grid:
-    """Instants of a board's clock, a whole period apart, and their numbers.
+class SamplingGrid:
+    """Numbered instants, equally spaced on a board's clock.
 
     Parameters
     ----------
     period_us : int
-        Between two numbers.
+        Time between two instants.
     begin_us : int
-        The board's unwrapped time of instant ``number``.
+        Unwrapped board time of the instant with the number ``number``.
+    number : int
     """
 
     def __init__(self, period_us: int, begin_us: int, number: int = 0) -> None:
         self.period_us = period_us
         self._begin_us, self._number = begin_us, number
-        self._before: tuple[int, int] | None = None
+        self._previous: tuple[int, int] | None = None
 
-    def move(self, begin_us: int, number: int) -> None:
-        """Let the numbers from ``number`` on begin at another time; those before stay."""
-        self._before = (self._begin_us, self._number)
+    def shift(self, begin_us: int, number: int) -> None:
+        """Move the instant ``number`` to another time, together with all later instants."""
+        self._previous = (self._begin_us, self._number)
         self._begin_us, self._number = begin_us, number
 
-    def time_us(self, number: int) -> int:
+    def find_time_us(self, number: int) -> int:
         """Return the unwrapped time of an instant."""
-        begin_us, first = self._begin_us, self._number
-        if number < first and self._before is not None:
-            begin_us, first = self._before
-        return begin_us + (number - first) * self.period_us
+        begin_us, first_number = self._begin_us, self._number
+        if number < first_number and self._previous is not None:
+            begin_us, first_number = self._previous
+        return begin_us + (number - first_number) * self.period_us
 
-    def number(self, time_us: int) -> int | None:
-        """Return the number of a sample taken at a time, None if it belongs to no instant."""
-        begin_us, first = self._begin_us, self._number
+    def find_number(self, time_us: int) -> int | None:
+        """Return the number of the instant at a sample's time, or None if there is none."""
+        begin_us, first_number = self._begin_us, self._number
         if time_us < begin_us - self.period_us // 2:
-            if self._before is None:
+            if self._previous is None:
                 return None
-            begin_us, first = self._before
+            begin_us, first_number = self._previous
         number = round((time_us - begin_us) / self.period_us)
-        if abs(begin_us + number * self.period_us - time_us) > min(self.period_us // 4, _TICK_US):
+        if abs(begin_us + number * self.period_us - time_us) > min(
+            self.period_us // 4, _MAX_TICK_US
+        ):
             return None
-        number += first
-        if self._before is not None and (time_us < self._begin_us) != (number < self._number):
-            return None  # of the numbers before, but beyond their end
+        number += first_number
+        if self._previous is not None and (time_us < self._begin_us) != (number < self._number):
+            # The instant at this time has been moved away.
+            return None
         return number
 
-    def latest(self, time_us: int) -> int:
-        """Return the number of the latest instant at a time."""
+    def find_latest_number(self, time_us: int) -> int:
+        """Return the number of the latest instant up to a time."""
         number = self._number + (time_us - self._begin_us) // self.period_us
-        if number < self._number and self._before is not None:
-            begin_us, first = self._before
-            return min(first + (time_us - begin_us) // self.period_us, self._number - 1)
+        if number < self._number and self._previous is not None:
+            begin_us, first_number = self._previous
+            return min(first_number + (time_us - begin_us) // self.period_us, self._number - 1)
         return number

@@ -1,13 +1,15 @@
-"""A trajectory on its way to the boards: approach, rest, and segments ahead of their time.
+"""Playback of a trajectory by the boards: approach, rest, and segments sent ahead of their time.
 
-A segment holds two set-points: its two differences lead through both, step by step.
+A segment holds two set-points. Its first and second differences reproduce both exactly.
 
-The first set-point acts 0.3 s after the stream began, and 31 segments wait in the board. One is
-sent per turn, so that a stop waits for one frame only: at 200 rows per second the queue runs empty
-below 100 turns per second. If the host dies, playback ends with the queue or by the watchdog.
+The first set-point takes effect 0.3 s after the stream was begun. Up to 31 segments wait in the
+board. Each service call of the driver sends one segment, so that a stop waits for only one frame.
+At 200 rows per second the queue runs empty if there are fewer than 100 calls per second. If the
+host crashes, playback ends when the queue is empty or the watchdog expires.
 
-Rows are held, because a record cannot say that an axis was interpolated: a stepper jumps by 140
-steps at 2.8 mm/s and 5 ms. Straight lines between rows would take a segment for each row.
+The command of a row is held until the next row, because a record cannot express interpolation. So a
+stepper at 2.8 mm/s jumps by 140 steps every 5 ms. Straight lines between rows would need a segment
+for each row.
 """
 
 from collections.abc import Mapping, Sequence
@@ -17,30 +19,42 @@ from math import ceil
 
 import numpy as np
 
-from rotemina.drivers.errors import LimitError
-from rotemina.drivers.gate import Permit
+from rotemina.drivers.contract import LimitError, Permit
 from rotemina.drivers.mc68hc11.board import Board, BoardSample
-from rotemina.drivers.mc68hc11.dialogue import Request
-from rotemina.drivers.mc68hc11.host_messages import BeginStream, MoveTo, SetPoint
-from rotemina.drivers.mc68hc11.line_budget import ROWS
-from rotemina.drivers.mc68hc11.payload import Message
-from rotemina.drivers.mc68hc11.protocol_codes import QUEUE
-from rotemina.drivers.mc68hc11.segment_window import MOST_WAY, ROUNDING, UNDER_WAY, SetpointWindow
+from rotemina.drivers.mc68hc11.dialogue import BoardRequest
+from rotemina.drivers.mc68hc11.line_budget import ROWS_PER_SEGMENT
+from rotemina.drivers.mc68hc11.protocol import (
+    QUEUE_SEGMENTS,
+    BeginStream,
+    MoveTo,
+    StreamSegment,
+    WireMessage,
+)
+from rotemina.drivers.mc68hc11.segment_window import (
+    MAX_SETPOINT_DISTANCE_STEPS,
+    MAX_UNACKNOWLEDGED_SEGMENTS,
+    ROUNDING_STEPS,
+    SegmentWindow,
+)
 from rotemina.sim.arrays import FloatArray, IntArray
-from rotemina.sim.messages import AxisName, message
-from rotemina.sim.quantities import exact, rounded
-from rotemina.sim.records.record import Record
-from rotemina.sim.trajectory.schedule import Schedule
+from rotemina.sim.messages import AxisName, format_rounded, message
+from rotemina.sim.records import Record
+from rotemina.sim.trajectory import PlaybackSchedule
+from rotemina.sim.units import format_exact
 
-_AHEAD = QUEUE - 1  # segments that wait in a board: its clock may be one behind ours
-# From the decision to begin until the first set-point acts, at least: a computer that is busy just
-# then is not late either.
-_LEAD, _LEAD_S = 24, 0.3  # set-points, and time
-_CHUNK = 256
-_CHECKED = 1 << 16  # set-points looked at in one go
-_CLIP = 1 << 15  # steps: a deviation that telemetry cannot tell
+# One place in the queue stays free, because the board may be one segment behind the estimate.
+_SEGMENTS_AHEAD = QUEUE_SEGMENTS - 1
+# Minimum delay from the decision to begin until the first set-point takes effect. It allows for a
+# computer that is busy at the start.
+_MIN_LEAD_SETPOINTS, _MIN_LEAD_S = 24, 0.3
+_CHUNK_INSTANTS = 256
+# Long trajectories are checked in blocks, to limit the memory.
+_CHECK_BLOCK_SETPOINTS = 1 << 16
+# Telemetry clips deviations beyond this limit.
+_DEVIATION_LIMIT_STEPS = 1 << 15
 
-Steps = tuple[tuple[int, ...], ...]  # of each board
+# Positions of the axes of each board, steps.
+BoardSteps = tuple[tuple[int, ...], ...]
 
 
 class _Phase(Enum):
@@ -50,30 +64,29 @@ class _Phase(Enum):
     OVER = auto()
 
 
-class Player:
-    """One playback.
+class SegmentPlayer:
+    """Playback of one trajectory.
 
     Parameters
     ----------
     trajectory : Record
-        Inside every limit.
+        Trajectory inside all limits.
     boards : sequence of Board
     speeds : mapping
-        Greatest speed of each axis, steps/s.
+        Maximum speed of each axis, steps/s.
     ends : mapping
-        First and last step of each axis.
+        Lowest and highest step of each axis.
     settle_s : float
-        How long to rest at the first row.
+        Time of rest at the first row.
     permit : Permit
-        What all that it sends passes the gate with.
-    every : int
-        Of how many sampling instants one is that of a set-point.
+        Permit with which all frames of the playback pass the gate.
+    samples_per_setpoint : int
+        Number of sampling instants for each set-point.
 
     Raises
     ------
     LimitError
-        If a board would refuse a set-point, or the line is too slow for them; nothing was asked of
-        any board then.
+        If a board would refuse a set-point, or the line is too slow. Then nothing has been sent.
     """
 
     def __init__(
@@ -84,270 +97,319 @@ class Player:
         ends: Mapping[str, tuple[int, int]],
         settle_s: float,
         permit: Permit,
-        every: int = 1,
+        samples_per_setpoint: int = 1,
     ) -> None:
         self._permit = permit
         self._boards = tuple(boards)
         self._ends = ends
-        self._places = [(b, axis) for b, board in enumerate(boards) for axis in board.axes]
-        names = tuple(axis.name for _, axis in self._places)
+        # Index of the board, and axis on that board, of each axis of the robot.
+        self._board_axes = [
+            (board_index, axis) for board_index, board in enumerate(boards) for axis in board.axes
+        ]
+        names = tuple(axis.name for _, axis in self._board_axes)
         grid = boards[0].grid
-        assert grid is not None, "telemetry is on"
-        self._every = every
-        period_s = 1e-6 * grid.period_us * every
-        self._lead = max(_LEAD, ceil(_LEAD_S / period_s))
-        self._schedule = Schedule(trajectory, names, period_s, on_ticks=True)
-        self._first = {
-            index: int(self._steps_of(index, np.array(at)))
-            for index, at in self._schedule.first.items()
+        assert grid is not None, "telemetry must be on"
+        self._samples_per_setpoint = samples_per_setpoint
+        period_s = 1e-6 * grid.period_us * samples_per_setpoint
+        self._lead_setpoints = max(_MIN_LEAD_SETPOINTS, ceil(_MIN_LEAD_S / period_s))
+        self._schedule = PlaybackSchedule(trajectory, names, period_s, on_ticks=True)
+        self._first_steps = {
+            index: int(self._to_steps(index, np.array(position)))
+            for index, position in self._schedule.first_commands.items()
         }
-        self._check(trajectory, speeds, period_s)
+        self._check_distances(trajectory, speeds, period_s)
         self._check_round_trips(period_s)
         self._settle_s = settle_s
         self._phase = _Phase.APPROACH
-        self._rested_s = 0.0
-        self._begin: int | None = None  # the number of the instant of the first set-point
-        self._instant = 0
-        self._stand: Steps = ()
-        self._streaming: tuple[Board, ...] = ()
-        self._chunk = lru_cache(maxsize=4)(self._chunk_of)
+        self._rest_start_s = 0.0
+        # Number of the sampling instant at which the first set-point takes effect.
+        self._begin_number: int | None = None
+        self._played_count = 0
+        self._start_steps: BoardSteps = ()
+        self._streaming_boards: tuple[Board, ...] = ()
+        self._get_chunk = lru_cache(maxsize=4)(self._compute_chunk)
         self.failure: str | None = None
-        for index, target in self._first.items():
-            b, axis = self._places[index]
+        for index, target in self._first_steps.items():
+            board_index, axis = self._board_axes[index]
             message = MoveTo(axis.number, target, speeds[axis.name])
             key = ("axis", axis.number)
-            self._boards[b].orders.give(key, message, permit=permit)
+            self._boards[board_index].orders.queue_order(key, message, permit=permit)
 
     @property
-    def over(self) -> bool:
-        """Whether all of it was played, or it was given up."""
+    def is_over(self) -> bool:
+        """Whether all rows were played, or the playback was aborted."""
         return self._phase is _Phase.OVER
 
     @property
     def progress(self) -> float:
-        """How much was played, 0 to 1."""
-        return self._schedule.progress(self._instant)
+        """Fraction of the trajectory that was played, 0 to 1."""
+        return self._schedule.progress(self._played_count)
 
-    def step(self, now_s: float, settled: int) -> None:
-        """Go on; ``settled`` is the number of the latest instant that all boards have told of."""
+    def advance(self, now_s: float, latest_finished_number: int) -> None:
+        """Continue the playback.
+
+        Parameters
+        ----------
+        now_s : float
+            Host time, s.
+        latest_finished_number : int
+            Number of the latest sampling instant that all boards have reported.
+        """
         if self._phase is _Phase.APPROACH and all(board.at_rest for board in self._boards):
-            self._arrive(now_s)
-        if self._phase is _Phase.SETTLE and now_s >= self._rested_s + self._settle_s:
+            self._check_arrival(now_s)
+        if self._phase is _Phase.SETTLE and now_s >= self._rest_start_s + self._settle_s:
             self._begin_rows(now_s)
         if self._phase is _Phase.ROWS:
-            self._feed(now_s, settled)
+            self._release_segments(now_s, latest_finished_number)
 
-    def give_up(self) -> None:
-        """End it where it is; what was sent already is up to the boards."""
+    def abort(self) -> None:
+        """End the playback. The boards still execute the segments that they have received."""
         self._phase = _Phase.OVER
-        for board in self._streaming:
+        for board in self._streaming_boards:
             board.link.end_stream(board.address)
 
-    def named(self, number: int, row: Sequence[BoardSample]) -> tuple[int, Steps]:
-        """Return which row began to act at an instant, or -1, and the commands of each board.
+    def find_row(self, number: int, row: Sequence[BoardSample]) -> tuple[int, BoardSteps]:
+        """Return the row that took effect at an instant, and the commands of each board, steps.
 
-        A row counts only if every board says that it acts on it.
+        The row is -1 if no row took effect, or if the telemetry of a board does not show its
+        commands.
         """
-        told = tuple(part.commands for part in row)
-        if self._begin is None:
-            return -1, told
-        instant, between = divmod(number - self._begin, self._every)
-        if between or not 0 <= instant < self._schedule.count:
-            return -1, told
-        steps, numbers = self._chunk(instant // _CHUNK)
-        at = instant % _CHUNK
-        sent = tuple(tuple(int(one) for one in board[at]) for board in steps)
-        for board, part, own in zip(self._boards, row, sent, strict=True):
-            if board in self._streaming and not (part.sound and _is_told(part, own)):
-                return -1, told
-        commands = tuple(
-            own if board in self._streaming else part.commands
-            for board, part, own in zip(self._boards, row, sent, strict=True)
+        reported_commands = tuple(sample.commands for sample in row)
+        if self._begin_number is None:
+            return -1, reported_commands
+        instant, offset = divmod(number - self._begin_number, self._samples_per_setpoint)
+        if offset or not 0 <= instant < self._schedule.count:
+            return -1, reported_commands
+        steps, row_numbers = self._get_chunk(instant // _CHUNK_INSTANTS)
+        index = instant % _CHUNK_INSTANTS
+        sent_commands = tuple(
+            tuple(int(step) for step in board_steps[index]) for board_steps in steps
         )
-        return int(numbers[at]), commands
+        for board, sample, sent_steps in zip(self._boards, row, sent_commands, strict=True):
+            if board in self._streaming_boards and not (
+                sample.fault_free and _has_reported(sample, sent_steps)
+            ):
+                return -1, reported_commands
+        commands = tuple(
+            sent_steps if board in self._streaming_boards else sample.commands
+            for board, sample, sent_steps in zip(self._boards, row, sent_commands, strict=True)
+        )
+        return int(row_numbers[index]), commands
 
-    def _arrive(self, now_s: float) -> None:
-        for index, target in self._first.items():
-            b, axis = self._places[index]
-            board = self._boards[b]
-            if board.commanded()[axis.number] != target:
+    def _check_arrival(self, now_s: float) -> None:
+        for index, target in self._first_steps.items():
+            board_index, axis = self._board_axes[index]
+            board = self._boards[board_index]
+            if board.read_commands()[axis.number] != target:
                 self.failure = message(
                     "engine", "axis {name} did not reach the trajectory's first row"
                 ).fill(name=axis.name)
-                self.give_up()
+                self.abort()
                 return
-        self._phase, self._rested_s = _Phase.SETTLE, now_s
+        self._phase, self._rest_start_s = _Phase.SETTLE, now_s
 
     def _begin_rows(self, now_s: float) -> None:
-        self._stand = tuple(tuple(board.commanded()) for board in self._boards)
-        latest = max(board.number_at(now_s) for board in self._boards)
-        # Telemetry that is slowed down meanwhile is of these instants.
-        self._begin = latest - latest % self._every + self._lead * self._every
-        moved = {self._places[index][0] for index in self._first}
-        self._streaming = tuple(self._boards[b] for b in sorted(moved))
-        for b in sorted(moved):
-            board = self._boards[b]
+        self._start_steps = tuple(tuple(board.read_commands()) for board in self._boards)
+        latest_number = max(board.find_sample_number(now_s) for board in self._boards)
+        # The first set-point must take effect at an instant of telemetry with a reduced rate.
+        self._begin_number = (
+            latest_number
+            - latest_number % self._samples_per_setpoint
+            + self._lead_setpoints * self._samples_per_setpoint
+        )
+        moving_board_indices = {self._board_axes[index][0] for index in self._first_steps}
+        self._streaming_boards = tuple(
+            self._boards[board_index] for board_index in sorted(moving_board_indices)
+        )
+        for board_index in sorted(moving_board_indices):
+            board = self._boards[board_index]
             grid = board.grid
-            assert grid is not None, "telemetry is on"
-            begin_us = grid.time_us(self._begin) % (1 << 32)
+            assert grid is not None, "telemetry must be on"
+            begin_us = grid.find_time_us(self._begin_number) % (1 << 32)
             board.dialogue.ask(
-                Request(
-                    message=BeginStream(begin_us, self._segments, self._hold(board), fraction=0),
-                    answered=partial(self._begun, b),
-                    refused=partial(self._refused, board),
+                BoardRequest(
+                    message=BeginStream(
+                        begin_us, self._segment_count, self._compute_hold_ticks(board), fraction=0
+                    ),
+                    on_answer=partial(self._start_window, board_index),
+                    on_refusal=partial(self._note_refusal, board),
                     permit=self._permit,
                 )
             )
         self._phase = _Phase.ROWS
 
     @property
-    def _segments(self) -> int:
-        return -(-self._schedule.count // ROWS)
+    def _segment_count(self) -> int:
+        return -(-self._schedule.count // ROWS_PER_SEGMENT)
 
-    def _hold(self, board: Board) -> int:
-        """Return how many ticks of a board a set-point lasts."""
-        assert board.rates is not None, "it announced them when it was opened"
-        assert board.grid is not None, "telemetry is on"
-        return board.grid.period_us * self._every * board.rates.tick // 1_000_000
+    def _compute_hold_ticks(self, board: Board) -> int:
+        assert board.rates is not None, "the board reported its rates when it was opened"
+        assert board.grid is not None, "telemetry must be on"
+        return board.grid.period_us * self._samples_per_setpoint * board.rates.tick // 1_000_000
 
-    def _begun(self, b: int, _answer: Message, _now_s: float) -> None:
-        """Let segments go out to a board that has begun its stream."""
-        board = self._boards[b]
+    def _start_window(self, board_index: int, _answer: WireMessage, _now_s: float) -> None:
+        board = self._boards[board_index]
         if self._phase is _Phase.ROWS:
-            window = SetpointWindow(
-                board.address, self._segments, partial(self._segment, b), board.told_s, self._permit
+            window = SegmentWindow(
+                board.address,
+                self._segment_count,
+                partial(self._make_segment, board_index),
+                board.compute_report_delay_s,
+                self._permit,
             )
             board.link.begin_stream(board.address, window)
 
-    def _refused(self, board: Board, reason: int | None) -> None:
-        if reason is not None:  # else a stop came before it
+    def _note_refusal(self, board: Board, reason: int | None) -> None:
+        # Without a reason, the board has not refused: a stop was sent before it answered.
+        if reason is not None:
             self.failure = message(
                 "engine", "board {address} refused to begin the trajectory ({reason})"
             ).fill(address=board.address, reason=reason)
-        self.give_up()
+        self.abort()
 
-    def _feed(self, now_s: float, settled: int) -> None:
-        assert self._begin is not None, "the rows have begun"
-        for board in self._streaming:
+    def _release_segments(self, now_s: float, latest_finished_number: int) -> None:
+        assert self._begin_number is not None, "the rows have begun"
+        for board in self._streaming_boards:
             window = board.link.windows.get(board.address)
             if window is None:
                 continue
-            begun = -(-self._instants(board.number_at(now_s)) // ROWS)
-            window.release(begun + _AHEAD)
+            begun_segments = -(
+                -self._count_setpoints(board.find_sample_number(now_s)) // ROWS_PER_SEGMENT
+            )
+            window.release(begun_segments + _SEGMENTS_AHEAD)
             if window.refusal is not None:
                 self.failure = message(
                     "engine", "board {address} refused a set-point ({refusal})"
                 ).fill(address=board.address, refusal=window.refusal)
-                self.give_up()
+                self.abort()
                 return
-        self._instant = min(max(self._instants(settled), 0), self._schedule.count)
-        if self._instant == self._schedule.count:
-            self.give_up()
+        self._played_count = min(
+            max(self._count_setpoints(latest_finished_number), 0), self._schedule.count
+        )
+        if self._played_count == self._schedule.count:
+            self.abort()
 
-    def _instants(self, number: int) -> int:
-        """Return how many set-points have acted at a sampling instant; negative before."""
-        assert self._begin is not None, "the rows have begun"
-        return (number - self._begin) // self._every + 1
+    def _count_setpoints(self, number: int) -> int:
+        """Return how many set-points have taken effect at an instant; ≤ 0 before the first one."""
+        assert self._begin_number is not None, "the rows have begun"
+        return (number - self._begin_number) // self._samples_per_setpoint + 1
 
-    def _segment(self, b: int, place: int) -> SetPoint:
-        """Return a segment that leads from the set-point before it through its own."""
-        first = place * ROWS
-        own = [
-            self._at(b, one) for one in range(first - 1, min(first + ROWS, self._schedule.count))
+    def _make_segment(self, board_index: int, index: int) -> StreamSegment:
+        first_instant = index * ROWS_PER_SEGMENT
+        positions = [
+            self._find_steps(board_index, instant)
+            for instant in range(
+                first_instant - 1, min(first_instant + ROWS_PER_SEGMENT, self._schedule.count)
+            )
         ]
         differences = []
-        for before, *rows in zip(*own, strict=True):
-            to = rows[0] - before
-            second = rows[1] - rows[0] - to if len(rows) == ROWS else 0
-            differences.append((to - second, second))
-        hold = self._hold(self._boards[b])
-        return SetPoint.of(place % 256, hold * (len(own) - 1), differences)
+        for previous, *rows in zip(*positions, strict=True):
+            distance = rows[0] - previous
+            second_difference = rows[1] - rows[0] - distance if len(rows) == ROWS_PER_SEGMENT else 0
+            differences.append((distance - second_difference, second_difference))
+        hold_ticks = self._compute_hold_ticks(self._boards[board_index])
+        return StreamSegment.from_differences(
+            index % 256, hold_ticks * (len(positions) - 1), differences
+        )
 
-    def _at(self, b: int, instant: int) -> tuple[int, ...]:
-        """Return the steps of a board at an instant; before the first one where it stands."""
+    def _find_steps(self, board_index: int, instant: int) -> tuple[int, ...]:
+        """Return the commands of a board, steps, at an instant; at the start if it is negative."""
         if instant < 0:
-            return self._stand[b]
-        steps, _ = self._chunk(instant // _CHUNK)
-        return tuple(int(one) for one in steps[b][instant % _CHUNK])
+            return self._start_steps[board_index]
+        steps, _ = self._get_chunk(instant // _CHUNK_INSTANTS)
+        return tuple(int(step) for step in steps[board_index][instant % _CHUNK_INSTANTS])
 
-    def _chunk_of(self, chunk: int) -> tuple[list[IntArray], IntArray]:
-        """Return the steps (n, axes) of each board and the rows (n,), -1 between two rows."""
-        instants = self._schedule.instants(chunk * _CHUNK, (chunk + 1) * _CHUNK)
-        commands = self._schedule.commands(instants.row, np.zeros(len(self._places)))
-        stand = [step for own in self._stand for step in own]
-        steps = np.tile(np.array(stand, dtype=np.int64), (len(commands), 1))
-        for index in self._first:
-            steps[:, index] = self._steps_of(index, commands[:, index])
-        parts, begin = [], 0
+    def _compute_chunk(self, chunk: int) -> tuple[list[IntArray], IntArray]:
+        """Return the commands (n, axes) of each board, steps, and row numbers (n,), or -1.
+
+        The row number is -1 at instants between two rows.
+        """
+        instants = self._schedule.instants(chunk * _CHUNK_INSTANTS, (chunk + 1) * _CHUNK_INSTANTS)
+        commands = self._schedule.commands(instants.row, np.zeros(len(self._board_axes)))
+        start_steps = [step for board_steps in self._start_steps for step in board_steps]
+        steps = np.tile(np.array(start_steps, dtype=np.int64), (len(commands), 1))
+        for index in self._first_steps:
+            steps[:, index] = self._to_steps(index, commands[:, index])
+        steps_by_board, first_axis = [], 0
         for board in self._boards:
-            parts.append(steps[:, begin : begin + len(board.axes)])
-            begin += len(board.axes)
-        return parts, np.where(instants.on_row, instants.row, -1)
+            steps_by_board.append(steps[:, first_axis : first_axis + len(board.axes)])
+            first_axis += len(board.axes)
+        return steps_by_board, np.where(instants.on_row, instants.row, -1)
 
-    def _steps_of(self, index: int, values: FloatArray) -> IntArray:
-        """Return positions (n,) of an axis in whole steps, inside its ends."""
-        _, axis = self._places[index]
-        steps = np.rint(values / axis.step).astype(np.int64)
+    def _to_steps(self, index: int, values: FloatArray) -> IntArray:
+        """Return positions (n,) of an axis in whole steps, clipped to its ends."""
+        _, axis = self._board_axes[index]
+        steps = np.rint(values / axis.step_size).astype(np.int64)
         return np.asarray(np.clip(steps, *self._ends[axis.name]))
 
-    def _check(self, trajectory: Record, speeds: Mapping[str, int], period_s: float) -> None:
-        """Refuse a trajectory whose set-points lie farther apart than a board lets them."""
-        count, none = self._schedule.count, np.zeros(len(self._places))
-        for begin in range(0, count - 1, _CHECKED):
-            instants = self._schedule.instants(begin, begin + _CHECKED + 1)
-            commands = self._schedule.commands(instants.row, none)
-            for index in self._first:
-                _, axis = self._places[index]
-                ways = np.abs(np.diff(self._steps_of(index, commands[:, index])))
-                at = int(np.argmax(ways))
-                most = min(speeds[axis.name] * period_s + ROUNDING, MOST_WAY)
-                if ways[at] > most:
-                    way, bound = axis.step * float(ways[at]), axis.step * most
+    def _check_distances(
+        self, trajectory: Record, speeds: Mapping[str, int], period_s: float
+    ) -> None:
+        """Refuse a trajectory whose set-points are farther apart than a board allows."""
+        count, zeros = self._schedule.count, np.zeros(len(self._board_axes))
+        for begin in range(0, count - 1, _CHECK_BLOCK_SETPOINTS):
+            instants = self._schedule.instants(begin, begin + _CHECK_BLOCK_SETPOINTS + 1)
+            commands = self._schedule.commands(instants.row, zeros)
+            for index in self._first_steps:
+                _, axis = self._board_axes[index]
+                distances = np.abs(np.diff(self._to_steps(index, commands[:, index])))
+                worst = int(np.argmax(distances))
+                max_steps = min(
+                    speeds[axis.name] * period_s + ROUNDING_STEPS, MAX_SETPOINT_DISTANCE_STEPS
+                )
+                if distances[worst] > max_steps:
+                    worst_distance, max_distance = (
+                        axis.step_size * float(distances[worst]),
+                        axis.step_size * max_steps,
+                    )
                     unit = trajectory.units[axis.name]
                     raise LimitError(
-                        message(
-                            "engine",
-                            "axis {axis}: the set-points around t = {time} s lie {value} apart, "
-                            "beyond the limit {bound} in {period}; give a row every {period}, or "
-                            "stretch the trajectory's time by a factor of {factor} or more",
-                        ).fill(
-                            axis=AxisName(axis.name),
-                            time=rounded(trajectory.time_s[0] + instants.time_s[at + 1], 6),
-                            value=exact(way, unit, size=bound),
-                            bound=exact(bound, unit),
-                            period=exact(period_s, "s"),
-                            factor=rounded(way / bound, 3),
-                        )
+                        "axis {axis}: the set-points around t = {time} s are {value} apart, "
+                        "more than the limit {bound} in {period}; add a row every {period}, or"
+                        " stretch the trajectory's time by a factor of {factor} or more",
+                        axis=AxisName(axis.name),
+                        time=format_rounded(trajectory.time_s[0] + instants.time_s[worst + 1], 6),
+                        value=format_exact(worst_distance, unit, size=max_distance),
+                        bound=format_exact(max_distance, unit),
+                        period=format_exact(period_s, "s"),
+                        factor=format_rounded(worst_distance / max_distance, 3),
                     )
 
     def _check_round_trips(self, period_s: float) -> None:
-        """Refuse to play over a line on which set-points would come too late."""
-        moved = [self._boards[b] for b in sorted({self._places[i][0] for i in self._first})]
-        for board in moved:
+        """Refuse a line on which set-points would arrive too late."""
+        moving_boards = [
+            self._boards[number]
+            for number in sorted({self._board_axes[index][0] for index in self._first_steps})
+        ]
+        for board in moving_boards:
             if board.link.half_duplex:
-                # Each segment waits for its answer; polls and the boards of the line take turns.
-                turns = 1 + sum(one.link is board.link for one in moved)
-                limit_s = ROWS * period_s / turns
+                # Each segment waits for its answer. One poll and one segment for each board on the
+                # line take turns.
+                turn_count = 1 + sum(other.link is board.link for other in moving_boards)
+                limit_s = ROWS_PER_SEGMENT * period_s / turn_count
             else:
-                limit_s = UNDER_WAY * ROWS * period_s - 2e-3 * board.telemetry_ms
+                limit_s = (
+                    MAX_UNACKNOWLEDGED_SEGMENTS * ROWS_PER_SEGMENT * period_s
+                    - 2e-3 * board.telemetry_period_ms
+                )
             if board.round_trip_s > limit_s:
                 raise LimitError(
-                    message(
-                        "engine",
-                        "{where} answers after {trip}: for a set-point every {period} it must not "
-                        "take longer than {limit}; use a faster connection to play trajectories",
-                    ).fill(
-                        where=board.where,
-                        trip=exact(board.round_trip_s, "s"),
-                        period=exact(period_s, "s"),
-                        limit=exact(limit_s, "s"),
-                    )
+                    "{where} takes {trip} to answer, but a set-point every {period} needs an "
+                    "answer within {limit}; use a faster connection to play trajectories",
+                    where=board.where,
+                    trip=format_exact(board.round_trip_s, "s"),
+                    period=format_exact(period_s, "s"),
+                    limit=format_exact(limit_s, "s"),
                 )
 
 
-def _is_told(part: BoardSample, sent: tuple[int, ...]) -> bool:
-    """Whether a board's sample tells these commands, as far as it can."""
-    for reading, command, own in zip(part.readings, part.commands, sent, strict=True):
-        if command - reading != min(max(own - reading, -_CLIP), _CLIP - 1):
+def _has_reported(sample: BoardSample, sent_commands: tuple[int, ...]) -> bool:
+    """Return whether a sample reports the sent commands, steps, with clipped deviations."""
+    for reading, command, sent_command in zip(
+        sample.readings, sample.commands, sent_commands, strict=True
+    ):
+        if command - reading != min(
+            max(sent_command - reading, -_DEVIATION_LIMIT_STEPS), _DEVIATION_LIMIT_STEPS - 1
+        ):
             return False
     return True

@@ -1,115 +1,136 @@
-"""The window of segments on their way to one board: several at once, in order, none skipped."""
+"""Sliding window for the segments of a stream: several may be sent before an acknowledgement."""
 
 from collections.abc import Callable
 
-from rotemina.drivers.gate import Permit
-from rotemina.drivers.mc68hc11.board_messages import Refused, Telemetry
-from rotemina.drivers.mc68hc11.dialogue import Offered
-from rotemina.drivers.mc68hc11.framing import RESYNC, Frame, encoded
-from rotemina.drivers.mc68hc11.host_messages import SetPoint
-from rotemina.drivers.mc68hc11.payload import Message
-from rotemina.drivers.mc68hc11.protocol_codes import Refusal
+from rotemina.drivers.contract import Permit
+from rotemina.drivers.mc68hc11.dialogue import OutgoingFrame
+from rotemina.drivers.mc68hc11.protocol import (
+    RESYNC_BYTES,
+    FrameRefused,
+    RefusalReason,
+    SerialFrame,
+    StreamSegment,
+    Telemetry,
+    WireMessage,
+    encode_frame,
+)
 
-MOST_WAY = ((1 << 23) - 1) // 2  # steps between two set-points: a second difference is two of them
-ROUNDING = 1.0  # steps between two set-points beyond the greatest speed: each is a whole step
-UNDER_WAY = 8  # segments that telemetry has not told of: some adapters hand it on every 16 ms only
-_INDICES = 256
-_AGAIN = (Refusal.OUT_OF_ORDER, Refusal.QUEUE_FULL)
+# A second difference has 24 bits, and is at most twice the distance between two set-points.
+MAX_SETPOINT_DISTANCE_STEPS = ((1 << 23) - 1) // 2
+# Set-points are rounded to whole steps, so their distance may exceed the one at maximum speed by
+# this number of steps.
+ROUNDING_STEPS = 1.0
+# Some adapters forward telemetry only every 16 ms, so several segments may be unacknowledged.
+MAX_UNACKNOWLEDGED_SEGMENTS = 8
+_INDEX_COUNT = 256
+_RETRY_REASONS = (RefusalReason.OUT_OF_ORDER, RefusalReason.QUEUE_FULL)
 
 
-class SetpointWindow:
-    """The segments of one stream to one board that has begun it.
+class SegmentWindow:
+    """Sliding window of segments for one board that has begun a stream.
 
     Parameters
     ----------
     address : int
     count : int
-        Of segments in all.
-    segment : callable
-        Return a segment by its number.
-    told_s : callable
-        Return after what time telemetry should have told that a segment is there.
+        Number of all segments.
+    make_segment : callable
+        Return the segment with a given number.
+    compute_report_delay_s : callable
+        Return the time until telemetry must show that the board has a segment, s.
     permit : Permit
-        Of the playback: every segment passes the gate with it.
+        Permit of the playback, with which every segment passes the gate.
     """
 
     def __init__(
         self,
         address: int,
         count: int,
-        segment: Callable[[int], SetPoint],
-        told_s: Callable[[], float],
+        make_segment: Callable[[int], StreamSegment],
+        compute_report_delay_s: Callable[[], float],
         permit: Permit,
     ) -> None:
         self._permit = permit
         self._address = address
         self._count = count
-        self._segment = segment
-        self._told_s = told_s
-        self._taken = 0  # that the board has
-        self._next = 0
-        self._released = 0  # that may be sent so far
-        self._underway: dict[int, int] = {}  # places by the frame's number
-        self._due_s = float("inf")  # when telemetry should have told of the first one under way
-        self._said = 0  # the farthest ever
-        self._back = False
+        self._make_segment = make_segment
+        self._compute_report_delay_s = compute_report_delay_s
+        # Number of segments that the board has reported to have.
+        self._acknowledged_count = 0
+        self._next_segment = 0
+        # Number of segments that may be sent so far.
+        self._released_count = 0
+        # Segments that were sent but not acknowledged, by the number of their frame.
+        self._in_flight: dict[int, int] = {}
+        # Host time by which telemetry must report the first segment that is not acknowledged.
+        self._report_due_s = float("inf")
+        # Number of segments that have been sent at least once.
+        self._sent_count = 0
+        self._resync_needed = False
         self._not_before_s = float("-inf")
-        self.repeated = 0
+        self.repeat_count = 0
         self.refusal: int | None = None
 
     @property
-    def taken(self) -> int:
-        """How many segments the board has told that it has."""
-        return self._taken
+    def acknowledged_count(self) -> int:
+        """Number of segments that the board has reported to have."""
+        return self._acknowledged_count
 
     def release(self, count: int) -> None:
-        """Let the first ``count`` segments go out; more may follow."""
-        self._released = min(max(count, self._released), self._count)
+        """Allow the first ``count`` segments to be sent. A later call cannot allow fewer."""
+        self._released_count = min(max(count, self._released_count), self._count)
 
-    def offer(self, now_s: float) -> bool:
-        """Return whether a segment is to be said now."""
+    def has_segment_to_send(self, now_s: float) -> bool:
+        """Return whether the next segment should be sent now."""
         if self.refusal is not None or now_s < self._not_before_s:
             return False
-        if self._underway and now_s >= self._due_s:
+        if self._in_flight and now_s >= self._report_due_s:
             self._go_back()
-        return self._next < self._released and self._next - self._taken < UNDER_WAY
+        return (
+            self._next_segment < self._released_count
+            and self._next_segment - self._acknowledged_count < MAX_UNACKNOWLEDGED_SEGMENTS
+        )
 
-    def take(self, now_s: float, number: int, out_s: float) -> Offered:
-        """Return the next segment; ``out_s`` from now its bytes are out."""
-        place = self._next
-        message = self._segment(place)
-        if not self._underway:
-            self._due_s = now_s + out_s + self._told_s()
-        self._underway[number] = place
-        self._next += 1
-        frame = encoded(Frame(self._address, number, SetPoint.TYPE, message.packed()))
-        if place < self._said:
-            self.repeated += 1
-        self._said = max(self._said, self._next)
-        if self._back:
-            self._back = False
-            return Offered(RESYNC + frame, self._permit, begins=False)
-        return Offered(frame, self._permit, begins=False)
+    def take_frame(self, now_s: float, number: int, out_s: float) -> OutgoingFrame:
+        """Return the frame of the next segment. Its bytes have left the line after ``out_s``."""
+        index = self._next_segment
+        message = self._make_segment(index)
+        if not self._in_flight:
+            self._report_due_s = now_s + out_s + self._compute_report_delay_s()
+        self._in_flight[number] = index
+        self._next_segment += 1
+        frame = encode_frame(SerialFrame(self._address, number, StreamSegment.TYPE, message.pack()))
+        if index < self._sent_count:
+            self.repeat_count += 1
+        self._sent_count = max(self._sent_count, self._next_segment)
+        if self._resync_needed:
+            self._resync_needed = False
+            return OutgoingFrame(RESYNC_BYTES + frame, self._permit, starts_motion=False)
+        return OutgoingFrame(frame, self._permit, starts_motion=False)
 
-    def receive(self, message: Message, now_s: float) -> None:
-        """Take what the board says; telemetry tells what it has, a refusal what it has not."""
+    def receive(self, message: WireMessage, now_s: float) -> None:
+        """Handle a message: telemetry acknowledges segments, and a refusal rejects one."""
         if isinstance(message, Telemetry):
-            more = (message.expected - self._taken) % _INDICES
-            if 0 < more <= self._said - self._taken:
-                self._taken += more
-                self._next = max(self._next, self._taken)
-                self._underway = {n: p for n, p in self._underway.items() if p >= self._taken}
-                self._due_s = now_s + self._told_s()
-        elif isinstance(message, Refused) and message.number in self._underway:
-            if message.reason not in _AGAIN:
+            new_count = (message.next_segment_index - self._acknowledged_count) % _INDEX_COUNT
+            if 0 < new_count <= self._sent_count - self._acknowledged_count:
+                self._acknowledged_count += new_count
+                self._next_segment = max(self._next_segment, self._acknowledged_count)
+                self._in_flight = {
+                    number: index
+                    for number, index in self._in_flight.items()
+                    if index >= self._acknowledged_count
+                }
+                self._report_due_s = now_s + self._compute_report_delay_s()
+        elif isinstance(message, FrameRefused) and message.number in self._in_flight:
+            if message.reason not in _RETRY_REASONS:
                 self.refusal = message.reason
                 return
-            if message.reason == Refusal.QUEUE_FULL:
-                self._not_before_s = now_s + self._told_s()
+            if message.reason == RefusalReason.QUEUE_FULL:
+                self._not_before_s = now_s + self._compute_report_delay_s()
             self._go_back()
 
     def _go_back(self) -> None:
-        """Say all again from the first one that is missing; what is under way counts no more."""
-        self._underway.clear()
-        self._next = self._taken
-        self._back = True
+        """Send the first segment that is not acknowledged again, and all later ones."""
+        self._in_flight.clear()
+        self._next_segment = self._acknowledged_count
+        self._resync_needed = True

@@ -1,70 +1,87 @@
-"""One serial line and all that is said on it: whose turn it is, and how the line does.
+"""One serial line: decides what is sent next, and measures the quality of the line.
 
-At most one frame at a time is with the operating system, so that a stop waits for no other. On a
-shared bus the host stays silent until the boards that it asked have answered.
+At most one frame at a time is in the buffers of the operating system, so a stop waits for at most
+one frame. On a shared bus the host sends nothing until the boards have answered.
 
-A USB adapter adds its frame of 1 ms; its latency timer, usually 16 ms, delays only answers.
+A USB adapter delays a stop by its frame of 1 ms. Its latency timer, usually 16 ms, delays only
+answers.
 """
 
 import logging
 from collections.abc import Callable, Sequence
 from contextlib import nullcontext
+from typing import NamedTuple
 
-from rotemina.drivers.clock import Clock
-from rotemina.drivers.errors import DriverError, LimitError, ProtocolError
-from rotemina.drivers.gate import GateError
-from rotemina.drivers.line_quality import LinkQuality
-from rotemina.drivers.mc68hc11.dialogue import Dialogue, Offered, Urgency
-from rotemina.drivers.mc68hc11.framing import (
-    BROADCAST,
-    MAX_FRAME,
-    STOP_BYTES,
-    Decoder,
-    Frame,
-    encoded,
+from rotemina.drivers.contract import (
+    Clock,
+    DriverError,
+    GateError,
+    LimitError,
+    LinkQuality,
+    ProtocolError,
 )
-from rotemina.drivers.mc68hc11.host_messages import Poll
-from rotemina.drivers.mc68hc11.line_budget import Line
-from rotemina.drivers.mc68hc11.messages import message_of
-from rotemina.drivers.mc68hc11.payload import Message
-from rotemina.drivers.mc68hc11.segment_window import SetpointWindow
+from rotemina.drivers.mc68hc11.dialogue import BoardDialogue, OutgoingFrame, RequestUrgency
+from rotemina.drivers.mc68hc11.line_budget import LineCapacity
+from rotemina.drivers.mc68hc11.protocol import (
+    BROADCAST_ADDRESS,
+    MAX_FRAME_BYTES,
+    STOP_BYTES,
+    FrameDecoder,
+    PollBoard,
+    SerialFrame,
+    WireMessage,
+    encode_frame,
+    unpack_message,
+)
+from rotemina.drivers.mc68hc11.segment_window import SegmentWindow
 from rotemina.drivers.mc68hc11.wire_guard import LineGuard
-from rotemina.drivers.serial_port import Port, UrgentBytes
+from rotemina.drivers.serial_lines import BytePort, UrgentBytes
 
 _LOG = logging.getLogger(__name__)
-_EARLY_S = 3e-4  # before the line is free: what a frame may wait for it
-_IN_THE_WAY = 3 * MAX_FRAME  # bytes: telemetry, captured samples and the answer itself
-_LOAD_S = 0.5  # over which the load is counted
+# A frame may be written this long before the line is free.
+_SEND_AHEAD_S = 3e-4
+# A frame of telemetry and one of captured samples may precede the answer. The answer is included.
+_MAX_BYTES_BEFORE_ANSWER = 3 * MAX_FRAME_BYTES
+# The load is averaged over this time.
+_LOAD_WINDOW_S = 0.5
 
-MessageHandler = Callable[
-    [int, Message, float], None
-]  # the board's address, what it said, host time
+# Called with the address of the board, its message and the host time, s.
+MessageHandler = Callable[[int, WireMessage, float], None]
 
 
-class Link:
-    """One line, with one board or two on it.
+class _FrameCandidate(NamedTuple):
+    """Frame that may be sent next. The smallest candidate is the most urgent one."""
+
+    urgency: RequestUrgency
+    last_sent_s: float
+    address: int
+    is_segment: bool
+
+
+class SerialLink:
+    """Serial line with one or two boards.
 
     Parameters
     ----------
     port : Port
     url : str
-        How messages call the line.
+        Name of the line in messages.
     baud : int
     addresses : sequence of int
-        Of the boards on it.
+        Addresses of the boards on the line.
     latency_s : float
-        What the operating system and its adapters may add to a round trip.
+        Time that the operating system and adapters may add to a round trip, s.
     clock : callable
-        Host time, s.
+        Return the host time, s.
     handle : callable
-        Called with every message of a board.
+        Called with every message from a board.
     poll : callable
-        Return the address to be polled at a host time on a shared bus, or None.
+        Return the address to poll at a host time, or None. Used only on a shared bus.
     """
 
     def __init__(
         self,
-        port: Port,
+        port: BytePort,
         url: str,
         baud: int,
         addresses: Sequence[int],
@@ -74,115 +91,121 @@ class Link:
         poll: Callable[[float], int | None],
     ) -> None:
         self.url = url
-        self.half_duplex = True  # until the boards have said otherwise
+        # The line may be a shared bus until the boards have reported their abilities.
+        self.half_duplex = True
         self._port = port
-        self._line = Line(baud)
+        self._line = LineCapacity(baud)
         self._clock = clock
         self._handle = handle
         self._poll = poll
-        answer_s = self._line.seconds(_IN_THE_WAY) + latency_s
+        answer_s = self._line.compute_duration_s(_MAX_BYTES_BEFORE_ANSWER) + latency_s
         self.answer_s = answer_s
-        self.dialogues = {one: Dialogue(one, answer_s) for one in addresses}
-        self.windows: dict[int, SetpointWindow] = {}
-        self.said_s = dict.fromkeys(addresses, clock())
-        self._decoder = Decoder()
-        # What tells apart why no board answers: any bytes, own frames that came back, frames of
-        # boards that nobody asked.
-        self.received_bytes = self.echoes = 0
-        self.strangers: set[int] = set()
-        self._number = int(1e3 * clock()) & 0xFF
-        self._free_s = float("-inf")
-        self._awaited: set[int] = set()
+        self.dialogues = {address: BoardDialogue(address, answer_s) for address in addresses}
+        self.windows: dict[int, SegmentWindow] = {}
+        self.last_sent_s = dict.fromkeys(addresses, clock())
+        self._decoder = FrameDecoder()
+        # Diagnosis if a board does not answer: whether any bytes arrive, whether the host receives
+        # its own frames, and whether other boards answer.
+        self.received_bytes = self.echo_count = 0
+        self.unexpected_addresses: set[int] = set()
+        self._frame_number = int(1e3 * clock()) & 0xFF
+        self._line_free_s = float("-inf")
+        self._awaited_addresses: set[int] = set()
         self._awaited_until_s = float("-inf")
-        self._polled = False  # by what was said last
-        self._sent = self._refused = self._discarded = self._repeated = 0
-        #: The last check of what is written; it knows the boards' axes once they were added.
+        # Whether the latest frame is a poll.
+        self._last_was_poll = False
+        self._sent_count = self._unknown_message_count = self._discarded_count = (
+            self._repeat_count
+        ) = 0
+        #: Last check of all written bytes. It covers a board as soon as the board's guard is added.
         self.guard = LineGuard()
-        #: Why the gate or the guard held a frame back; the thread that serves the link takes it.
-        self.held_back: DriverError | None = None
-        self._bytes = [0, 0]  # out, in
+        #: Error with which the gate or the guard held back a frame. The thread that serves the link
+        #: takes it.
+        self.hold_back_error: DriverError | None = None
+        # Numbers of bytes sent and received since the load was last computed.
+        self._byte_counts = [0, 0]
         self._load, self._load_since_s = 0.0, clock()
 
     def count_discarded(self) -> None:
-        """Count a report that cannot be true."""
-        self._discarded += 1
+        """Count a report with an impossible position."""
+        self._discarded_count += 1
 
     @property
-    def rejected(self) -> int:
-        """Stretches of bytes that were no frame or no message, and reports that cannot be true."""
-        return self._decoder.rejected + self._refused + self._discarded
+    def rejected_count(self) -> int:
+        """Number of invalid frames, unknown messages and reports with impossible positions."""
+        return self._decoder.rejected_count + self._unknown_message_count + self._discarded_count
 
     @property
-    def unknown_messages(self) -> int:
-        """Valid frames of boards whose message is none of this version of the protocol."""
-        return self._refused
+    def unknown_message_count(self) -> int:
+        """Number of valid frames whose message this version of the protocol does not define."""
+        return self._unknown_message_count
 
-    def await_answers(self, round_trip_s: float) -> None:
-        """Let an answer take at least as long as one took that was measured."""
-        least_s = round_trip_s + self._line.seconds(_IN_THE_WAY)
-        self.answer_s = max(self.answer_s, least_s)
+    def extend_answer_time(self, round_trip_s: float) -> None:
+        """Extend the time for an answer to a measured round trip plus the longest answer."""
+        min_answer_s = round_trip_s + self._line.compute_duration_s(_MAX_BYTES_BEFORE_ANSWER)
+        self.answer_s = max(self.answer_s, min_answer_s)
         for dialogue in self.dialogues.values():
             dialogue.answer_s = self.answer_s
 
-    def seconds(self, count: int) -> float:
-        """Return how long some bytes are on the line."""
-        return self._line.seconds(count)
+    def compute_duration_s(self, count: int) -> float:
+        """Return the time that a number of bytes takes on the line, s."""
+        return self._line.compute_duration_s(count)
 
     def stop(self) -> None:
-        """Say stop, now, whatever else is going on; any thread."""
+        """Send stop immediately. Any thread may call it at any time."""
         now_s = self._clock()
-        data = self._stop_bytes(now_s)
+        data = self._make_stop_bytes(now_s)
         self._port.write(UrgentBytes(data))
-        self._free_s = max(self._free_s, now_s) + self._line.seconds(len(data))
+        self._line_free_s = max(self._line_free_s, now_s) + self._line.compute_duration_s(len(data))
 
     def cancel_pending(self) -> None:
-        """Wait for no answers any more: a stop has cut them off."""
-        self._awaited.clear()
+        """Stop waiting for answers, because a stop has cancelled the requests."""
+        self._awaited_addresses.clear()
 
-    def close_with(self, frames: Sequence[bytes]) -> None:
-        """Stop, say the last words, and let go of the port."""
+    def close_with_frames(self, frames: Sequence[bytes]) -> None:
+        """Send stop and the last frames, and close the port."""
         try:
             self._port.write(UrgentBytes(STOP_BYTES + b"".join(frames)))
         finally:
             self._port.close()
 
     def close(self) -> None:
-        """Let go of the port."""
+        """Close the port."""
         self._port.close()
 
     def receive(self) -> None:
-        """Hand out what has arrived.
+        """Handle the frames that have arrived.
 
         Raises
         ------
         ConnectionLostError
-            If the port is gone.
+            If the port does not exist any more.
         """
         received = self._port.read()
         if not received:
             return
-        self._bytes[1] += len(received)
+        self._byte_counts[1] += len(received)
         self.received_bytes += len(received)
         now_s = self._clock()
         for frame in self._decoder.feed(received):
-            self._hear(frame, now_s)
+            self._handle_frame(frame, now_s)
 
     def send(self) -> None:
-        """Say the most urgent thing, if the line is free.
+        """Send the most urgent frame, if the line is free.
 
         Raises
         ------
         ConnectionLostError
-            If the port is gone.
+            If the port does not exist any more.
         """
         now_s = self._clock()
-        self._count_load(now_s)
-        if not self._free(now_s):
+        self._update_load(now_s)
+        if not self._is_line_free(now_s):
             return
-        said = self._next(now_s)
-        if said is None:
+        frame = self._choose_next_frame(now_s)
+        if frame is None:
             return
-        address, (data, permit, begins) = said
+        address, (data, permit, begins) = frame
         try:
             self.guard.check(data)
             with permit.passing(begins=begins) if permit is not None else nullcontext():
@@ -191,125 +214,145 @@ class Link:
             if isinstance(error, LimitError):
                 _LOG.error("%s: a frame was held back: %s", self.url, error)
             if begins:
-                self.dialogues[address].give_up()
+                self.dialogues[address].cancel_current()
             else:
                 self.end_stream(address)
-            self.held_back = error
+            self.hold_back_error = error
             return
-        self._sent += 1
-        self._bytes[0] += len(data)
-        self._free_s = max(self._free_s, now_s) + self._line.seconds(len(data))
-        heard_by = tuple(self.dialogues) if address == BROADCAST else (address,)
-        for one in heard_by:
-            self.said_s[one] = now_s
+        self._sent_count += 1
+        self._byte_counts[0] += len(data)
+        self._line_free_s = max(self._line_free_s, now_s) + self._line.compute_duration_s(len(data))
+        receivers = tuple(self.dialogues) if address == BROADCAST_ADDRESS else (address,)
+        for receiver in receivers:
+            self.last_sent_s[receiver] = now_s
         if self.half_duplex:
-            self._awaited = set(heard_by)
-            self._awaited_until_s = self._free_s + self.answer_s
+            self._awaited_addresses = set(receivers)
+            self._awaited_until_s = self._line_free_s + self.answer_s
 
-    def quality(self) -> LinkQuality:
-        """Return how the line does; any thread."""
-        trips = [one.round_trip_s for one in self.dialogues.values() if one.round_trip_s]
+    def read_quality(self) -> LinkQuality:
+        """Return the quality of the line. Any thread may call it."""
+        round_trips_s = [
+            dialogue.round_trip_s for dialogue in self.dialogues.values() if dialogue.round_trip_s
+        ]
         now_s = self._clock()
-        waits_s = max(self._free_s - now_s, 0.0)
-        repeated = sum(one.repeated for one in self.dialogues.values())
-        repeated += sum(one.repeated for one in tuple(self.windows.values()))
+        backlog_s = max(self._line_free_s - now_s, 0.0)
+        repeated = sum(dialogue.repeat_count for dialogue in self.dialogues.values())
+        repeated += sum(window.repeat_count for window in tuple(self.windows.values()))
         return LinkQuality(
-            sent=self._sent,
-            received=self._decoder.frames,
-            rejected=self.rejected,
-            repeated=repeated + self._repeated,
-            round_trip_s=max(trips) if trips else None,
-            stop_s=waits_s + self._line.seconds(len(self._stop_bytes(now_s))),
+            sent=self._sent_count,
+            received=self._decoder.frame_count,
+            rejected=self.rejected_count,
+            repeated=repeated + self._repeat_count,
+            round_trip_s=max(round_trips_s) if round_trips_s else None,
+            stop_s=backlog_s + self._line.compute_duration_s(len(self._make_stop_bytes(now_s))),
             load=self._load,
         )
 
-    def begin_stream(self, address: int, window: SetpointWindow) -> None:
-        """Let the set-points of a window go out to a board."""
+    def begin_stream(self, address: int, window: SegmentWindow) -> None:
+        """Start to send the set-points of a window to a board."""
         self.end_stream(address)
         self.windows[address] = window
 
     def end_stream(self, address: int) -> None:
-        """Say no more set-points to a board."""
+        """Stop sending set-points to a board."""
         window = self.windows.pop(address, None)
-        self._repeated += window.repeated if window is not None else 0
+        self._repeat_count += window.repeat_count if window is not None else 0
 
-    def _stop_bytes(self, now_s: float) -> bytes:
-        """Return what says stop.
+    def _make_stop_bytes(self, now_s: float) -> bytes:
+        """Return the bytes that mean stop.
 
-        A board that speaks on a shared bus hears nothing: zeros go on until its frame has ended.
+        On a shared bus a board does not receive while it sends. So the zeros continue until the
+        board's frame must have ended.
         """
-        if self.half_duplex and self._awaited and now_s >= self._free_s:
-            return bytes(MAX_FRAME + len(STOP_BYTES))
+        if self.half_duplex and self._awaited_addresses and now_s >= self._line_free_s:
+            return bytes(MAX_FRAME_BYTES + len(STOP_BYTES))
         return STOP_BYTES
 
-    def _free(self, now_s: float) -> bool:
+    def _is_line_free(self, now_s: float) -> bool:
         if self.half_duplex:
             if now_s >= self._awaited_until_s:
-                self._awaited.clear()
-            if self._awaited:
+                self._awaited_addresses.clear()
+            if self._awaited_addresses:
                 return False
-        early_s = 0.0 if self.half_duplex else _EARLY_S
-        return now_s >= self._free_s - early_s and not self._port.waiting()
+        send_ahead_s = 0.0 if self.half_duplex else _SEND_AHEAD_S
+        return now_s >= self._line_free_s - send_ahead_s and not self._port.waiting()
 
-    def _next(self, now_s: float) -> tuple[int, Offered] | None:
-        """Return the address and the frame of what is said next."""
-        offers = []
+    def _choose_next_frame(self, now_s: float) -> tuple[int, OutgoingFrame] | None:
+        candidates: list[_FrameCandidate] = []
         for address, dialogue in self.dialogues.items():
-            urgency = dialogue.offer(now_s)
+            urgency = dialogue.find_next_urgency(now_s)
             if urgency is not None:
-                offers.append((urgency, self.said_s[address], address, False))
-            window = self.windows.get(address)
-            if window is not None and not dialogue.waiting and window.offer(now_s):
-                offers.append((Urgency.STREAM, self.said_s[address], address, True))
-        urgency, _, address, streams = min(offers, default=(Urgency.BACKGROUND, 0.0, 0, False))
-        # Polls take turns with set-points, and with requests without haste: there may always be
-        # something to poll for, and many set-points at first.
-        yields = bool(offers) and self._polled
-        self._polled = False
-        if urgency >= Urgency.STREAM and self.half_duplex and not yields:
-            # A board may repeat its last answer only: nothing comes between a request and it.
-            polled = None if any(d.waiting for d in self.dialogues.values()) else self._poll(now_s)
-            if polled is not None:
-                self._polled = True
-                number = self._counted()
-                return polled, Offered(
-                    encoded(Frame(polled, number, Poll.TYPE, Poll().packed())), None
+                candidates.append(
+                    _FrameCandidate(urgency, self.last_sent_s[address], address, False)
                 )
-        if not offers:
+            window = self.windows.get(address)
+            if (
+                window is not None
+                and not dialogue.is_awaiting_answer
+                and window.has_segment_to_send(now_s)
+            ):
+                candidates.append(
+                    _FrameCandidate(RequestUrgency.STREAM, self.last_sent_s[address], address, True)
+                )
+        urgency, _, address, is_segment = min(
+            candidates, default=_FrameCandidate(RequestUrgency.BACKGROUND, 0.0, 0, False)
+        )
+        # Polls alternate with set-points and background requests. Otherwise polls could block them
+        # all the time, or the many set-points at the start of a stream could block the polls.
+        must_skip_poll = bool(candidates) and self._last_was_poll
+        self._last_was_poll = False
+        if urgency >= RequestUrgency.STREAM and self.half_duplex and not must_skip_poll:
+            # A board can repeat only its last answer. So while a request is unanswered, no poll is
+            # sent.
+            poll_address = (
+                None
+                if any(dialogue.is_awaiting_answer for dialogue in self.dialogues.values())
+                else self._poll(now_s)
+            )
+            if poll_address is not None:
+                self._last_was_poll = True
+                number = self._take_frame_number()
+                return poll_address, OutgoingFrame(
+                    encode_frame(
+                        SerialFrame(poll_address, number, PollBoard.TYPE, PollBoard().pack())
+                    ),
+                    None,
+                )
+        if not candidates:
             return None
-        teller = self.windows[address] if streams else self.dialogues[address]
-        out_s = max(self._free_s - now_s, 0.0) + self._line.seconds(MAX_FRAME)
-        return address, teller.take(now_s, self._counted(), out_s)
+        source = self.windows[address] if is_segment else self.dialogues[address]
+        out_s = max(self._line_free_s - now_s, 0.0) + self._line.compute_duration_s(MAX_FRAME_BYTES)
+        return address, source.take_frame(now_s, self._take_frame_number(), out_s)
 
-    def _counted(self) -> int:
-        self._number = (self._number + 1) & 0xFF
-        return self._number
+    def _take_frame_number(self) -> int:
+        self._frame_number = (self._frame_number + 1) & 0xFF
+        return self._frame_number
 
-    def _hear(self, frame: Frame, now_s: float) -> None:
+    def _handle_frame(self, frame: SerialFrame, now_s: float) -> None:
         dialogue = self.dialogues.get(frame.address)
         if not frame.from_board:
-            self.echoes += 1
+            self.echo_count += 1
             return
         if dialogue is None:
-            self.strangers.add(frame.address)
+            self.unexpected_addresses.add(frame.address)
             return
         try:
-            message = message_of(frame.type, frame.payload)
+            message = unpack_message(frame.type, frame.payload)
         except ProtocolError:
-            self._refused += 1
+            self._unknown_message_count += 1
             return
-        self._awaited.discard(frame.address)
+        self._awaited_addresses.discard(frame.address)
         window = self.windows.get(frame.address)
         if window is not None:
             window.receive(message, now_s)
         dialogue.receive(message, now_s)
         self._handle(frame.address, message, now_s)
 
-    def _count_load(self, now_s: float) -> None:
+    def _update_load(self, now_s: float) -> None:
         elapsed_s = now_s - self._load_since_s
-        if elapsed_s < _LOAD_S:
+        if elapsed_s < _LOAD_WINDOW_S:
             return
-        used = sum(self._bytes) if self.half_duplex else max(self._bytes)
-        self._load = min(self._line.seconds(used) / elapsed_s, 1.0)
-        self._bytes = [0, 0]
+        byte_count = sum(self._byte_counts) if self.half_duplex else max(self._byte_counts)
+        self._load = min(self._line.compute_duration_s(byte_count) / elapsed_s, 1.0)
+        self._byte_counts = [0, 0]
         self._load_since_s = now_s

@@ -1,34 +1,34 @@
-"""Inverses between set-points and actuators of the simulated machine, tick by tick."""
+"""Hysteresis inverses between the set-points and the actuators of the simulated machine."""
 
 from typing import NamedTuple
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.compensate.errors import CompensationError
-from rotemina.sim.compensate.inverse import Exceedance, Inverse, resting_at
-from rotemina.sim.compensate.inverse_parameters import InverseModel
-from rotemina.sim.messages import message
-from rotemina.sim.quantities import exact
-from rotemina.sim.trajectory.setpoint_limits import SetpointLimits
+from rotemina.sim.compensate import Inverse, InverseExceedance, InverseModel, find_rest
+from rotemina.sim.errors import CompensationError
+from rotemina.sim.trajectory import SetpointLimits
+from rotemina.sim.units import format_exact
 
-_SLACK = 1e-3  # share of the span by which an axis may stand beyond what its inverse saw
+# An axis may be outside the range of its inverse by this fraction of the span.
+_RANGE_SLACK_RATIO = 1e-3
 
 
-class Rest(NamedTuple):
-    """The inverse of an axis at rest, if it has one, and its command there, m or rad."""
+class InverseAtRest(NamedTuple):
+    """The inverse of an axis at rest, or None, and the command of the axis, m or rad."""
 
     inverse: Inverse | None
     command: float
 
 
-class Compensating:
-    """The inverses in use, by the number of their axis; each is asked once a tick.
+class SetpointInverses:
+    """The inverses in use, by axis number. Each computes one actuator command per tick.
 
-    That of an axis under a loop is part of the loop's feed-forward: here it only bounds the axis.
+    If an axis is in a closed loop, its inverse is part of the loop's feed-forward. Then this class
+    uses only its model, for the bounds of the axis.
 
     Parameters
     ----------
     limits : SetpointLimits
-        Of the machine.
+        Limits of the machine.
     tick_s : float
     """
 
@@ -37,97 +37,109 @@ class Compensating:
         self._tick_s = tick_s
         self._models: dict[int, InverseModel] = {}
         self._inverses: dict[int, Inverse] = {}
-        #: In what each axis that has an inverse has gone beyond it; replaced as a whole.
-        self.beyond: dict[int, Exceedance] = {}
+        #: How far each axis has exceeded the range of its inverse, by axis number. Replaced as a
+        #: whole, so that any thread may read it.
+        self.exceedances: dict[int, InverseExceedance] = {}
 
-    def model(self, index: int) -> InverseModel | None:
-        """Return the inverse in use of an axis; None where there is none."""
+    def get_model(self, index: int) -> InverseModel | None:
+        """Return the model of an axis' inverse in use, or None."""
         return self._models.get(index)
 
-    def rest(self, model: InverseModel | None, sent: float) -> Rest:
-        """Return how an axis that was sent to ``sent`` rests under a model, or under none.
+    def find_rest(self, model: InverseModel | None, actuator_command: float) -> InverseAtRest:
+        """Return an inverse at rest at an actuator command, and the command of the axis.
 
-        The first one may take tens of milliseconds; nothing changes.
+        The call changes nothing. The first call may take tens of milliseconds.
+
+        Parameters
+        ----------
+        model : InverseModel or None
+            Model of the inverse. If it is None, the command is the actuator command.
+        actuator_command : float
+            Actuator command, m or rad.
 
         Raises
         ------
         CompensationError
-            If the inverse asks for ``sent`` nowhere.
+            If the inverse cannot produce this actuator command.
         """
-        return Rest(None, sent) if model is None else Rest(*resting_at(model, self._tick_s, sent))
+        return (
+            InverseAtRest(None, actuator_command)
+            if model is None
+            else InverseAtRest(*find_rest(model, self._tick_s, actuator_command))
+        )
 
-    def change(self, index: int, model: InverseModel | None, rest: Rest) -> float:
-        """Use another inverse, or none, of an axis that rests so; return its command."""
-        self._use(index, model)
+    def replace_inverse(self, index: int, model: InverseModel | None, rest: InverseAtRest) -> float:
+        """Replace or remove the inverse of an axis at rest, and return the command of the axis."""
+        self._set_model(index, model)
         if rest.inverse is not None:
             self._inverses[index] = rest.inverse
         return rest.command
 
-    def lend(self, index: int, model: InverseModel | None, at: float) -> float:
-        """Lend the inverse of an axis at ``at`` to a loop; return its command there.
+    def lend_to_loop(self, index: int, model: InverseModel | None, position: float) -> float:
+        """Hand the inverse of an axis over to its loop, and return the command of the axis.
 
         Raises
         ------
         CompensationError
-            If the axis stands beyond what the inverse saw.
+            If the axis is outside the range of the inverse.
         """
         low, high = float(self._limits.low[index]), float(self._limits.high[index])
         if model is not None:
             low, high = max(low, model.desired_range[0]), min(high, model.desired_range[1])
-            slack = _SLACK * model.span
-            if not low - slack <= at <= high + slack:
+            slack = _RANGE_SLACK_RATIO * model.span
+            if not low - slack <= position <= high + slack:
                 raise CompensationError(
-                    message(
-                        "engine",
-                        "inverse of axis {axis}: the axis is at {at}, but the inverse covers {low} "
-                        "to {high}: move the axis there first",
-                    ).fill(
-                        axis=model.axis,
-                        at=exact(at, model.unit, size=high),
-                        low=exact(low, model.unit, size=high),
-                        high=exact(high, model.unit),
-                    )
+                    "inverse of axis {axis}: the axis is at {at}, but the inverse covers {low} "
+                    "to {high}: move the axis there first",
+                    axis=model.axis,
+                    at=format_exact(position, model.unit, size=high),
+                    low=format_exact(low, model.unit, size=high),
+                    high=format_exact(high, model.unit),
                 )
-        self._use(index, model)
-        return min(max(at, low), high)
+        self._set_model(index, model)
+        return min(max(position, low), high)
 
-    def retime(self, tick_s: float) -> None:
-        """Continue at other ticks; the axes are at rest."""
+    def set_tick(self, tick_s: float) -> None:
+        """Change the interval of the ticks. The axes must be at rest."""
         self._tick_s = tick_s
-        for index, before in self._inverses.items():
-            after = Inverse(before.model, tick_s)
-            after.state = before.state
-            self._inverses[index] = after
+        for index, old_inverse in self._inverses.items():
+            new_inverse = Inverse(old_inverse.model, tick_s)
+            new_inverse.state = old_inverse.state
+            self._inverses[index] = new_inverse
 
-    def bounds(self, index: int) -> tuple[float, float]:
-        """Return between which commands an axis may be: no farther than its inverse saw."""
+    def find_bounds(self, index: int) -> tuple[float, float]:
+        """Return the smallest and largest command of an axis, within the range of its inverse."""
         low, high = float(self._limits.low[index]), float(self._limits.high[index])
         if index in self._models:
-            seen = self._models[index].desired_range
-            return max(low, seen[0]), min(high, seen[1])
+            inverse_range = self._models[index].desired_range
+            return max(low, inverse_range[0]), min(high, inverse_range[1])
         return low, high
 
-    def sent(self, command: FloatArray) -> FloatArray:
-        """Return the commands (n, axes) to the actuators at the next n ticks."""
+    def compute_actuator_commands(self, command: FloatArray) -> FloatArray:
+        """Return the actuator commands (n, axes) for the commands of the next n ticks."""
         if not self._inverses or not len(command):
             return command
-        sent = command.copy()
+        actuator_command = command.copy()
         for index, inverse in self._inverses.items():
-            sent[:, index] = inverse.run(command[:, index])
-        self.note({index: inverse.beyond for index, inverse in self._inverses.items()})
-        return sent
+            actuator_command[:, index] = inverse.run(command[:, index])
+        self.note_exceedances(
+            {index: inverse.exceedance for index, inverse in self._inverses.items()}
+        )
+        return actuator_command
 
-    def note(self, beyond: dict[int, Exceedance]) -> None:
-        """Remember in what axes went beyond their inverses."""
-        if any(self.beyond[index] | said != self.beyond[index] for index, said in beyond.items()):
-            said = {index: self.beyond[index] | one for index, one in beyond.items()}
-            self.beyond = {**self.beyond, **said}
+    def note_exceedances(self, exceedances: dict[int, InverseExceedance]) -> None:
+        """Add how far axes have exceeded the ranges of their inverses."""
+        combined = {
+            index: self.exceedances[index] | exceedance for index, exceedance in exceedances.items()
+        }
+        if any(combined[index] != self.exceedances[index] for index in combined):
+            self.exceedances = {**self.exceedances, **combined}
 
-    def _use(self, index: int, model: InverseModel | None) -> None:
-        for one in (self._models, self._inverses):
-            one.pop(index, None)
-        left = {key: self.beyond[key] for key in self._models}
+    def _set_model(self, index: int, model: InverseModel | None) -> None:
+        self._models.pop(index, None)
+        self._inverses.pop(index, None)
+        exceedances = {other: self.exceedances[other] for other in self._models}
         if model is not None:
             self._models[index] = model
-            left[index] = Exceedance(0)
-        self.beyond = left
+            exceedances[index] = InverseExceedance(0)
+        self.exceedances = exceedances

@@ -1,4 +1,4 @@
-"""Loops around axes of the simulated machine, at their own fine ticks."""
+"""Closed loops around axes of the simulated machine, which run at finer ticks than the samples."""
 
 from collections.abc import Mapping
 from types import MappingProxyType
@@ -6,108 +6,115 @@ from types import MappingProxyType
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.compensate.inverse import Exceedance, Inverse
-from rotemina.sim.compensate.inverse_parameters import InverseModel
-from rotemina.sim.feedback import regulated_plant
-from rotemina.sim.feedback.controller import Controller
-from rotemina.sim.feedback.errors import FeedbackError
-from rotemina.sim.feedback.regulation import Regulation
+from rotemina.sim.compensate import Inverse, InverseExceedance, InverseModel
+from rotemina.sim.errors import FeedbackError
+from rotemina.sim.feedback import AxisRegulation, SampledController, regulated_plant
 from rotemina.sim.messages import message
-from rotemina.sim.plant.plant import Plant
-from rotemina.sim.plant.random_draws import Chance
-from rotemina.sim.plant.state import Motion, PlantState
+from rotemina.sim.plant import Plant, PlantMotion, PlantState, RandomStreams
 
-_WHOLE = 1e-6  # how near to a whole number a rate must be
+# The number of ticks per sample counts as whole within this relative tolerance.
+_WHOLE_NUMBER_TOLERANCE = 1e-6
 
 
-class Regulating:
-    """The loops that are closed, by the number of their axis.
+class ClosedLoops:
+    """Closed loops, by axis number.
 
     Parameters
     ----------
     sample_s : float
-        Interval between the machine's samples.
+        Interval between the samples of the machine.
     """
 
     def __init__(self, sample_s: float) -> None:
         self._sample_s = sample_s
-        self._controllers: dict[int, Controller] = {}
+        self._controllers: dict[int, SampledController] = {}
         self._inverses: dict[int, Inverse] = {}
-        #: Replaced as a whole, so that any thread may look.
-        self.regulations: Mapping[int, Regulation] = MappingProxyType({})
+        #: Regulations of the closed loops. Replaced as a whole, so that any thread may read them.
+        self.regulations: Mapping[int, AxisRegulation] = MappingProxyType({})
 
     def __bool__(self) -> bool:
-        """Whether any axis is under one."""
+        """Return whether any loop is closed."""
         return bool(self._controllers)
 
     @property
-    def ticks(self) -> int:
-        """How many ticks of the loops there are to a sample."""
-        rates = [one.rate_hz for one in self.regulations.values()]
+    def ticks_per_sample(self) -> int:
+        """Number of ticks of the loops per sample."""
+        rates = [regulation.rate_hz for regulation in self.regulations.values()]
         return round(rates[0] * self._sample_s) if rates else 1
 
     @property
     def tick_s(self) -> float:
-        """Interval between ticks: that of the loops, or the samples' without loops."""
-        intervals = [one.interval_s for one in self.regulations.values()]
+        """Interval between the ticks of the loops; between samples if no loop is closed."""
+        intervals = [regulation.interval_s for regulation in self.regulations.values()]
         return intervals[0] if intervals else self._sample_s
 
     @property
-    def beyond(self) -> dict[int, Exceedance]:
-        """In what the inverses of the feed-forwards went beyond what they saw, at present."""
-        return {index: one.beyond for index, one in self._inverses.items()}
+    def exceedances(self) -> dict[int, InverseExceedance]:
+        """How far the ranges of the feed-forward inverses have been exceeded, by axis number."""
+        return {index: inverse.exceedance for index, inverse in self._inverses.items()}
 
-    def check(self, index: int, regulation: Regulation, *, alone: bool) -> None:
-        """Refuse a loop whose rate does not fit; ``alone``: no others live at the ticks.
+    def check_loop(
+        self, index: int, regulation: AxisRegulation, *, has_no_controllers: bool
+    ) -> None:
+        """Refuse a loop whose rate does not fit.
+
+        Parameters
+        ----------
+        index : int
+        regulation : AxisRegulation
+        alone : bool
+            Whether the robot file has no controllers.
 
         Raises
         ------
         FeedbackError
-            With both rates.
+            If the rate does not fit. The message names both rates.
         """
-        ticks = regulation.rate_hz * self._sample_s
-        where = message("engine", "axis {axis}: a loop at {rate_hz} Hz").fill(
+        ticks_per_sample = regulation.rate_hz * self._sample_s
+        description = message("engine", "axis {axis}: a loop at {rate_hz} Hz").fill(
             axis=regulation.axis, rate_hz=regulation.rate_hz
         )
-        if ticks < 1.0 - _WHOLE or abs(ticks - round(ticks)) > _WHOLE * ticks:
+        rounding_error = abs(ticks_per_sample - round(ticks_per_sample))
+        if (
+            ticks_per_sample < 1.0 - _WHOLE_NUMBER_TOLERANCE
+            or rounding_error > _WHOLE_NUMBER_TOLERANCE * ticks_per_sample
+        ):
             raise FeedbackError(
-                message(
-                    "engine",
-                    "{where}: the simulated machine samples at {sample_s} Hz, and a loop's rate "
-                    "must be a whole multiple of that; tune it for such a rate",
-                ).fill(where=where, sample_s=1.0 / self._sample_s)
+                "{where}: the simulated machine samples at {sample_s} Hz, and a loop's rate "
+                "must be a whole multiple of that; tune it for such a rate",
+                where=description,
+                sample_s=1.0 / self._sample_s,
             )
-        others = [one for key, one in self.regulations.items() if key != index]
-        if others and others[0].rate_hz != regulation.rate_hz:
+        other_loops = [other for key, other in self.regulations.items() if key != index]
+        if other_loops and other_loops[0].rate_hz != regulation.rate_hz:
             raise FeedbackError(
-                message(
-                    "engine",
-                    "{where}: the loop of axis {axis} runs at {rate_hz} Hz, and all loops "
-                    "must run at one rate; open that loop, or tune for its rate",
-                ).fill(where=where, axis=others[0].axis, rate_hz=others[0].rate_hz)
+                "{where}: the loop of axis {axis} runs at {rate_hz} Hz, and all loops "
+                "must run at one rate; open that loop, or tune for its rate",
+                where=description,
+                axis=other_loops[0].axis,
+                rate_hz=other_loops[0].rate_hz,
             )
-        if not alone and round(ticks) != 1:
+        if not has_no_controllers and round(ticks_per_sample) != 1:
             raise FeedbackError(
-                message(
-                    "engine",
-                    "{where}: the robot's own controllers run at {sample_s} Hz; tune it for that "
-                    "rate, or set the simulator's sample_rate_hz to the loop's",
-                ).fill(where=where, sample_s=1.0 / self._sample_s)
+                "{where}: the robot's own controllers run at {sample_s} Hz; tune it for that "
+                "rate, or set the simulator's sample_rate_hz to the loop's",
+                where=description,
+                sample_s=1.0 / self._sample_s,
             )
 
-    def put(
+    def close_loop(
         self,
         index: int,
-        regulation: Regulation,
+        regulation: AxisRegulation,
         model: InverseModel | None,
         reference: float,
         output: float,
     ) -> None:
-        """Close a loop that rests at a reference with an output that holds it there."""
+        """Close a loop around an axis that rests at ``reference`` with the given output."""
         inverse = None
         if model is not None:
             inverse = Inverse(model, regulation.interval_s, preview=True)
-        controller = regulation.controller(inverse)
+        controller = regulation.make_controller(inverse)
         controller.start(reference, output)
         self._controllers[index] = controller
         self._inverses.pop(index, None)
@@ -115,49 +122,75 @@ class Regulating:
             self._inverses[index] = inverse
         self.regulations = MappingProxyType({**self.regulations, index: regulation})
 
-    def remove(self, index: int) -> None:
-        """Open a loop."""
+    def open_loop(self, index: int) -> None:
+        """Open the loop of an axis."""
         self._controllers.pop(index, None)
         self._inverses.pop(index, None)
-        left = {key: one for key, one in self.regulations.items() if key != index}
-        self.regulations = MappingProxyType(left)
+        remaining = {key: other for key, other in self.regulations.items() if key != index}
+        self.regulations = MappingProxyType(remaining)
 
-    def hold(self, bounds: FloatArray) -> None:
-        """Keep every loop's output within bounds (axes,), m or rad, of its present value.
+    def hold_outputs(self, bounds: FloatArray) -> None:
+        """Keep the output of every loop within bounds (axes,), m or rad, around its current value.
 
-        So a loop that holds a stopped axis cannot lead it away, whatever its sensor says.
+        With this, a loop that holds a stopped axis cannot move it away, even if its sensor fails.
         """
         for index, controller in self._controllers.items():
-            controller.hold(float(bounds[index]))
+            controller.hold_output(float(bounds[index]))
 
-    def lead(self, index: int | None = None) -> None:
-        """End :meth:`hold` for an axis that is to move, or for all."""
-        for each, controller in self._controllers.items():
-            if index is None or each == index:
-                controller.lead()
+    def release_hold(self, index: int | None = None) -> None:
+        """End :meth:`hold_outputs` for an axis that will move, or for all axes."""
+        for controller_index, controller in self._controllers.items():
+            if index is None or controller_index == index:
+                controller.release_output()
 
-    def limited(self, index: int) -> bool:
-        """Whether a limit cuts the output of an axis' loop off at present."""
-        return index in self._controllers and self._controllers[index].limited
+    def is_limited(self, index: int) -> bool:
+        """Return whether the output of an axis' loop is limited now."""
+        return index in self._controllers and self._controllers[index].is_limited
 
     def advance(
         self,
         plant: Plant,
         state: PlantState,
         elapsed_s: FloatArray,
-        wanted: FloatArray,
-        sent: FloatArray,
-        chance: Chance,
-    ) -> tuple[Motion, PlantState, FloatArray]:
-        """Sample the plant at n ticks; return motion, state and actuator commands (n, axes).
+        desired: FloatArray,
+        commands: FloatArray,
+        random_streams: RandomStreams,
+    ) -> tuple[PlantMotion, PlantState, FloatArray]:
+        """Simulate n ticks of the plant. Return the motion, the state and the actuator commands.
+
+        Parameters
+        ----------
+        plant : Plant
+        state : PlantState
+        elapsed_s : (n,)
+            Times of the ticks.
+        desired : (n, axes)
+            Desired positions, m or rad.
+        commands : (n, axes)
+            Actuator commands of the axes without a loop, m or rad.
+        random_streams : RandomStreams
+
+        Returns
+        -------
+        motion : PlantMotion
+        state : PlantState
+        commands : (n, axes)
 
         Raises
         ------
         PlantError
-            If the response leaves what a number can hold.
+            If the response diverges.
         """
         if not self._controllers:
-            return *plant.advance(state, elapsed_s, sent, chance=chance), sent
+            return *plant.advance(
+                state, elapsed_s, commands, random_streams=random_streams
+            ), commands
         return regulated_plant.advance(
-            plant, state, self.tick_s, sent, np.asarray(wanted), self._controllers, chance
+            plant,
+            state,
+            self.tick_s,
+            commands,
+            np.asarray(desired),
+            self._controllers,
+            random_streams,
         )

@@ -1,62 +1,71 @@
-"""The simulated machine, in device time, independent of hosts and threads."""
+"""The simulated machine. It runs in device time, without host clock or threads."""
 
 from dataclasses import replace
 from enum import Enum, auto
 
 import numpy as np
 
-from rotemina.drivers.samples import Samples
-from rotemina.drivers.simulator.axis_inverses import Compensating, Rest
-from rotemina.drivers.simulator.axis_loops import Regulating
-from rotemina.drivers.simulator.homing import Homing
+from rotemina.drivers.contract import DeviceSamples
+from rotemina.drivers.simulator.axis_inverses import InverseAtRest, SetpointInverses
+from rotemina.drivers.simulator.axis_loops import ClosedLoops
+from rotemina.drivers.simulator.homing import HomingState
 from rotemina.drivers.simulator.profile_motion import ProfileMotion
 from rotemina.drivers.simulator.setpoint_generator import SetpointGenerator
-from rotemina.drivers.simulator.trajectory_playback import Chunk, Playing, selected
+from rotemina.drivers.simulator.trajectory_playback import (
+    CommandChunk,
+    TrajectoryPlayback,
+    select_samples,
+)
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.compensate.errors import CompensationError
-from rotemina.sim.compensate.inverse import Exceedance
-from rotemina.sim.compensate.inverse_parameters import InverseModel
-from rotemina.sim.feedback.regulation import Regulation
-from rotemina.sim.plant.effect_switch import taken_over
-from rotemina.sim.plant.plant import Plant
-from rotemina.sim.plant.random_draws import Chance
-from rotemina.sim.plant.state import PlantState
-from rotemina.sim.records.record import Record
-from rotemina.sim.robot.model import AxisEffect, Robot, StepperAxis
-from rotemina.sim.trajectory.setpoint_limits import SetpointLimits
+from rotemina.sim.compensate import InverseExceedance, InverseModel
+from rotemina.sim.errors import CompensationError
+from rotemina.sim.feedback import AxisRegulation
+from rotemina.sim.plant import Plant, PlantState, RandomStreams, transfer_state
+from rotemina.sim.records import Record
+from rotemina.sim.robot import (
+    AxisEffect,
+    Robot,
+    StepperAxis,
+)
+from rotemina.sim.trajectory import SetpointLimits
 
-_LASER = 7  # the stream of its noise
-_CHUNK = 8192  # samples simulated at once: bounds memory, not the result
+# Number of the random stream for the noise of the reference.
+_LASER_STREAM = 7
+# Largest number of samples simulated at once, which limits the memory without affecting the result.
+_CHUNK_SAMPLES = 8192
 
 
 class _Phase(Enum):
-    HOLD = auto()  # holding, or on the way to the targets of single moves
-    APPROACH = auto()  # on the way to the first row of a trajectory
-    SETTLE = auto()  # waiting there for the vibration to die away
-    ROWS = auto()  # playing
-    PROFILE = auto()  # running a profile
+    # Holding, or moving to the targets of single moves.
+    HOLD = auto()
+    # Moving to the first row of a trajectory.
+    APPROACH = auto()
+    # Waiting at the first row until vibrations have decayed.
+    SETTLE = auto()
+    ROWS = auto()
+    PROFILE = auto()
 
 
 class SimulatedDevice:
-    """The plant with its effects and sensors, a set-point generator and a player.
+    """The simulated machine: a plant with effects and sensors, set-points and playback.
 
     Parameters
     ----------
     robot : Robot
     tick_s : float
-        Interval between samples, and between set-points of single moves. While an axis is under a
-        loop, set-points come at the loop's ticks, and so fine a trajectory is followed.
+        Interval between samples, and between set-points of single moves. While an axis is in a
+        closed loop, all set-points are computed at the finer ticks of the loop.
     seed : int
-        Of noise and random effects. Each playback starts a sequence of its own, so that it does not
-        depend on how long the device idled before.
+        Seed of noise and random effects. Each playback starts a new random sequence, so that it
+        does not depend on the idle time before it.
     settle_s : float
-        How long to wait at a trajectory's first row.
+        Time of rest at the first row of a trajectory.
     position : (axes,)
-        Where the machine stands at first, m or rad, inside the range.
+        Initial position, m or rad, within the range.
     time_s : float
         Device time of the first sample.
-    homing : Homing, optional
-        Which axes know where they are; all of them where it is left out.
+    homing : HomingState, optional
+        State of the homing; if it is None, all positions are known.
     """
 
     def __init__(
@@ -68,350 +77,364 @@ class SimulatedDevice:
         settle_s: float,
         position: FloatArray,
         time_s: float = 0.0,
-        homing: Homing | None = None,
+        homing: HomingState | None = None,
     ) -> None:
         self._robot = robot
-        self._homing = homing if homing is not None else Homing(())
+        self._homing = homing if homing is not None else HomingState(())
         self._profile: ProfileMotion | None = None
         self._plant = Plant.of(robot, closed_loop=True)
-        # The plant counts from the latest sample: its steps stay exact however long it runs.
-        self._state = self._plant.at_rest(0.0, position)
+        # The time of the plant restarts at each sample, so that rounding errors do not grow.
+        self._state = self._plant.find_rest_state(0.0, position)
         axes = robot.axes.values()
         self._has_voltage = np.array([not isinstance(axis, StepperAxis) for axis in axes])
         self._setpoints = SetpointGenerator(SetpointLimits.of(robot), tick_s, position)
-        self._compensating = Compensating(SetpointLimits.of(robot), tick_s)
-        self._regulating = Regulating(tick_s)
-        # How far a loop that holds a stopped axis may lead its output away.
-        self._holding = np.array([axis.following for axis in axes])
+        self._inverses = SetpointInverses(SetpointLimits.of(robot), tick_s)
+        self._loops = ClosedLoops(tick_s)
+        # Bound on the change of a loop's output while the loop holds a stopped axis.
+        self._hold_bounds = np.array([axis.following_limit for axis in axes])
         self._command = np.array(position, dtype=np.float64)
-        self._sent = self._command
+        self._actuator_command = self._command
         self._tick_s = tick_s
         self._seed = seed
         self._settle_s = settle_s
-        self._chance = Chance(np.random.default_rng(seed))
-        self._laser = np.random.default_rng([seed, _LASER])  # apart: it changes no sensor's noise
-        noise = robot.reference.noise_rms
-        self._laser_rms = np.array([noise.of(axis.unit) or 0.0 for axis in axes])
+        self._random_streams = RandomStreams(np.random.default_rng(seed))
+        # The reference has its own random stream, so that it does not change the sensors' noise.
+        self._laser_rng = np.random.default_rng([seed, _LASER_STREAM])
+        noise_rms = robot.reference.noise_rms
+        self._laser_noise_rms = np.array([noise_rms.of(axis.unit) or 0.0 for axis in axes])
         self._phase = _Phase.HOLD
-        self._playing: Playing | None = None
-        self._settled = 0
-        self._plays = 0
-        # Ticks are counted from an anchor: adding intervals up would let rounding grow.
+        self._playback: TrajectoryPlayback | None = None
+        self._settled_ticks = 0
+        self._playback_count = 0
+        # Ticks are counted from an anchor, because adding up intervals would accumulate rounding
+        # errors.
         self._anchor_s = time_s
-        self._ticks = -1
+        self._tick_count = -1
 
     @property
     def time_s(self) -> float:
-        """Device time of the latest sample; a tick before the first one at the very start."""
-        if self._phase is _Phase.ROWS and self._playing is not None and self._playing.begun:
-            return self._playing.time_s
-        return self._anchor_s + self._ticks * self._tick_s
+        """Device time of the latest sample; initially one tick before the first sample."""
+        if self._phase is _Phase.ROWS and self._playback is not None and self._playback.has_begun:
+            return self._playback.time_s
+        return self._anchor_s + self._tick_count * self._tick_s
 
     @property
     def command(self) -> FloatArray:
-        """The latest desired set-points (axes,), m or rad, also during playback."""
+        """Latest desired set-points (axes,), m or rad, also during playback."""
         return self._command.copy()
 
     @property
-    def sent(self) -> FloatArray:
-        """The latest commands to the actuators (axes,), m or rad."""
-        return self._sent.copy()
+    def actuator_command(self) -> FloatArray:
+        """Latest commands to the actuators (axes,), m or rad."""
+        return self._actuator_command.copy()
 
     @property
-    def compensated(self) -> dict[int, Exceedance]:
-        """In what each axis, by its number, has gone beyond its inverse; of those that have one."""
-        return self._compensating.beyond
+    def exceedances(self) -> dict[int, InverseExceedance]:
+        """How far each axis has exceeded the range of its inverse, by axis number."""
+        return self._inverses.exceedances
 
     @property
-    def regulated(self) -> dict[int, Regulation]:
-        """The loops that are closed, by the number of their axis; any thread may ask."""
-        return dict(self._regulating.regulations)
+    def regulations(self) -> dict[int, AxisRegulation]:
+        """Closed loops, by axis number. Any thread may read them."""
+        return dict(self._loops.regulations)
 
     @property
-    def limited(self) -> tuple[int, ...]:
-        """The axes, by their number, whose loop a limit cuts off at present."""
-        return tuple(index for index in self.regulated if self._regulating.limited(index))
+    def limited_axes(self) -> tuple[int, ...]:
+        """Numbers of the axes whose loop output is limited now."""
+        return tuple(index for index in self.regulations if self._loops.is_limited(index))
 
     @property
     def tick_s(self) -> float:
-        """Interval between set-points at present."""
+        """Current interval between set-points."""
         return self._tick_s
 
     @property
     def true_position(self) -> FloatArray:
-        """Where the axes (axes,) are, m or rad, with every effect and without a sensor's."""
+        """True positions (axes,), m or rad, with all effects but without sensor errors."""
         return np.asarray(self._state.position[-1])
 
     @property
-    def moving(self) -> bool:
-        """Whether a single move, or the halt after a stop, is under way."""
+    def is_moving(self) -> bool:
+        """Whether a single move, or the braking after a stop, is running."""
         return self._setpoints.moving
 
     @property
-    def playing(self) -> bool:
-        """Whether a profile or a trajectory is playing, its approach included."""
+    def is_playing(self) -> bool:
+        """Whether a profile or a trajectory, including its approach, is running."""
         return self._phase is not _Phase.HOLD
 
     @property
     def running_profile(self) -> bool:
-        """Whether it is a profile that is playing."""
+        """Whether a profile is running."""
         return self._phase is _Phase.PROFILE
 
     @property
     def progress(self) -> float:
-        """How much of the present or latest trajectory, or profile, has been played, 0 to 1."""
+        """Fraction of the current or latest trajectory or profile that has been played, 0 to 1."""
         if self._profile is not None:
             return self._profile.progress
-        return self._playing.progress if self._playing is not None else 0.0
+        return self._playback.progress if self._playback is not None else 0.0
 
-    def with_effects(self, effects: tuple[AxisEffect, ...]) -> tuple[Plant, PlantState]:
-        """Return a plant with other effects, where the axes are and as fast as they are."""
+    def make_plant_with_effects(self, effects: tuple[AxisEffect, ...]) -> tuple[Plant, PlantState]:
+        """Return a plant with other effects, and its state at the current position and speed."""
         plant = Plant.of(replace(self._robot, effects=effects), closed_loop=True)
-        return plant, taken_over(plant, self._plant, self._state)
+        return plant, transfer_state(plant, self._plant, self._state)
 
-    def use(self, plant: Plant, state: PlantState) -> None:
-        """Continue with another plant at a state of its own."""
+    def set_plant(self, plant: Plant, state: PlantState) -> None:
+        """Continue with another plant in a given state."""
         self._plant, self._state = plant, state
 
-    def rest(self, index: int, model: InverseModel | None) -> Rest:
-        """Return how an axis, by its number, rests under an inverse, or none; nothing changes.
+    def find_rest(self, index: int, model: InverseModel | None) -> InverseAtRest:
+        """Return the inverse of an axis at rest, if there is one. The call changes nothing.
 
         Raises
         ------
         CompensationError
-            If the inverse does not reach where the axis stands.
+            If the axis is out of the range of the inverse.
         """
-        if index in self._regulating.regulations:
-            return Rest(None, float(self._sent[index]))  # the loop has it, in its feed-forward
-        return self._compensating.rest(model, float(self._sent[index]))
+        if index in self._loops.regulations:
+            # The inverse is part of the feed-forward of the loop.
+            return InverseAtRest(None, float(self._actuator_command[index]))
+        return self._inverses.find_rest(model, float(self._actuator_command[index]))
 
-    def compensate(self, index: int, model: InverseModel | None, rest: Rest) -> None:
-        """Apply an inverse to an axis, by its number, or remove it; the axis rests.
+    def compensate(self, index: int, model: InverseModel | None, rest: InverseAtRest) -> None:
+        """Apply an inverse to the axis with this number, or remove it. The axis must be at rest.
 
         Raises
         ------
         CompensationError
-            If the inverse of a loop's feed-forward does not reach where the axis stands.
+            If the axis is in a loop, and out of the range of the inverse for its feed-forward.
         """
-        loop = self._regulating.regulations.get(index)
+        loop = self._loops.regulations.get(index)
         if loop is None:
-            wanted = self._compensating.change(index, model, rest)
+            command = self._inverses.replace_inverse(index, model, rest)
         else:
-            wanted = self._compensating.lend(index, model, float(self._command[index]))
-            self._regulating.put(index, loop, model, wanted, rest.command)
-        self._rest_at(index, wanted)
+            command = self._inverses.lend_to_loop(index, model, float(self._command[index]))
+            self._loops.close_loop(index, loop, model, command, rest.command)
+        self._set_rest_command(index, command)
 
-    def regulate(self, index: int, regulation: Regulation | None) -> None:
-        """Close a loop around an axis, by its number, or open it; the machine is at rest.
+    def regulate(self, index: int, regulation: AxisRegulation | None) -> None:
+        """Close a loop around the axis with this number, or open it. The machine must be at rest.
 
-        Nothing jumps: a loop begins where the sensor says that the axis is, with the output that
-        it was sent; where it ends, that output stays. An inverse in use goes over into the loop's
-        feed-forward and back; one that does not reach that output is taken off with the loop.
+        The axis does not jump. A loop starts at the measured position, with the current actuator
+        command as its output. The output is kept when the loop is opened. An inverse in use becomes
+        part of the feed-forward of the loop, and is used directly again when the loop is opened. If
+        the inverse cannot produce the output of the loop, it is removed with the loop.
 
         Raises
         ------
         FeedbackError, CompensationError
-            If its rate does not fit, or the axis stands beyond what its inverse saw.
+            If the rate of the loop does not fit, or the axis is outside the range of its inverse.
         """
-        sent, model = float(self._sent[index]), self._compensating.model(index)
+        actuator_command, model = (
+            float(self._actuator_command[index]),
+            self._inverses.get_model(index),
+        )
         if regulation is not None:
-            self._regulating.check(index, regulation, alone=not any(self._plant.loops))
+            self._loops.check_loop(index, regulation, has_no_controllers=not any(self._plant.loops))
             offset = list(self._robot.axes.values())[index].offset
-            wanted = float(self._state.reading[-1, index]) - offset
-            wanted = self._compensating.lend(index, model, wanted)
-            self._regulating.put(index, regulation, model, wanted, sent)
-            self._retime()
+            command = float(self._state.reading[-1, index]) - offset
+            command = self._inverses.lend_to_loop(index, model, command)
+            self._loops.close_loop(index, regulation, model, command, actuator_command)
+            self._update_tick()
         else:
-            self._regulating.remove(index)
-            self._retime()
+            self._loops.open_loop(index)
+            self._update_tick()
             try:
-                rest = self._compensating.rest(model, sent)
+                rest = self._inverses.find_rest(model, actuator_command)
             except CompensationError:
-                model, rest = None, Rest(None, sent)
-            wanted = self._compensating.change(index, model, rest)
-        self._rest_at(index, wanted)
+                model, rest = None, InverseAtRest(None, actuator_command)
+            command = self._inverses.replace_inverse(index, model, rest)
+        self._set_rest_command(index, command)
 
-    def _rest_at(self, index: int, wanted: float) -> None:
-        """Take ``wanted`` for where an axis at rest is commanded to be."""
-        self._setpoints.bound(index, *self._compensating.bounds(index))
-        self._command[index] = wanted
+    def _set_rest_command(self, index: int, command: float) -> None:
+        self._setpoints.set_bounds(index, *self._inverses.find_bounds(index))
+        self._command[index] = command
         self._setpoints.take_over(self._command, np.zeros(len(self._command)))
 
-    def _retime(self) -> None:
-        """Go over to the ticks that the loops ask for."""
-        tick_s = self._regulating.tick_s
+    def _update_tick(self) -> None:
+        tick_s = self._loops.tick_s
         if tick_s != self._tick_s:
-            self._anchor_s, self._ticks, self._tick_s = self.time_s, 0, tick_s
-            self._setpoints.retime(tick_s)
-            self._compensating.retime(tick_s)
+            self._anchor_s, self._tick_count, self._tick_s = self.time_s, 0, tick_s
+            self._setpoints.set_tick(tick_s)
+            self._inverses.set_tick(tick_s)
 
-    def move_to(self, index: int, target: float, most_speed: float | None = None) -> None:
-        """Send an axis, by its number, to a target, no faster than this."""
-        self._regulating.lead(index)
-        self._setpoints.retarget({index: target}, most_speed)
+    def move_to(self, index: int, target: float, max_speed: float | None = None) -> None:
+        """Move the axis with this number to a target, no faster than ``max_speed``."""
+        self._loops.release_hold(index)
+        self._setpoints.retarget({index: target}, max_speed)
 
     def drive(self, index: int, velocity: float) -> None:
-        """Let an axis, by its number, go at a speed, m/s or rad/s; 0 brings it to a halt."""
+        """Move the axis with this number at a speed, m/s or rad/s; a speed of 0 brakes it."""
         if velocity:
-            self._regulating.lead(index)
+            self._loops.release_hold(index)
         self._setpoints.drive(index, velocity)
 
-    def playing_of(self, trajectory: Record) -> Playing:
-        """Return a trajectory as the machine would play it now; nothing changes."""
-        # Loops and inverses live at the ticks.
-        on_ticks = any(self._plant.loops) or bool(self._compensating.beyond or self._regulating)
-        return Playing(
+    def prepare_playback(self, trajectory: Record) -> TrajectoryPlayback:
+        """Return the playback of a trajectory in the current configuration; changes nothing."""
+        # Loops and inverses run only at ticks.
+        on_ticks = any(self._plant.loops) or bool(self._inverses.exceedances or self._loops)
+        return TrajectoryPlayback(
             trajectory,
             self._plant.axes,
             self._tick_s,
-            self._regulating.ticks,
+            self._loops.ticks_per_sample,
             on_ticks=on_ticks,
-            smooth=bool(self._regulating),
+            smooth=bool(self._loops),
         )
 
-    def play(self, playing: Playing) -> None:
-        """Approach the first row, settle, then play."""
+    def play(self, playback: TrajectoryPlayback) -> None:
+        """Start a playback: approach the first row, settle, then play the rows."""
         self._profile = None
-        self._regulating.lead()
-        self._playing = playing
-        self._settled = 0
-        self._setpoints.retarget(playing.first)
+        self._loops.release_hold()
+        self._playback = playback
+        self._settled_ticks = 0
+        self._setpoints.retarget(playback.first_commands)
         self._phase = _Phase.APPROACH
 
-    def run(self, profile: ProfileMotion) -> None:
-        """Run a profile of an axis from the next tick on; all axes are at rest."""
-        self._regulating.lead(profile.index)
+    def run_profile(self, profile: ProfileMotion) -> None:
+        """Run a profile from the next tick on. All axes must be at rest."""
+        self._loops.release_hold(profile.index)
         self._profile = profile
         self._phase = _Phase.PROFILE
 
     def home(self, axes: tuple[int, ...]) -> None:
-        """Send axes, by their number, to their switches; they are at rest."""
+        """Move the axes with these numbers to their switches. The axes must be at rest."""
         self._homing.begin(axes, self._setpoints)
 
     def stop(self) -> None:
-        """Halt within the acceleration that the axes allow, from whatever is continuing."""
-        self._homing.give_up()
+        """End any motion, and brake with the maximum acceleration of the axes."""
+        self._homing.abort()
         if self._phase is _Phase.PROFILE and self._profile is not None:
             self._end_profile(self._profile)
-        if self._phase is _Phase.ROWS and self._playing is not None and self._playing.begun:
-            self._end_rows(self._command, self._playing)
+        if self._phase is _Phase.ROWS and self._playback is not None and self._playback.has_begun:
+            self._end_rows(self._command, self._playback)
         self._setpoints.stop()
-        self._regulating.hold(self._holding)
+        self._loops.hold_outputs(self._hold_bounds)
         self._phase = _Phase.HOLD
 
-    def advance(self, until_s: float) -> list[Samples]:
-        """Advance until the last sample that is not after ``until_s``; return what was sampled.
+    def advance(self, until_s: float) -> list[DeviceSamples]:
+        """Simulate up to the last sample that is not after ``until_s``, and return the samples.
 
         Raises
         ------
         PlantError
-            If the motion leaves what a number can hold.
+            If the response diverges.
         """
-        parts: list[Samples] = []
+        parts: list[DeviceSamples] = []
         while True:
-            chunk = self._next_chunk(until_s)
+            chunk = self._take_next_chunk(until_s)
             if not len(chunk.time_s):
                 return parts
             if len(samples := self._sample(chunk)):
                 parts.append(samples)
 
-    def _next_chunk(self, until_s: float) -> Chunk:
-        if self._phase is _Phase.ROWS and self._playing is not None:
-            return self._row_chunk(self._playing, until_s)
-        since = (until_s - self._anchor_s) / self._tick_s
-        ticks = max(min(int(np.floor(since + 1e-6)) - self._ticks, _CHUNK), 0)
+    def _take_next_chunk(self, until_s: float) -> CommandChunk:
+        if self._phase is _Phase.ROWS and self._playback is not None:
+            return self._take_row_chunk(self._playback, until_s)
+        elapsed_ticks = (until_s - self._anchor_s) / self._tick_s
+        ticks = max(min(int(np.floor(elapsed_ticks + 1e-6)) - self._tick_count, _CHUNK_SAMPLES), 0)
         if self._phase is _Phase.PROFILE and self._profile is not None:
-            return self._profile_chunk(self._profile, ticks)
-        return self._tick_chunk(ticks)
+            return self._take_profile_chunk(self._profile, ticks)
+        return self._take_tick_chunk(ticks)
 
-    def _profile_chunk(self, profile: ProfileMotion, ticks: int) -> Chunk:
-        """Take at most ``ticks`` ticks of a profile, while the other axes hold."""
-        way = profile.advance(ticks)
-        command = np.tile(self._setpoints.position, (len(way), 1))
-        command[:, profile.index] = way
-        if len(way):
+    def _take_profile_chunk(self, profile: ProfileMotion, ticks: int) -> CommandChunk:
+        """Return at most ``ticks`` ticks of a profile. The other axes hold."""
+        path = profile.advance(ticks)
+        command = np.tile(self._setpoints.position, (len(path), 1))
+        command[:, profile.index] = path
+        if len(path):
             self._command = command[-1].copy()
-        chunk = self._on_ticks(command)
-        if profile.ended:
+        chunk = self._make_chunk(command)
+        if profile.has_ended:
             self._end_profile(profile)
         return chunk
 
     def _end_profile(self, profile: ProfileMotion) -> None:
-        """Hold, or come to a halt, from the latest command of a profile and its speed."""
+        """Brake from the latest command of a profile and its speed, and hold."""
         velocity = np.zeros(len(self._plant.axes))
-        if profile.ticks:
-            velocity[profile.index] = profile.velocity()
+        if profile.elapsed_ticks:
+            velocity[profile.index] = profile.compute_velocity()
         self._setpoints.take_over(self._command, velocity)
         self._phase = _Phase.HOLD
 
-    def _tick_chunk(self, ticks: int) -> Chunk:
-        """Take at most ``ticks`` ticks; a chunk ends where a phase does."""
+    def _take_tick_chunk(self, ticks: int) -> CommandChunk:
+        """Return at most ``ticks`` ticks; a chunk ends when a phase ends."""
         if self._phase is _Phase.SETTLE:
-            ticks = min(ticks, self._settle_ticks - self._settled)
-        approach = self._phase is _Phase.APPROACH
-        command = self._setpoints.generate(ticks, until_rest=approach)
-        self._homing.notice(self._setpoints)
-        chunk = self._on_ticks(command)
-        if approach and len(command) and not self._setpoints.moving:
+            ticks = min(ticks, self._settle_ticks - self._settled_ticks)
+        is_approach = self._phase is _Phase.APPROACH
+        command = self._setpoints.generate(ticks, until_rest=is_approach)
+        self._homing.note_arrival(self._setpoints)
+        chunk = self._make_chunk(command)
+        if is_approach and len(command) and not self._setpoints.moving:
             self._phase = _Phase.SETTLE
         elif self._phase is _Phase.SETTLE:
-            self._settled += len(command)
-        if self._phase is _Phase.SETTLE and self._settled >= self._settle_ticks:
-            self._begin_rows(self._playing)
+            self._settled_ticks += len(command)
+        if self._phase is _Phase.SETTLE and self._settled_ticks >= self._settle_ticks:
+            self._begin_rows(self._playback)
         return chunk
 
     @property
     def _settle_ticks(self) -> int:
         return round(self._settle_s / self._tick_s)
 
-    def _on_ticks(self, command: FloatArray) -> Chunk:
-        """Count the ticks of commands (n, axes) and say when they are."""
-        number = np.arange(self._ticks + 1, self._ticks + 1 + len(command), dtype=np.int64)
-        since = number - max(self._ticks, 0)
-        self._ticks += len(command)
-        return Chunk(
-            (self._anchor_s + number * self._tick_s).astype(np.float64),
-            (since * self._tick_s).astype(np.float64),
+    def _make_chunk(self, command: FloatArray) -> CommandChunk:
+        """Count the ticks of commands (n, axes), and return the commands with their times."""
+        tick_numbers = np.arange(
+            self._tick_count + 1, self._tick_count + 1 + len(command), dtype=np.int64
+        )
+        elapsed_ticks = tick_numbers - max(self._tick_count, 0)
+        self._tick_count += len(command)
+        return CommandChunk(
+            (self._anchor_s + tick_numbers * self._tick_s).astype(np.float64),
+            (elapsed_ticks * self._tick_s).astype(np.float64),
             command,
             np.full(len(command), -1, dtype=np.int64),
-            number % self._regulating.ticks == 0,
+            tick_numbers % self._loops.ticks_per_sample == 0,
         )
 
-    def _begin_rows(self, playing: Playing | None) -> None:
-        assert playing is not None, "a trajectory was approached"
-        playing.begin(self._anchor_s + (self._ticks + 1) * self._tick_s)
+    def _begin_rows(self, playback: TrajectoryPlayback | None) -> None:
+        assert playback is not None, "a trajectory was approached"
+        playback.begin(self._anchor_s + (self._tick_count + 1) * self._tick_s)
         self._phase = _Phase.ROWS
-        self._plays += 1
+        self._playback_count += 1
 
-    def _row_chunk(self, playing: Playing, until_s: float) -> Chunk:
-        if not playing.begun:
-            self._chance = Chance(np.random.default_rng([self._seed, self._plays]))
-        chunk = playing.take(until_s, self._setpoints.position, _CHUNK)
-        if playing.ended and len(chunk.time_s):
+    def _take_row_chunk(self, playback: TrajectoryPlayback, until_s: float) -> CommandChunk:
+        if not playback.has_begun:
+            self._random_streams = RandomStreams(
+                np.random.default_rng([self._seed, self._playback_count])
+            )
+        chunk = playback.take_chunk(until_s, self._setpoints.position, _CHUNK_SAMPLES)
+        if playback.has_ended and len(chunk.time_s):
             self._end_rows(chunk.command[-1], None)
         return chunk
 
-    def _end_rows(self, command: FloatArray, playing: Playing | None) -> None:
-        """Hold from the latest set-points (axes,) on, which rest or have a playback's speed."""
-        velocity = np.zeros(len(command)) if playing is None else playing.velocity()
-        self._anchor_s, self._ticks = self.time_s, 0
+    def _end_rows(self, command: FloatArray, playback: TrajectoryPlayback | None) -> None:
+        """Brake from the latest set-points (axes,) and the speed of ``playback``, and hold."""
+        velocity = np.zeros(len(command)) if playback is None else playback.compute_velocity()
+        self._anchor_s, self._tick_count = self.time_s, 0
         self._setpoints.take_over(command, velocity)
         self._phase = _Phase.HOLD
 
-    def _sample(self, chunk: Chunk) -> Samples:
-        motion, state, sent = self._regulating.advance(
+    def _sample(self, chunk: CommandChunk) -> DeviceSamples:
+        motion, state, actuator_command = self._loops.advance(
             self._plant,
             self._state,
             chunk.elapsed_s,
             chunk.command,
-            self._compensating.sent(chunk.command),
-            self._chance,
+            self._inverses.compute_actuator_commands(chunk.command),
+            self._random_streams,
         )
-        self._compensating.note(self._regulating.beyond)
+        self._inverses.note_exceedances(self._loops.exceedances)
         self._state = replace(state, time_s=state.time_s - state.time_s[-1])
-        self._command, self._sent = chunk.command[-1].copy(), sent[-1].copy()
+        self._command, self._actuator_command = (
+            chunk.command[-1].copy(),
+            actuator_command[-1].copy(),
+        )
         inputs = np.where(self._has_voltage, motion.inputs, np.nan)
-        noise = self._laser_rms * self._laser.standard_normal(motion.position.shape)
-        seen = motion.position + noise
-        samples = Samples(chunk.time_s, chunk.command, motion.reading, inputs, chunk.row, seen)
-        return selected(samples, chunk.told)
+        noise = self._laser_noise_rms * self._laser_rng.standard_normal(motion.position.shape)
+        reference = motion.position + noise
+        samples = DeviceSamples(
+            chunk.time_s, chunk.command, motion.reading, inputs, chunk.row, reference
+        )
+        return select_samples(samples, chunk.is_sample)

@@ -1,27 +1,29 @@
-"""Captures of the simulated machine: readings picked from its samples."""
+"""Captures of the simulated machine, taken from its samples."""
 
 import numpy as np
 
-from rotemina.drivers.capture import Captured
-from rotemina.drivers.samples import Samples
+from rotemina.drivers.abilities import CapturedSamples
+from rotemina.drivers.contract import DeviceSamples
 from rotemina.sim.arrays import FloatArray
 
-_ON_TIME = 1e-6  # of the interval: what is early by less is on time
+# Because of rounding, a sample may be early by this fraction of the interval.
+_INTERVAL_TOLERANCE = 1e-6
 
 
-class Capturing:
-    """One capture: the first sample that is not before each of its instants.
+class SimulatedCapture:
+    """A capture. For each of its instants it takes the first sample at or after the instant.
 
     Parameters
     ----------
     axes : tuple of str
     columns : tuple of int
-        Which columns of the samples they are.
+        Columns of the axes in the samples.
     rate_hz : float
-        No more than the rate of the samples, so that no sample serves two instants.
+        Rate of the instants; at most the sample rate, so that no sample is taken twice.
     count : int
+        Number of samples to take.
     begin_s : float
-        Device time before which nothing is taken.
+        Only samples after this device time are taken.
     """
 
     def __init__(
@@ -37,36 +39,38 @@ class Capturing:
         self._count = count
         self._begin_s = begin_s
         self._first_s: float | None = None
-        self._taken = 0
+        self._taken_count = 0
         self._parts: list[tuple[FloatArray, FloatArray]] = []
 
-    def take(self, samples: Samples) -> None:
-        """Pick from consecutive samples what the capture asks for."""
-        rows = [row for row, time_s in enumerate(samples.device_time_s) if self._wants(time_s)]
+    def take_samples(self, samples: DeviceSamples) -> None:
+        """Take the due samples from consecutive samples of the machine."""
+        rows = [
+            row for row, time_s in enumerate(samples.device_time_s) if self._take_if_due(time_s)
+        ]
         if rows:
             measured = samples.measured[rows][:, self._columns]
             self._parts.append((samples.device_time_s[rows], measured))
 
-    def _wants(self, time_s: float) -> bool:
-        if self._taken >= self._count or time_s <= self._begin_s:
+    def _take_if_due(self, time_s: float) -> bool:
+        if self._taken_count >= self._count or time_s <= self._begin_s:
             return False
         if self._first_s is None:
             self._first_s = time_s
-        due_s = self._first_s + (self._taken - _ON_TIME) * self._interval_s
+        due_s = self._first_s + (self._taken_count - _INTERVAL_TOLERANCE) * self._interval_s
         if time_s < due_s:
             return False
-        self._taken += 1
+        self._taken_count += 1
         return True
 
-    def handed_out(self) -> Captured | None:
-        """Return what was taken since the last time, or None if that is nothing."""
+    def read_captured(self) -> CapturedSamples | None:
+        """Return the samples taken since the previous call, or None."""
         if not self._parts:
             return None
         times, readings = zip(*self._parts, strict=True)
         self._parts.clear()
-        return Captured(
+        return CapturedSamples(
             self._axes,
             np.concatenate(times),
             np.concatenate(readings),
-            complete=self._taken >= self._count,
+            complete=self._taken_count >= self._count,
         )

@@ -1,4 +1,4 @@
-"""The front panel of the simulated machine: its display, a manual joystick, and the tool."""
+"""Front panel of the simulated machine: a display, a joystick set by the program, and a tool."""
 
 from abc import ABC
 from collections.abc import Sequence
@@ -7,20 +7,18 @@ from rotemina.drivers.abilities import (
     DISPLAY_COLUMNS,
     DISPLAY_ROWS,
     AnalogInputs,
-    Display,
+    TextDisplay,
+    ToolOutput,
 )
-from rotemina.drivers.errors import LimitError
-from rotemina.drivers.gate import Permit
-from rotemina.drivers.tool import ToolOutput
-from rotemina.sim.messages import message
+from rotemina.drivers.contract import LimitError, Permit
 
 
-class FrontPanel(Display, AnalogInputs, ToolOutput, ABC):
-    """A display whose text can be read, inputs that are set, and a tool without an effect."""
+class FrontPanel(TextDisplay, AnalogInputs, ToolOutput, ABC):
+    """Front panel with a display that can be read, inputs that can be set, and a dummy tool."""
 
     _tool_on = False
-    _shown = (" " * DISPLAY_COLUMNS,) * DISPLAY_ROWS
-    # One tuple, exchanged as a whole: another thread reads all of it before or after a change.
+    _display_rows = (" " * DISPLAY_COLUMNS,) * DISPLAY_ROWS
+    # The tuple is replaced as a whole, so that another thread never reads a partial change.
     _inputs: tuple[tuple[float, ...], tuple[bool, ...]] = ((), ())
 
     @property
@@ -33,30 +31,30 @@ class FrontPanel(Display, AnalogInputs, ToolOutput, ABC):
             self._tool_on = on
 
     @property
-    def shown(self) -> tuple[str, ...]:
-        """The rows of the display, each as long as the display is wide."""
-        return self._shown
+    def display_rows(self) -> tuple[str, ...]:
+        """Rows of the display, each padded to the full width."""
+        return self._display_rows
 
     def _show(self, row: int, text: str) -> None:
-        self._shown = (*self._shown[:row], text, *self._shown[row + 1 :])
+        self._display_rows = (*self._display_rows[:row], text, *self._display_rows[row + 1 :])
 
     def analog_inputs(self) -> tuple[tuple[float, ...], tuple[bool, ...]]:
-        """Return the readings, each 0 to 1, and whether each button is held; none until set."""
+        """Return the readings, 0 to 1, and whether each button is pressed; empty until set."""
         return self._inputs
 
     def set_analog_inputs(self, readings: Sequence[float], buttons: Sequence[bool]) -> None:
-        """Set the potentiometers, 0 to 1, and the held buttons.
+        """Set the readings of the potentiometers, 0 to 1, and the pressed buttons.
 
         Raises
         ------
         LimitError
-            If a reading is none of 0 to 1; then nothing changes.
+            If a reading is outside 0 to 1; then nothing changes.
         """
         for reading in readings:
             if not 0.0 <= reading <= 1.0:
                 raise LimitError(
-                    message(
-                        "engine", "{name}: potentiometer reading {reading}: must be 0 to 1"
-                    ).fill(name=self.name, reading=reading)
+                    "{name}: potentiometer reading {reading}: must be 0 to 1",
+                    name=self.name,
+                    reading=reading,
                 )
         self._inputs = (tuple(readings), tuple(buttons))

@@ -1,43 +1,46 @@
-"""Homing of the simulated machine: homed axes, and axes in search of their switch."""
+"""Homing of the simulated machine: which positions are unknown, and which axes are being homed."""
 
 from collections.abc import Iterable
 
 from rotemina.drivers.simulator.setpoint_generator import SetpointGenerator
 
-# So fast an axis goes towards its switch, of its greatest speed.
-SEARCH_SPEED = 0.5
+# Speed towards the limit switch, as a fraction of the maximum speed.
+SEARCH_SPEED_RATIO = 0.5
 
 
-class Homing:
-    """Axes, by their number, whose position is unknown; it outlives a closed connection."""
+class HomingState:
+    """State of the homing: the numbers of the axes with unknown position, and of those being homed.
+
+    The state is kept when the driver is closed and opened again.
+    """
 
     def __init__(self, unknown: Iterable[int]) -> None:
-        self._unknown = set(unknown)
-        self._sought: set[int] = set()
+        self._unknown_axes = set(unknown)
+        self._searching_axes: set[int] = set()
 
     @property
-    def unknown(self) -> tuple[int, ...]:
-        """The axes whose position is unknown, in order."""
-        return tuple(sorted(self._unknown))
+    def unknown_axes(self) -> tuple[int, ...]:
+        """Axes whose position is unknown, in order."""
+        return tuple(sorted(self._unknown_axes))
 
     @property
     def under_way(self) -> bool:
-        """Whether any axis is on its way to its switch."""
-        return bool(self._sought)
+        """Whether any axis is moving to its switch."""
+        return bool(self._searching_axes)
 
     def begin(self, axes: Iterable[int], setpoints: SetpointGenerator) -> None:
-        """Send axes to the low ends of their ranges, where their switches are."""
-        self._sought = set(axes)
-        # Where it was said to be counts no longer: a search that is ended leaves it unknown.
-        self._unknown |= self._sought
-        setpoints.search(tuple(self._sought), SEARCH_SPEED)
+        """Start moving axes to the low ends of their ranges, where their switches are."""
+        self._searching_axes = set(axes)
+        # The earlier position is no longer valid. If homing is aborted, it stays unknown.
+        self._unknown_axes |= self._searching_axes
+        setpoints.begin_search(tuple(self._searching_axes), SEARCH_SPEED_RATIO)
 
-    def notice(self, setpoints: SetpointGenerator) -> None:
-        """Note that the axes are known once all of them have arrived."""
-        if self._sought and not setpoints.moving:
-            self._unknown -= self._sought
-            self._sought.clear()
+    def note_arrival(self, setpoints: SetpointGenerator) -> None:
+        """Mark the positions as known once all axes have arrived."""
+        if self._searching_axes and not setpoints.moving:
+            self._unknown_axes -= self._searching_axes
+            self._searching_axes.clear()
 
-    def give_up(self) -> None:
-        """End the search; the position of its axes stays unknown."""
-        self._sought.clear()
+    def abort(self) -> None:
+        """Abort the homing. The positions of its axes stay unknown."""
+        self._searching_axes.clear()

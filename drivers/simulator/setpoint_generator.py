@@ -1,10 +1,10 @@
-"""Set-points of single moves, tick by tick at the greatest permitted speed.
+"""Set-points of single moves, tick by tick, at the highest permitted speed.
 
-At each tick the speed of the command changes by at most ``a·dt``, and is the greatest from which
-the axis can still stop on its target. With D the distance in units of ``a·dt²`` and u the speed
-in units of ``a·dt``, braking by one unit a tick covers ``f(u) = (n + 1) u − n (n + 1)/2`` for u
-between n and n + 1; solving ``f(u) = D`` for u lands on the target exactly, after a whole number
-of ticks.
+At each tick the speed of the command changes by at most ``a·dt``. The command has the highest speed
+from which the axis can still stop at its target. Let D be the distance in units of ``a·dt²``, and u
+the speed in units of ``a·dt``. Braking by one unit per tick covers ``f(u) = (n + 1) u − n (n +
+1)/2`` for u between n and n + 1. With the solution u of ``f(u) = D``, the axis stops exactly at the
+target, after a whole number of ticks.
 """
 
 import numba
@@ -12,14 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.trajectory.setpoint_limits import SetpointLimits
+from rotemina.sim.trajectory import SetpointLimits
 
 
 class SetpointGenerator:
-    """Commands of all axes, tick by tick, on their way to targets.
+    """Generates the commands of all axes, tick by tick, to their targets.
 
-    A new target may be given in mid-move: the speed has no jump. An axis passes a target only where
-    that lies nearer than it can stop, and then comes back; it never leaves the range.
+    A new target may be set during a move; the speed does not jump. If an axis cannot stop before
+    its new target, it passes the target and returns. An axis never leaves its range.
     """
 
     def __init__(self, limits: SetpointLimits, tick_s: float, position: FloatArray) -> None:
@@ -28,12 +28,12 @@ class SetpointGenerator:
         self._position = np.array(position, dtype=np.float64)
         self._velocity = np.zeros_like(self._position)
         self._target = self._position.copy()
-        self._speed = limits.speed.copy()
-        self._stopping = np.zeros(len(self._position), dtype=np.bool_)
+        self._max_speed = limits.speed.copy()
+        self._is_stopping = np.zeros(len(self._position), dtype=np.bool_)
 
     @property
     def position(self) -> FloatArray:
-        """The last command (axes,), m or rad."""
+        """Latest command (axes,), m or rad."""
         return self._position.copy()
 
     @property
@@ -43,68 +43,70 @@ class SetpointGenerator:
 
     @property
     def velocity(self) -> FloatArray:
-        """The speed of the last command (axes,), m/s or rad/s."""
+        """Speed of the latest command (axes,), m/s or rad/s."""
         return self._velocity.copy()
 
-    def retarget(self, targets: dict[int, float], most_speed: float | None = None) -> None:
-        """Send axes, by their number, to new targets inside the range, no faster than this."""
+    def retarget(self, targets: dict[int, float], max_speed: float | None = None) -> None:
+        """Move axes, by number, to new targets within the range, no faster than ``max_speed``."""
         for index, target in targets.items():
-            greatest = float(self._limits.speed[index])
-            # Targets may be beyond by the rounding of units, where no axis would ever arrive.
+            speed_limit = float(self._limits.speed[index])
+            # Because of rounding, a target may lie outside the range, and would never be reached.
             low, high = self._limits.low[index], self._limits.high[index]
             self._target[index] = min(max(target, float(low)), float(high))
-            self._speed[index] = greatest if most_speed is None else min(most_speed, greatest)
-            self._stopping[index] = False
+            self._max_speed[index] = (
+                speed_limit if max_speed is None else min(max_speed, speed_limit)
+            )
+            self._is_stopping[index] = False
 
     def drive(self, index: int, velocity: float) -> None:
-        """Move an axis at a speed until commanded otherwise, or up to an end of its range."""
+        """Move an axis at a speed until the next command, or until the end of its range."""
         if velocity == 0.0:
             self.stop(index)
         else:
-            end = self._limits.high if velocity > 0.0 else self._limits.low
-            self.retarget({index: float(end[index])}, abs(velocity))
+            range_ends = self._limits.high if velocity > 0.0 else self._limits.low
+            self.retarget({index: float(range_ends[index])}, abs(velocity))
 
-    def retime(self, tick_s: float) -> None:
-        """Continue at other ticks; all axes rest."""
+    def set_tick(self, tick_s: float) -> None:
+        """Change the interval of the ticks. All axes must be at rest."""
         self._tick_s = tick_s
 
-    def bound(self, index: int, low: float, high: float) -> None:
-        """Keep an axis, by its number, between these from now on; it lies there."""
+    def set_bounds(self, index: int, low: float, high: float) -> None:
+        """Set the bounds of the axis with this number, which must lie between them."""
         self._limits.low[index], self._limits.high[index] = low, high
 
-    def search(self, axes: tuple[int, ...], share: float) -> None:
-        """Send axes, by their number, to their low ends at this share of their greatest speed."""
+    def begin_search(self, axes: tuple[int, ...], speed_fraction: float) -> None:
+        """Move axes, by number, to their low ends at a fraction of their maximum speed."""
         for index in axes:
             low, speed = self._limits.low[index], self._limits.speed[index]
-            self.retarget({index: float(low)}, share * float(speed))
+            self.retarget({index: float(low)}, speed_fraction * float(speed))
 
     def take_over(self, position: FloatArray, velocity: FloatArray) -> None:
-        """Continue from a command (axes,) and its speed (axes,), and come to a halt."""
+        """Start from a command (axes,) and its speed (axes,), and brake to a halt."""
         self._position[:] = np.clip(position, self._limits.low, self._limits.high)
         self._velocity[:] = np.clip(velocity, -self._limits.speed, self._limits.speed)
         self.stop()
 
     def stop(self, index: int | None = None) -> None:
-        """Reduce the speed of one axis, or of all, to zero as fast as it may, and hold there."""
-        for each in range(len(self._position)) if index is None else (index,):
-            self._stopping[each] = self._velocity[each] != 0.0
-            if not self._stopping[each]:
-                self._target[each] = self._position[each]
+        """Brake one axis, or all axes, with the maximum acceleration, and hold."""
+        for axis in range(len(self._position)) if index is None else (index,):
+            self._is_stopping[axis] = self._velocity[axis] != 0.0
+            if not self._is_stopping[axis]:
+                self._target[axis] = self._position[axis]
 
     def generate(self, ticks: int, *, until_rest: bool = False) -> FloatArray:
         """Return the commands (ticks, axes) of the next ticks.
 
-        With ``until_rest`` they end with the tick after which nothing moves any more.
+        With ``until_rest`` the last command is the first one at which all axes are at rest.
         """
         commands = np.empty((ticks, len(self._position)))
-        count = _fill(
+        count = _fill_commands(
             self._position,
             self._velocity,
             self._target,
-            self._stopping,
+            self._is_stopping,
             self._limits.low,
             self._limits.high,
-            self._speed,
+            self._max_speed,
             self._limits.acceleration,
             self._tick_s,
             until_rest,
@@ -114,56 +116,63 @@ class SetpointGenerator:
 
 
 @numba.njit(cache=True, nogil=True)
-def _braking_speed(distance: float, quantum: float, tick_s: float) -> float:
-    """Return the greatest speed of the next tick from which one can stop after ``distance``."""
+def _compute_braking_speed(distance: float, quantum: float, tick_s: float) -> float:
+    """Return the highest speed in the next tick from which the axis can stop at a distance.
+
+    ``quantum`` is the change of speed in one tick.
+    """
     units = abs(distance) / (quantum * tick_s)
     n = np.floor((np.sqrt(1.0 + 8.0 * units) - 1.0) / 2.0)
     return float(np.sign(distance) * (units + n * (n + 1.0) / 2.0) / (n + 1.0) * quantum)
 
 
 @numba.njit(cache=True, nogil=True)
-def _fill(
+def _fill_commands(
     position: FloatArray,
     velocity: FloatArray,
     target: FloatArray,
-    stopping: NDArray[np.bool_],
+    is_stopping: NDArray[np.bool_],
     low: FloatArray,
     high: FloatArray,
-    speed: FloatArray,
+    max_speed: FloatArray,
     acceleration: FloatArray,
     tick_s: float,
     until_rest: bool,
     commands: FloatArray,
 ) -> int:
-    """Fill ``commands`` (n, axes) and move on the generator's arrays (axes,); return how many."""
+    """Fill ``commands`` (n, axes), advance the state arrays (axes,), and return the tick count."""
     axes = position.shape[0]
     for k in range(commands.shape[0]):
-        moving = False
+        is_moving = False
         for i in range(axes):
             quantum = acceleration[i] * tick_s
-            wanted = 0.0
-            if not stopping[i]:
-                wanted = _braking_speed(target[i] - position[i], quantum, tick_s)
-                wanted = min(max(wanted, -speed[i]), speed[i])
-            # Rounding of the braking speed must not leave the axis an atom beyond its target.
+            new_speed = 0.0
+            if not is_stopping[i]:
+                new_speed = _compute_braking_speed(target[i] - position[i], quantum, tick_s)
+                new_speed = min(max(new_speed, -max_speed[i]), max_speed[i])
+            # Rounding of the braking speed must not leave the axis slightly beyond its target.
             slack = 1e-9 * quantum
-            reached = abs(wanted - velocity[i]) <= quantum + slack
-            if not reached:
-                wanted = velocity[i] + np.sign(wanted - velocity[i]) * quantum
-            velocity[i] = wanted
-            left = abs(target[i] - position[i])
-            if not stopping[i] and reached and left <= abs(wanted) * tick_s * (1.0 + 1e-9):
+            can_reach_speed = abs(new_speed - velocity[i]) <= quantum + slack
+            if not can_reach_speed:
+                new_speed = velocity[i] + np.sign(new_speed - velocity[i]) * quantum
+            velocity[i] = new_speed
+            distance = abs(target[i] - position[i])
+            if (
+                not is_stopping[i]
+                and can_reach_speed
+                and distance <= abs(new_speed) * tick_s * (1.0 + 1e-9)
+            ):
                 position[i] = target[i]
             else:
-                position[i] += wanted * tick_s
+                position[i] += new_speed * tick_s
             if position[i] < low[i] or position[i] > high[i]:
                 position[i] = min(max(position[i], low[i]), high[i])
                 velocity[i] = 0.0
-            if stopping[i] and velocity[i] == 0.0:
-                stopping[i] = False
+            if is_stopping[i] and velocity[i] == 0.0:
+                is_stopping[i] = False
                 target[i] = position[i]
             commands[k, i] = position[i]
-            moving = moving or velocity[i] != 0.0 or position[i] != target[i]
-        if until_rest and not moving:
+            is_moving = is_moving or velocity[i] != 0.0 or position[i] != target[i]
+        if until_rest and not is_moving:
             return k + 1
     return len(commands)

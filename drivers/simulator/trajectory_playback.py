@@ -1,61 +1,67 @@
-"""Playback of a trajectory by the simulated machine, piece by piece."""
+"""Playback of a trajectory by the simulated machine, in chunks."""
 
 from typing import NamedTuple
 
 import numpy as np
 
-from rotemina.drivers.samples import Samples
-from rotemina.drivers.simulator.smooth_rows import SmoothRows
-from rotemina.sim.arrays import BoolArray, FloatArray, IntArray
-from rotemina.sim.records.record import Record
-from rotemina.sim.trajectory.schedule import Schedule
+from rotemina.drivers.contract import DeviceSamples
+from rotemina.drivers.simulator.smooth_rows import TrajectoryInterpolator
+from rotemina.sim.arrays import (
+    BoolArray,
+    FloatArray,
+    IntArray,
+)
+from rotemina.sim.records import Record
+from rotemina.sim.trajectory import PlaybackSchedule
 
-_ON_TIME = 1e-6  # of a tick: what is late by less is on time
+# Rounding error of times, as a fraction of a tick.
+_TICK_TOLERANCE = 1e-6
 
 
-class Chunk(NamedTuple):
-    """Sampling instants (n,) of the device, commands (n, axes) and rows of a trajectory (n,).
+class CommandChunk(NamedTuple):
+    """Instants of the device: times (n,), commands (n, axes) and rows of a trajectory (n,).
 
-    ``elapsed_s`` (n,) is the time since the latest sample before: small, and so exact. ``told``
-    (n,) says which of them are samples: not all ticks of a loop are.
+    ``elapsed_s`` (n,) is the time since the latest instant before the chunk. It is small, and so
+    are its rounding errors. ``is_sample`` (n,) says which instants are samples; loops may run at
+    more ticks than there are samples.
     """
 
     time_s: FloatArray
     elapsed_s: FloatArray
     command: FloatArray
     row: IntArray
-    told: BoolArray
+    is_sample: BoolArray
 
 
-def selected(samples: Samples, which: BoolArray) -> Samples:
-    """Return which (n,) of all ticks are sampled."""
-    if which.all():
+def select_samples(samples: DeviceSamples, is_selected: BoolArray) -> DeviceSamples:
+    """Return the samples for which ``is_selected`` (n,) is true."""
+    if is_selected.all():
         return samples
-    return Samples(
-        samples.device_time_s[which],
-        samples.command[which],
-        samples.measured[which],
-        samples.inputs[which],
-        samples.playback_row[which],
-        None if samples.reference is None else samples.reference[which],
+    return DeviceSamples(
+        samples.device_time_s[is_selected],
+        samples.command[is_selected],
+        samples.measured[is_selected],
+        samples.inputs[is_selected],
+        samples.playback_row[is_selected],
+        None if samples.reference is None else samples.reference[is_selected],
     )
 
 
-class Playing:
-    """One playback; its first row begins to act at a tick that :meth:`begin` names.
+class TrajectoryPlayback:
+    """Playback of one trajectory. :meth:`begin` sets the time at which its first row takes effect.
 
     Parameters
     ----------
     trajectory : Record
     axes : tuple of str
-        Of the machine.
+        Axes of the machine.
     tick_s : float
     ticks : int
-        From sample to sample.
+        Number of ticks per sample.
     on_ticks : bool
-        Whether rows wait for ticks: for what lives at them.
+        Whether rows take effect only at ticks, as loops and inverses require.
     smooth : bool
-        Whether ticks between rows lie on a smooth path: for loops that are led by it.
+        Whether the commands follow a smooth path between rows, as loops with feed-forward require.
     """
 
     def __init__(
@@ -68,32 +74,35 @@ class Playing:
         on_ticks: bool,
         smooth: bool,
     ) -> None:
-        self._schedule = Schedule(trajectory, axes, tick_s, on_ticks=on_ticks)
-        self._smooth = SmoothRows(trajectory, axes, ticks * tick_s) if smooth else None
-        self._axes, self._tick_s, self._ticks = len(axes), tick_s, ticks
-        self._instant = 0
-        self._latest_s = 0.0  # time of the latest instant since the first row
+        self._schedule = PlaybackSchedule(trajectory, axes, tick_s, on_ticks=on_ticks)
+        self._interpolator = (
+            TrajectoryInterpolator(trajectory, axes, ticks * tick_s) if smooth else None
+        )
+        self._axis_count, self._tick_s, self._ticks_per_sample = len(axes), tick_s, ticks
+        self._instant_count = 0
+        # Time from the first row to the latest instant.
+        self._latest_s = 0.0
         self._begin_s = 0.0
 
     @property
-    def first(self) -> dict[int, float]:
-        """Commands of the first row, by the number of the axis."""
-        return self._schedule.first
+    def first_commands(self) -> dict[int, float]:
+        """Commands of the first row, by axis number."""
+        return self._schedule.first_commands
 
     @property
-    def begun(self) -> bool:
-        """Whether its first row has begun to act."""
-        return self._instant > 0
+    def has_begun(self) -> bool:
+        """Whether the first row has taken effect."""
+        return self._instant_count > 0
 
     @property
-    def ended(self) -> bool:
-        """Whether its last row has begun to act."""
-        return self._instant == self._schedule.count
+    def has_ended(self) -> bool:
+        """Whether the last row has taken effect."""
+        return self._instant_count == self._schedule.count
 
     @property
     def progress(self) -> float:
-        """How much of it has been played, 0 to 1."""
-        return self._schedule.progress(self._instant)
+        """Fraction of the trajectory that has been played, 0 to 1."""
+        return self._schedule.progress(self._instant_count)
 
     @property
     def time_s(self) -> float:
@@ -101,33 +110,36 @@ class Playing:
         return self._begin_s + self._latest_s
 
     def begin(self, time_s: float) -> None:
-        """Let the first row begin to act at this device time, a tick after the latest sample."""
+        """Set the device time of the first row, which is a tick after the latest sample."""
         self._begin_s = time_s
 
-    def take(self, until_s: float, held: FloatArray, most: int) -> Chunk:
-        """Return the next instants up to a device time; other axes stay at ``held`` (axes,)."""
-        schedule, began = self._schedule, self._instant
-        due_s = until_s - self._begin_s + _ON_TIME * self._tick_s
-        most = min(most, max(schedule.count_until(due_s) + 1 - began, 0))
-        instants = schedule.instants(began, began + most)
+    def take_chunk(self, until_s: float, held: FloatArray, max_count: int) -> CommandChunk:
+        """Return the next instants up to a device time, at most ``max_count``.
+
+        Axes that the trajectory does not move remain at ``held`` (axes,).
+        """
+        schedule, first = self._schedule, self._instant_count
+        due_s = until_s - self._begin_s + _TICK_TOLERANCE * self._tick_s
+        max_count = min(max_count, max(schedule.count_until(due_s) + 1 - first, 0))
+        instants = schedule.instants(first, first + max_count)
         count = int(np.searchsorted(instants.time_s, due_s, side="right"))
         time_s, row = instants.time_s[:count], instants.row[:count]
         on_row = instants.on_row[:count]
         command = schedule.commands(row, held)
-        if self._smooth is not None:
-            command = self._smooth.commands(time_s, command)
-        elapsed_s = schedule.elapsed(self._latest_s, time_s)
-        if began == 0:
+        if self._interpolator is not None:
+            command = self._interpolator.smooth_commands(time_s, command)
+        elapsed_s = schedule.compute_elapsed(self._latest_s, time_s)
+        if first == 0:
             elapsed_s = elapsed_s + self._tick_s
         if count:
-            self._instant += count
+            self._instant_count += count
             self._latest_s = float(time_s[-1])
-        even = np.arange(began, began + count) % self._ticks == 0
-        own = np.where(on_row, row, -1)
-        return Chunk(self._begin_s + time_s, elapsed_s, command, own, on_row | even)
+        on_sample = np.arange(first, first + count) % self._ticks_per_sample == 0
+        rows = np.where(on_row, row, -1)
+        return CommandChunk(self._begin_s + time_s, elapsed_s, command, rows, on_row | on_sample)
 
-    def velocity(self) -> FloatArray:
-        """Return the speed (axes,) of the commands at the latest instant, per s."""
-        if self._smooth is not None:
-            return self._smooth.velocity(self._latest_s, self._axes)
-        return self._schedule.velocity(self._instant - 1, self._axes)
+    def compute_velocity(self) -> FloatArray:
+        """Return the speed (axes,) of the commands at the latest instant, m/s or rad/s."""
+        if self._interpolator is not None:
+            return self._interpolator.compute_velocity(self._latest_s, self._axis_count)
+        return self._schedule.velocity(self._instant_count - 1, self._axis_count)

@@ -1,7 +1,7 @@
-"""One or two boards on their lines, with their machine; time is advanced explicitly.
+"""One or two boards on their lines, with their machine. The caller advances the time.
 
-Time is given by the caller, in seconds since the process began: nothing here waits or looks at a
-clock, so a test may let hours pass in minutes.
+Times are simulated, in seconds since the start. The code neither waits nor reads a clock, so a test
+can simulate hours in minutes.
 """
 
 from math import floor, inf
@@ -9,90 +9,92 @@ from typing import Literal
 
 import numpy as np
 
-from rotemina.drivers.mc68hc11.axes import board_axes
-from rotemina.drivers.mc68hc11.line_budget import BAUDS, Line
-from rotemina.drivers.mc68hc11.protocol_codes import Fault
-from rotemina.drivers.virtual_board.clock import BoardClock
-from rotemina.drivers.virtual_board.firmware import Firmware
+from rotemina.drivers.mc68hc11 import BAUD_RATES, LineCapacity
+from rotemina.drivers.mc68hc11.protocol import BoardFault, make_board_axes
+from rotemina.drivers.virtual_board.clock import CrystalClock
+from rotemina.drivers.virtual_board.firmware import BoardFirmware
 from rotemina.drivers.virtual_board.line import SerialLine
-from rotemina.drivers.virtual_board.machine import Machine
-from rotemina.drivers.virtual_board.motion_handlers import press
-from rotemina.drivers.virtual_board.observer_notes import Notes
+from rotemina.drivers.virtual_board.machine import BoardMachine
+from rotemina.drivers.virtual_board.motion_handlers import press_buttons
+from rotemina.drivers.virtual_board.observer_notes import BoardEventLog
 from rotemina.drivers.virtual_board.samples import take_samples
 from rotemina.sim.errors import InputError
-from rotemina.sim.messages import message
-from rotemina.sim.robot.model import Robot
+from rotemina.sim.robot import Robot
 
-TICK_S = 5e-4  # the announced captures of 2000 Hz need it
-_OFFSETS_US = (5_000_000, (1 << 32) - 60_000_000)  # the second board's clock turns after a minute
-_BLOCK = 200  # ticks at once: what the machine keeps of its readings
+# The offered capture rate of 2000 Hz needs ticks of this length.
+DEFAULT_TICK_S = 5e-4
+# The clocks start at different times. That of the second board wraps after a minute.
+_CLOCK_OFFSETS_US = (5_000_000, (1 << 32) - 60_000_000)
+# Maximum number of ticks that are generated at once. The machine must keep more readings than this
+# for captures.
+_MAX_BLOCK_TICKS = 200
 
 
-class Port:
-    """The host's end of a line."""
+class LinePort:
+    """Host end of a line."""
 
     def __init__(self, boards: "VirtualBoards", line: SerialLine) -> None:
         self._boards = boards
         self._line = line
 
     @property
-    def numbers(self) -> tuple[int, ...]:
-        """The boards at its end."""
+    def board_numbers(self) -> tuple[int, ...]:
+        """Numbers of the boards on the line."""
         return tuple(board.number for board in self._line.boards)
 
     def receive(self, data: bytes, at_s: float) -> None:
-        """Let the host have written these bytes at this time.
+        """Receive bytes that the host has written at the time ``at_s``.
 
         Raises
         ------
         PlantError
-            If the motion leaves what a number can hold.
+            If the motion exceeds the range of floating-point numbers.
         """
-        self._boards.live(at_s)
+        self._boards.advance(at_s)
         self._line.receive(data, self._boards.now_s)
 
     def advance(self, to_s: float) -> bytes:
-        """Advance until this time; return what has reached the host by then.
+        """Advance to the time ``to_s``, and return the bytes that have reached the host by then.
 
         Raises
         ------
         PlantError
-            If the motion leaves what a number can hold.
+            If the motion exceeds the range of floating-point numbers.
         """
-        self._boards.live(to_s)
-        return self._line.taken(self._boards.now_s)
+        self._boards.advance(to_s)
+        return self._line.take_bytes(self._boards.now_s)
 
 
 class VirtualBoards:
-    """One machine, one or two boards, one or two serial lines.
+    """One or two virtual boards with their machine, on one or two serial lines.
 
-    Two ports are a line for each board; one port is a line for the only board of up to three axes,
-    or a shared bus with both.
+    With two ports each board has its own line. With one port there is either a single board with up
+    to three axes, or two boards on a shared bus.
 
     Parameters
     ----------
     robot : Robot
-        With the effects, sensors and noise of its file.
+        Robot with the effects, sensors and noise of its file.
     ports : int
         1 or 2.
     baud : int
     paced : bool
-        Whether bytes take as long as the baud rate says, or none.
+        Whether bytes take the time that the baud rate implies. Otherwise they take no time.
     seed : int
-        Of noise, random effects and disturbances.
+        Seed of noise, random effects and disturbances.
     position_known : bool
-        Begin homed and without a fault, as after a power-up that was long ago.
+        Whether the boards start homed and without a fault. Otherwise they start as after power-up.
     start_fraction : float
-        Where in its range each axis stands at first.
+        Position of each axis at the start, as a fraction of its range.
     tick_s : float
-        Interval between the boards' control ticks.
+        Interval between the control ticks of the boards.
     crystal_ppm : tuple of float
-        How much too fast the crystal of each board is.
+        Relative error of the crystal of each board, ppm. A positive error makes the clock fast.
 
     Raises
     ------
     InputError
-        If boards cannot move this robot, or there is no such line.
+        If boards cannot move this robot, or the baud rate or the number of ports is wrong.
     """
 
     def __init__(
@@ -100,135 +102,149 @@ class VirtualBoards:
         robot: Robot,
         *,
         ports: Literal[1, 2] = 2,
-        baud: int = BAUDS[0],
+        baud: int = BAUD_RATES[0],
         paced: bool = True,
         seed: int = 0,
         position_known: bool = False,
         start_fraction: float = 0.5,
-        tick_s: float = TICK_S,
+        tick_s: float = DEFAULT_TICK_S,
         crystal_ppm: tuple[float, float] = (0.0, 0.0),
     ) -> None:
-        own = board_axes(robot)
-        if baud not in BAUDS:
+        axes_of_boards = make_board_axes(robot)
+        if baud not in BAUD_RATES:
             raise InputError(
-                message("engine", "baud {baud}: must be one of {names}").fill(
-                    baud=baud, names=", ".join(map(str, BAUDS))
-                )
+                "baud {baud}: must be one of {names}",
+                baud=baud,
+                names=", ".join(map(str, BAUD_RATES)),
             )
-        if ports > len(own):
+        if ports > len(axes_of_boards):
             raise InputError(
-                message(
-                    "engine",
-                    "robot {name}: its {count} axes need only one board, which has one port; "
-                    "leave out the second one",
-                ).fill(name=repr(robot.name), count=len(robot.axes))
+                "robot {name}: its {count} axes need only one board, which has one port; "
+                "leave out the second one",
+                name=repr(robot.name),
+                count=len(robot.axes),
             )
         self.tick_s = tick_s
-        self.notes = Notes()
-        axes = tuple(axis for board in own for axis in board)
+        self.notes = BoardEventLog()
+        axes = tuple(axis for board_axes in axes_of_boards for axis in board_axes)
         ranges = (robot.axes[axis.name].range for axis in axes)
         starts = [low + start_fraction * (high - low) for low, high in ranges]
-        position = [axis.value(axis.steps(at)) for axis, at in zip(axes, starts, strict=True)]
-        self.machine = Machine(robot, axes, tick_s=tick_s, seed=seed, position=np.array(position))
-        shared = ports < len(own)
-        speed = Line(baud, half_duplex=shared)
+        position = [
+            axis.to_si(axis.to_steps(start)) for axis, start in zip(axes, starts, strict=True)
+        ]
+        self.machine = BoardMachine(
+            robot, axes, tick_s=tick_s, seed=seed, position=np.array(position)
+        )
+        is_shared = ports < len(axes_of_boards)
+        capacity = LineCapacity(baud, half_duplex=is_shared)
         self.boards = tuple(
-            Firmware(
+            BoardFirmware(
                 number,
                 robot,
-                board,
+                board_axes,
                 self.machine,
-                first=sum(map(len, own[: number - 1])),
-                clock=BoardClock(tick_s, _OFFSETS_US[number - 1], ppm=crystal_ppm[number - 1]),
-                line=speed,
+                first_machine_index=sum(map(len, axes_of_boards[: number - 1])),
+                clock=CrystalClock(
+                    tick_s, _CLOCK_OFFSETS_US[number - 1], ppm=crystal_ppm[number - 1]
+                ),
+                line=capacity,
                 notes=self.notes,
                 tick_s=tick_s,
             )
-            for number, board in enumerate(own, start=1)
+            for number, board_axes in enumerate(axes_of_boards, start=1)
         )
         self.machine.previews = [board.preview for board in self.boards]
-        groups = [self.boards] if shared else [(board,) for board in self.boards]
-        self.serial = tuple(
-            SerialLine(group, speed, paced=paced, seed=seed + number)
+        groups = [self.boards] if is_shared else [(board,) for board in self.boards]
+        self.serial_lines = tuple(
+            SerialLine(group, capacity, paced=paced, seed=seed + number)
             for number, group in enumerate(groups)
         )
-        self.lines = tuple(Port(self, line) for line in self.serial)
+        self.host_ports = tuple(LinePort(self, line) for line in self.serial_lines)
         self._tick = 0
         self.now_s = 0.0
         if not position_known:
-            for one in self.boards:
-                one.power_up(Fault.RESET)
+            for firmware in self.boards:
+                firmware.power_up(BoardFault.RESET)
 
     @property
     def moving(self) -> bool:
-        """Whether any axis is on its way."""
+        """Whether any axis is moving."""
         return any(board.moving or board.stream.playing for board in self.boards)
 
     @property
-    def wake_s(self) -> float:
-        """When, from the present on, bytes reach the host or a sample is taken next, at latest.
+    def next_event_s(self) -> float:
+        """Time at which the next bytes reach the host or the next sample is taken, s.
 
-        For whoever has real time to sleep through; bytes that the host writes come on top.
+        A program that runs in real time may sleep until then, unless the host writes bytes.
         """
-        sample = min((board.reporter.next_tick for board in self.boards), default=inf)
-        lines = min(min(line.next_s, line.leaves_s) for line in self.serial)
-        return min(sample * self.tick_s, lines)
+        sample_tick = min((board.reporter.next_tick for board in self.boards), default=inf)
+        line_event_s = min(
+            min(line.next_event_s, line.next_departure_s) for line in self.serial_lines
+        )
+        return min(sample_tick * self.tick_s, line_event_s)
 
-    def live(self, to_s: float) -> None:
-        """Advance until this time, s; a time that is over changes nothing.
+    def advance(self, to_s: float) -> None:
+        """Advance to the time ``to_s``. A time in the past has no effect.
 
         Raises
         ------
         PlantError
-            If the motion leaves what a number can hold.
+            If the motion exceeds the range of floating-point numbers.
         """
         while True:
-            line = min(self.serial, key=lambda one: one.next_s)
-            if line.next_s > to_s:
+            line = min(self.serial_lines, key=lambda serial_line: serial_line.next_event_s)
+            if line.next_event_s > to_s:
                 break
-            self.now_s = max(self.now_s, line.next_s)
+            self.now_s = max(self.now_s, line.next_event_s)
             self._tick_until(self.now_s)
-            line.step()
+            line.process_next()
         self.now_s = max(self.now_s, to_s)
         self._tick_until(self.now_s)
 
-    def rehearse(self) -> None:
-        """Move a little and look, so that all that is compiled at its first use is so from now on.
+    def warm_up(self) -> None:
+        """Move the axes a little, so that all just-in-time compiled code is compiled.
 
-        These boards are used up by it: whoever serves others in real time does it before.
+        The axes are not moved back. So a program that runs in real time warms up a separate set of
+        boards first.
         """
         for drive in self.boards[0].drives:
             drive.move_to(drive.position + 10.0, 1e3)
-        self.live(self.now_s + 0.05)
+        self.advance(self.now_s + 0.05)
         self.machine.simulate()
 
     def set_inputs(self, readings: tuple[int, int, int], buttons: int = 0, board: int = 1) -> None:
-        """Hold the joystick at a board: three readings of 12 bits, and buttons bit by bit."""
-        one = self.boards[board - 1]
-        one.readings = list(readings)
-        press(one, buttons)
+        """Set the joystick of a board: three 12-bit readings, and the pressed buttons as bits."""
+        firmware = self.boards[board - 1]
+        firmware.joystick_readings = list(readings)
+        press_buttons(firmware, buttons)
 
-    def lcd(self, board: int = 1) -> tuple[str, ...]:
-        """Return the lines that a board's display shows."""
+    def read_lcd(self, board: int = 1) -> tuple[str, ...]:
+        """Return the rows of a board's display."""
         return tuple(self.boards[board - 1].lcd)
 
     def _tick_until(self, at_s: float) -> None:
-        last = floor(at_s / self.tick_s + 1e-6)
-        while self._tick < last:
-            first = self._tick + 1
+        last_tick = floor(at_s / self.tick_s + 1e-6)
+        while self._tick < last_tick:
+            next_tick = self._tick + 1
             for board in self.boards:
-                board.act(first)
-            actions = min((board.next_action() for board in self.boards), default=inf)
-            samples = min((board.reporter.next_tick for board in self.boards), default=inf)
-            end = int(min(last, first + _BLOCK - 1, max(actions - 1, first), max(samples, first)))
-            self._run(end - self._tick)
+                board.process_tick(next_tick)
+            action_tick = min((board.find_next_due_tick() for board in self.boards), default=inf)
+            sample_tick = min((board.reporter.next_tick for board in self.boards), default=inf)
+            end_tick = int(
+                min(
+                    last_tick,
+                    next_tick + _MAX_BLOCK_TICKS - 1,
+                    max(action_tick - 1, next_tick),
+                    max(sample_tick, next_tick),
+                )
+            )
+            self._run_ticks(end_tick - self._tick)
 
-    def _run(self, ticks: int) -> None:
-        """Let some ticks pass at once, and take the samples of the last one."""
+    def _run_ticks(self, ticks: int) -> None:
         commands = [board.generate(ticks) for board in self.boards]
-        self.machine.add(np.concatenate(commands, axis=1))
+        self.machine.add_commands(np.concatenate(commands, axis=1))
         self._tick += ticks
-        for line in self.serial:
+        for line in self.serial_lines:
             for board in line.boards:
                 if board.reporter.next_tick <= self._tick:
-                    line.say(board, take_samples(board), self._tick * self.tick_s)
+                    line.send_messages(board, take_samples(board), self._tick * self.tick_s)

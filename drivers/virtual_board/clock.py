@@ -1,56 +1,59 @@
-"""The clock of a board: 32 bits of microseconds from an imperfect crystal."""
+"""The clock of a board: a 32-bit counter of microseconds, driven by an imperfect crystal."""
 
 from math import ceil, floor
 
-MASK = 0xFFFF_FFFF
-_HALF = 1 << 31
-_ATOM_US = 1e-3  # that a time may be off by rounding
-_US = 1e6
+TIME_MASK = 0xFFFF_FFFF
+_HALF_WRAP_US = 1 << 31
+# Maximum rounding error of a computed time.
+_ROUNDING_US = 1e-3
+_US_PER_S = 1e6
 
 
-def signed(difference_us: int) -> int:
-    """Return a difference of two times of 32 bits, between -2^31 and 2^31 - 1."""
-    return (difference_us + _HALF & MASK) - _HALF
+def wrap_difference(difference_us: int) -> int:
+    """Wrap the difference of two 32-bit times to the range -2^31 to 2^31 - 1."""
+    return (difference_us + _HALF_WRAP_US & TIME_MASK) - _HALF_WRAP_US
 
 
-class BoardClock:
-    """Counts from ``offset_us`` at ``since_s``, and converts machine times to ticks.
+class CrystalClock:
+    """Clock of a board, driven by a crystal. It converts board times to ticks and back.
 
     Parameters
     ----------
     tick_s : float
-        Interval between ticks; tick number k is at k · tick_s.
+        Interval between ticks. Tick number k occurs at the simulated time k · tick_s.
     offset_us : int
+        Board time at ``since_s``.
     since_s : float
-        Time of the process.
+        Simulated time at which the clock starts.
     ppm : float
-        How much too fast the crystal is.
+        Relative error of the crystal, ppm. A positive error makes the clock fast.
     """
 
     def __init__(
         self, tick_s: float, offset_us: int = 0, *, since_s: float = 0.0, ppm: float = 0.0
     ) -> None:
         self._offset_us = offset_us
-        self._since_us = since_s * _US
-        self._tick_us = tick_s * _US
+        self._since_us = since_s * _US_PER_S
+        self._tick_us = tick_s * _US_PER_S
         self._rate = 1.0 + 1e-6 * ppm
 
-    def at_tick(self, tick: int) -> int:
-        """Return the board's time at a tick."""
+    def find_time_us(self, tick: int) -> int:
+        """Return the board time at a tick."""
         elapsed_us = (tick * self._tick_us - self._since_us) * self._rate
-        return self._offset_us + floor(elapsed_us + _ATOM_US) & MASK
+        return self._offset_us + floor(elapsed_us + _ROUNDING_US) & TIME_MASK
 
-    def tick_at(self, time_us: int, now: int) -> int:
-        """Return the first tick that is not before a time of the board; ``now`` is a tick.
+    def find_tick(self, time_us: int, now: int) -> int:
+        """Return the first tick at or after a board time.
 
-        The time is taken to be within 2^31 µs of the present, before or after it.
+        The time must be within 2^31 µs before or after the tick ``now``.
         """
-        ahead_us = signed(time_us - self.at_tick(now))
-        tick = now + floor(ahead_us / (self._tick_us * self._rate)) - 1  # rounding, at most
-        while signed(self.at_tick(tick) - time_us) < 0:
+        until_us = wrap_difference(time_us - self.find_time_us(now))
+        # Start one tick earlier, because the quotient may be rounded up.
+        tick = now + floor(until_us / (self._tick_us * self._rate)) - 1
+        while wrap_difference(self.find_time_us(tick) - time_us) < 0:
             tick += 1
         return tick
 
-    def ticks(self, duration_us: float) -> int:
-        """Return how many ticks a duration takes, at least one."""
+    def count_ticks(self, duration_us: float) -> int:
+        """Return the number of ticks that cover a duration, at least one."""
         return max(1, ceil(duration_us / (self._tick_us * self._rate) - 1e-6))

@@ -1,21 +1,21 @@
-"""Fault injection by short commands, for training and tests.
+"""Injection of faults by text commands, for training and tests.
 
 ========================  ===================================================================
 ``drop N``                the next N bytes are lost
-``double N``              each of the next N bytes comes twice
-``corrupt N``             a bit of each of the next N bytes is turned over
-``delay T ms``            from now on bytes come this much later; ``delay 0 ms`` ends it
-``garbage N``             N bytes come that nobody sent
-``silence T s``           nothing comes through for so long, both ways: a torn or shorted line
-``space T s``             the same, and boards hear a break: a line that is held at space
-``reset B``, ``brown-out B``  board B begins again; it does not know where its steppers are
-``freeze AXIS``, ``thaw AXIS``  a sensor says the same until it is thawed
-``lose AXIS N``           a stepper stays N microsteps behind its command
-``joystick X Y Z [B]``    hold the joystick of board 1 there, 0 to 4095, and buttons bit by bit
+``double N``              each of the next N bytes arrives twice
+``corrupt N``             one bit of each of the next N bytes is inverted
+``delay T ms``            from now on bytes arrive later by T; ``delay 0 ms`` ends this
+``garbage N``             N spurious bytes arrive
+``silence T s``           no byte passes in either direction, as on a broken line
+``space T s``             as ``silence``; boards also detect a break (line held at space)
+``reset B``, ``brown-out B``  board B restarts and does not know the positions of its steppers
+``freeze AXIS``, ``thaw AXIS``  the reading of the sensor stays constant until ``thaw``
+``lose AXIS N``           a stepper loses N microsteps
+``joystick X Y Z [B]``    set the joystick of board 1, 0 to 4095, and its buttons as bits
 ========================  ===================================================================
 
-The first five take ``board`` (which is meant without it) or ``host``, towards which it happens; the
-first seven ``line 1`` or ``line 2``, of all lines without it.
+The first five commands may end with the receiver of the bytes, ``board`` (the default) or ``host``.
+The first seven may name a line, ``line 1`` or ``line 2``. Otherwise they apply to all lines.
 """
 
 from collections.abc import Callable, Sequence
@@ -23,234 +23,219 @@ from math import inf, isfinite
 
 import numpy as np
 
-from rotemina.drivers.mc68hc11.protocol_codes import Fault
+from rotemina.drivers.contract import FaultCommandError
+from rotemina.drivers.mc68hc11.protocol import BoardFault
 from rotemina.drivers.virtual_board.boards import VirtualBoards
 from rotemina.drivers.virtual_board.line import SerialLine
-from rotemina.drivers.virtual_board.line_faults import Channel, Damage
-from rotemina.sim.errors import InputError
-from rotemina.sim.messages import message
+from rotemina.drivers.virtual_board.line_faults import ByteDamage, CableChannel
 
-_DAMAGES = {"drop": Damage.DROP, "double": Damage.DOUBLE, "corrupt": Damage.CORRUPT}
-_RESETS = {"reset": Fault.RESET, "brown-out": Fault.BROWN_OUT}
-_MOST_BYTES, _MOST_S, _MOST_STEPS = 10_000, 3600.0, 1_000_000
-_MOST_READING, _MOST_BUTTONS = 4095, 3
-_UNITS = {"s": 1.0, "ms": 1e-3}
-_RANDOM = ("drop 1", "double 1", "corrupt 1", "garbage 3", "delay 2 ms", "delay 0 ms")
-
-
-class FaultCommandError(InputError):
-    """A command of fault injection that makes no sense; nothing has happened."""
+_DAMAGE_COMMANDS = {
+    "drop": ByteDamage.DROP,
+    "double": ByteDamage.DOUBLE,
+    "corrupt": ByteDamage.CORRUPT,
+}
+_RESET_COMMANDS = {"reset": BoardFault.RESET, "brown-out": BoardFault.BROWN_OUT}
+_MAX_BYTES, _MAX_S, _MAX_STEPS = 10_000, 3600.0, 1_000_000
+_MAX_READING, _MAX_BUTTONS = 4095, 3
+_TIME_UNITS_S = {"s": 1.0, "ms": 1e-3}
+_RANDOM_COMMANDS = ("drop 1", "double 1", "corrupt 1", "garbage 3", "delay 2 ms", "delay 0 ms")
 
 
-def inject(boards: VirtualBoards, command: str) -> None:
-    """Carry out a command at the boards' present time.
+def inject_fault(boards: VirtualBoards, command: str) -> None:
+    """Execute a command at the current time of the boards.
 
     Raises
     ------
     FaultCommandError
-        If it is no command, or there is no such axis, board or line.
+        If the command is unknown, or there is no such axis, board or line.
     """
     name, *words = command.split() or [""]
-    if name not in _COMMANDS:
-        known = ", ".join(sorted(_COMMANDS))
+    if name not in _HANDLERS:
+        names = ", ".join(sorted(_HANDLERS))
         raise FaultCommandError(
-            message("engine", "fault {strip}: unknown command; use {known}").fill(
-                strip=repr(command.strip()), known=known
-            )
+            "fault {strip}: unknown command; use {known}", strip=repr(command.strip()), known=names
         )
     try:
-        _COMMANDS[name](boards, name, words)
+        _HANDLERS[name](boards, name, words)
     except FaultCommandError as error:
         raise FaultCommandError(
-            message("engine", "fault {strip}: {error}").fill(
-                strip=repr(command.strip()), error=str(error)
-            )
+            "fault {strip}: {error}", strip=repr(command.strip()), error=str(error)
         ) from error
-    boards.notes.say(boards.now_s, f"injected: {' '.join(command.split())}")
+    boards.notes.add_event(boards.now_s, f"injected: {' '.join(command.split())}")
 
 
 class RandomFaults:
-    """Disturbances of the lines at random times; a position is never lost by them.
+    """Disturbances of the lines at random times. None of them loses a position.
 
     Parameters
     ----------
     boards : VirtualBoards
     rate_hz : float
-        How many a second, on average.
+        Average number of disturbances per second.
     seed : int
     """
 
     def __init__(self, boards: VirtualBoards, rate_hz: float, seed: int) -> None:
         self._boards = boards
         self._rate_hz = rate_hz
-        self._chance = np.random.default_rng(seed)
-        self._next_s = boards.now_s + self._pause_s()
+        self._random = np.random.default_rng(seed)
+        self._next_s = boards.now_s + self._draw_pause_s()
 
-    def live(self, to_s: float) -> None:
-        """Advance until this time, s, with what goes wrong until then."""
+    def advance(self, to_s: float) -> None:
+        """Advance the boards to the time ``to_s``, and inject disturbances on the way."""
         while self._next_s <= to_s:
-            self._boards.live(self._next_s)
-            what = _RANDOM[int(self._chance.integers(len(_RANDOM)))]
-            where = ("board", "host")[int(self._chance.integers(2))]
-            inject(self._boards, f"{what} {where}")
-            self._next_s += self._pause_s()
-        self._boards.live(to_s)
+            self._boards.advance(self._next_s)
+            command = _RANDOM_COMMANDS[int(self._random.integers(len(_RANDOM_COMMANDS)))]
+            receiver = ("board", "host")[int(self._random.integers(2))]
+            inject_fault(self._boards, f"{command} {receiver}")
+            self._next_s += self._draw_pause_s()
+        self._boards.advance(to_s)
 
-    def _pause_s(self) -> float:
-        return float(self._chance.exponential(1.0 / self._rate_hz)) if self._rate_hz else inf
+    def _draw_pause_s(self) -> float:
+        return float(self._random.exponential(1.0 / self._rate_hz)) if self._rate_hz else inf
 
 
-def _damage(boards: VirtualBoards, name: str, words: list[str]) -> None:
-    lines, towards_host = _where(boards, words)
-    count = _count(words, _MOST_BYTES)
+def _inject_damage(boards: VirtualBoards, name: str, words: list[str]) -> None:
+    lines, towards_host = _parse_lines_and_receiver(boards, words)
+    count = _parse_count(words, _MAX_BYTES)
     for line in lines:
-        _channel(line, towards_host).damage(_DAMAGES[name], count)
+        _select_channel(line, towards_host).damage(_DAMAGE_COMMANDS[name], count)
 
 
-def _garbage(boards: VirtualBoards, _: str, words: list[str]) -> None:
-    lines, towards_host = _where(boards, words)
-    count = _count(words, _MOST_BYTES)
+def _inject_garbage(boards: VirtualBoards, _: str, words: list[str]) -> None:
+    lines, towards_host = _parse_lines_and_receiver(boards, words)
+    count = _parse_count(words, _MAX_BYTES)
     for line in lines:
-        noise = _channel(line, towards_host).noise(count)
+        noise = _select_channel(line, towards_host).draw_noise(count)
         line.disturb(noise, boards.now_s, towards_host=towards_host)
 
 
-def _delay(boards: VirtualBoards, _: str, words: list[str]) -> None:
-    lines, towards_host = _where(boards, words)
-    delay_s = _duration_s(words)
+def _set_delay(boards: VirtualBoards, _: str, words: list[str]) -> None:
+    lines, towards_host = _parse_lines_and_receiver(boards, words)
+    delay_s = _parse_duration_s(words)
     for line in lines:
-        _channel(line, towards_host).delay_s = delay_s
+        _select_channel(line, towards_host).delay_s = delay_s
 
 
-def _silence(boards: VirtualBoards, name: str, words: list[str]) -> None:
-    lines = _lines(boards, words)
-    until_s = boards.now_s + _duration_s(words)
+def _silence_lines(boards: VirtualBoards, name: str, words: list[str]) -> None:
+    lines = _parse_lines(boards, words)
+    until_s = boards.now_s + _parse_duration_s(words)
     for line in lines:
         if name == "space":
-            # A break is a stop wherever it comes: within a frame too.
+            # A break means stop at any time, even within a frame.
             line.disturb(b"\0\0", boards.now_s, towards_host=False)
         for channel in (line.to_board, line.to_host):
             channel.silent_until_s = until_s
 
 
-def _reset(boards: VirtualBoards, name: str, words: list[str]) -> None:
-    number = _count(words, len(boards.boards))
-    boards.boards[number - 1].reset(_RESETS[name])
+def _reset_board(boards: VirtualBoards, name: str, words: list[str]) -> None:
+    number = _parse_count(words, len(boards.boards))
+    boards.boards[number - 1].reset(_RESET_COMMANDS[name])
 
 
-def _freeze(boards: VirtualBoards, name: str, words: list[str]) -> None:
-    index = _axis(boards, words)
-    _end(words)
+def _freeze_or_thaw(boards: VirtualBoards, name: str, words: list[str]) -> None:
+    index = _parse_axis(boards, words)
+    _require_no_more_words(words)
     if name == "freeze":
-        boards.machine.freeze(index)
+        boards.machine.freeze_sensor(index)
     else:
-        boards.machine.thaw(index)
+        boards.machine.thaw_sensor(index)
 
 
-def _lose(boards: VirtualBoards, _: str, words: list[str]) -> None:
-    index = _axis(boards, words)
-    if not boards.machine.stepper[index]:
+def _lose_steps(boards: VirtualBoards, _: str, words: list[str]) -> None:
+    index = _parse_axis(boards, words)
+    if not boards.machine.is_stepper[index]:
         raise FaultCommandError(
-            message("engine", "{names} is not a stepper axis and has no steps").fill(
-                names=boards.machine.names[index]
-            )
+            "{names} is not a stepper axis and has no steps", names=boards.machine.axis_names[index]
         )
-    count = _count(words, _MOST_STEPS)
-    board = next(one for one in boards.boards if index in one.indices)
-    way = board.ways[index - board.indices.start]
-    boards.machine.lose(index, -count if way < 0.0 else count)
+    count = _parse_count(words, _MAX_STEPS)
+    board = next(board for board in boards.boards if index in board.machine_indices)
+    direction = board.last_directions[index - board.machine_indices.start]
+    boards.machine.lose_steps(index, -count if direction < 0.0 else count)
 
 
-def _joystick(boards: VirtualBoards, _: str, words: list[str]) -> None:
+def _set_joystick(boards: VirtualBoards, _: str, words: list[str]) -> None:
     numbers = [int(word) for word in words if word.isascii() and word.isdigit()]
     readings, buttons = numbers[:3], numbers[3:]
-    right = len(words) == len(numbers) in (3, 4) and max(readings) <= _MOST_READING
-    if not right or max(buttons, default=0) > _MOST_BUTTONS:
+    is_valid = len(words) == len(numbers) in (3, 4) and max(readings) <= _MAX_READING
+    if not is_valid or max(buttons, default=0) > _MAX_BUTTONS:
         raise FaultCommandError(
-            message(
-                "engine",
-                "enter three readings, 0 to {most_reading}, then optionally buttons, 0 to "
-                "{most_buttons}",
-            ).fill(most_reading=_MOST_READING, most_buttons=_MOST_BUTTONS)
+            "enter three readings, 0 to {most_reading}, then optionally buttons, 0 to "
+            "{most_buttons}",
+            most_reading=_MAX_READING,
+            most_buttons=_MAX_BUTTONS,
         )
     boards.set_inputs((readings[0], readings[1], readings[2]), sum(buttons))
 
 
-_COMMANDS: dict[str, Callable[[VirtualBoards, str, list[str]], None]] = {
-    **dict.fromkeys(_DAMAGES, _damage),
-    **dict.fromkeys(_RESETS, _reset),
-    "garbage": _garbage,
-    "delay": _delay,
-    "silence": _silence,
-    "space": _silence,
-    "freeze": _freeze,
-    "thaw": _freeze,
-    "lose": _lose,
-    "joystick": _joystick,
+_HANDLERS: dict[str, Callable[[VirtualBoards, str, list[str]], None]] = {
+    **dict.fromkeys(_DAMAGE_COMMANDS, _inject_damage),
+    **dict.fromkeys(_RESET_COMMANDS, _reset_board),
+    "garbage": _inject_garbage,
+    "delay": _set_delay,
+    "silence": _silence_lines,
+    "space": _silence_lines,
+    "freeze": _freeze_or_thaw,
+    "thaw": _freeze_or_thaw,
+    "lose": _lose_steps,
+    "joystick": _set_joystick,
 }
 
 
-def _channel(line: SerialLine, towards_host: bool) -> Channel:
+def _select_channel(line: SerialLine, towards_host: bool) -> CableChannel:
     return line.to_host if towards_host else line.to_board
 
 
-def _where(boards: VirtualBoards, words: list[str]) -> tuple[Sequence[SerialLine], bool]:
-    """Take the words of line and direction off the end."""
-    lines = _lines(boards, words)
-    towards = words.pop() if words and words[-1] in ("board", "host") else "board"
-    return lines, towards == "host"
+def _parse_lines_and_receiver(
+    boards: VirtualBoards, words: list[str]
+) -> tuple[Sequence[SerialLine], bool]:
+    """Remove the words for line and receiver. Return the lines, and whether the host receives."""
+    lines = _parse_lines(boards, words)
+    receiver = words.pop() if words and words[-1] in ("board", "host") else "board"
+    return lines, receiver == "host"
 
 
-def _lines(boards: VirtualBoards, words: list[str]) -> Sequence[SerialLine]:
+def _parse_lines(boards: VirtualBoards, words: list[str]) -> Sequence[SerialLine]:
     if "line" not in words:
-        return boards.serial
-    at = words.index("line")
-    number = words[at + 1 : at + 2]
-    del words[at : at + 2]
-    return (boards.serial[_count(number, len(boards.serial)) - 1],)
+        return boards.serial_lines
+    position = words.index("line")
+    number_words = words[position + 1 : position + 2]
+    del words[position : position + 2]
+    return (boards.serial_lines[_parse_count(number_words, len(boards.serial_lines)) - 1],)
 
 
-def _axis(boards: VirtualBoards, words: list[str]) -> int:
-    names = boards.machine.names
+def _parse_axis(boards: VirtualBoards, words: list[str]) -> int:
+    names = boards.machine.axis_names
     if not words or words[0] not in names:
-        raise FaultCommandError(
-            message("engine", "enter an axis: one of {names}").fill(names=", ".join(names))
-        )
+        raise FaultCommandError("enter an axis: one of {names}", names=", ".join(names))
     return names.index(words.pop(0))
 
 
-def _count(words: list[str], most: int) -> int:
-    """Take the only number that is left, 1 to ``most``."""
+def _parse_count(words: list[str], maximum: int) -> int:
+    """Remove the last remaining word, and return it as a number from 1 to a maximum."""
     word = words.pop(0) if words else ""
-    _end(words)
-    if not (word.isascii() and word.isdigit() and 1 <= int(word[:9]) <= most):
+    _require_no_more_words(words)
+    if not (word.isascii() and word.isdigit() and 1 <= int(word[:9]) <= maximum):
         raise FaultCommandError(
-            message("engine", "{word} must be a number from 1 to {most}").fill(
-                word=repr(word), most=most
-            )
+            "{word} must be a number from 1 to {most}", word=repr(word), most=maximum
         )
     return int(word)
 
 
-def _duration_s(words: list[str]) -> float:
-    """Take the only duration that is left."""
+def _parse_duration_s(words: list[str]) -> float:
     number, unit = [*words, "", ""][:2]
-    _end(words[2:])
+    _require_no_more_words(words[2:])
     try:
-        value_s = float(number) * _UNITS[unit]
+        value_s = float(number) * _TIME_UNITS_S[unit]
     except (KeyError, ValueError):
         value_s = inf
-    if not (isfinite(value_s) and 0.0 <= value_s <= _MOST_S):
+    if not (isfinite(value_s) and 0.0 <= value_s <= _MAX_S):
         raise FaultCommandError(
-            message("engine", "enter a time such as '5 ms' or '2 s', at most {most_s} s").fill(
-                most_s=_MOST_S
-            )
+            "enter a time such as '5 ms' or '2 s', at most {most_s} s", most_s=_MAX_S
         )
     return value_s
 
 
-def _end(words: list[str]) -> None:
+def _require_no_more_words(words: list[str]) -> None:
     if words:
-        raise FaultCommandError(
-            message("engine", "{names} is not allowed here").fill(names=repr(" ".join(words)))
-        )
+        raise FaultCommandError("{names} is not allowed here", names=repr(" ".join(words)))

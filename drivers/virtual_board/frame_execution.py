@@ -1,58 +1,75 @@
-"""Handling of frames by a board: each is executed once, and answered."""
+"""Handling of received frames by a board: each frame is executed once and answered."""
 
-from rotemina.drivers.errors import ProtocolError
-from rotemina.drivers.mc68hc11 import board_messages, host_messages
-from rotemina.drivers.mc68hc11.framing import BROADCAST, STOP, Frame
-from rotemina.drivers.mc68hc11.payload import Message
-from rotemina.drivers.mc68hc11.protocol_codes import Refusal
+from rotemina.drivers.contract import ProtocolError
+from rotemina.drivers.mc68hc11.protocol import (
+    BROADCAST_ADDRESS,
+    STOP_FRAME,
+    RefusalReason,
+    SerialFrame,
+    WireMessage,
+    board_messages,
+    host_messages,
+)
 from rotemina.drivers.virtual_board import motion_handlers, request_handlers
-from rotemina.drivers.virtual_board.firmware import Firmware
-from rotemina.drivers.virtual_board.refusal import RefusedError
+from rotemina.drivers.virtual_board.firmware import BoardFirmware
+from rotemina.drivers.virtual_board.refusal import FrameRefusedError
 
-_COUNTED = host_messages.SetPoint.TYPE  # by its own index
-_ALWAYS = (
-    host_messages.Identify.TYPE,
-    host_messages.Stop.TYPE,
-    _COUNTED,
-)  # executed, whatever their number
+# Set-points have their own index, by which the board recognizes repeated ones.
+_INDEXED_TYPE = host_messages.StreamSegment.TYPE
+# These types are executed even if the number of the frame is the same as before.
+_ALWAYS_EXECUTED_TYPES = (
+    host_messages.IdentifyBoard.TYPE,
+    host_messages.StopBoard.TYPE,
+    _INDEXED_TYPE,
+)
 _HANDLERS = {
-    kind.TYPE: (kind, handler)
-    for kind, handler in (*request_handlers.HANDLERS, *motion_handlers.HANDLERS)
+    message_class.TYPE: (message_class, handler)
+    for message_class, handler in (*request_handlers.HANDLERS, *motion_handlers.HANDLERS)
 }
 
 
-def answer(board: Firmware, frame: Frame, at_s: float) -> Frame | None:
-    """Let a board act on a frame that ended at this time; return what it answers, if anything."""
+def answer_frame(board: BoardFirmware, frame: SerialFrame, at_s: float) -> SerialFrame | None:
+    """Execute a frame that a board received at the time ``at_s``; return its answer, or None."""
     if frame.from_board:
         return None
-    if frame is not STOP:  # a bare zero proves no host
-        board.watch_tick = board.now + board.clock.ticks(board.watch_us)
-    if frame.address == BROADCAST:
-        report = _executed(board, frame, at_s)
-        return board.framed(report) if frame.type == host_messages.Poll.TYPE else None
+    # A stop may be a disturbance of a single zero, so it does not prove that the host is alive.
+    if frame is not STOP_FRAME:
+        board.watchdog_tick = board.latest_tick + board.clock.count_ticks(board.watchdog_us)
+    if frame.address == BROADCAST_ADDRESS:
+        report = _execute_frame(board, frame, at_s)
+        return board.make_frame(report) if frame.type == host_messages.PollBoard.TYPE else None
     if frame.address != board.number:
         return None
-    if board.last is not None and board.last[0] == frame.number and frame.type not in _ALWAYS:
-        return board.last[1]
-    report = _executed(board, frame, at_s)
-    # Telemetry tells what a stream has; on a bus a board is to answer, or nobody knows whose turn
-    # it is.
-    silent = frame.type == _COUNTED and isinstance(report, board_messages.Done)
-    said = None if silent and not board.line.half_duplex else board.framed(report)
-    board.last = frame.number, said
-    return said
+    if (
+        board.last_exchange is not None
+        and board.last_exchange[0] == frame.number
+        and frame.type not in _ALWAYS_EXECUTED_TYPES
+    ):
+        return board.last_exchange[1]
+    report = _execute_frame(board, frame, at_s)
+    # On its own line a board acknowledges set-points by telemetry. On a bus it must answer each
+    # frame, because the host sends the next frame only after the answer.
+    needs_no_answer = frame.type == _INDEXED_TYPE and isinstance(report, board_messages.FrameDone)
+    reply = (
+        None
+        if needs_no_answer and not board.line_capacity.half_duplex
+        else board.make_frame(report)
+    )
+    board.last_exchange = frame.number, reply
+    return reply
 
 
-def _executed(board: Firmware, frame: Frame, at_s: float) -> Message:
-    if frame.type == host_messages.Stop.TYPE and not frame.payload:
+def _execute_frame(board: BoardFirmware, frame: SerialFrame, at_s: float) -> WireMessage:
+    if frame.type == host_messages.StopBoard.TYPE and not frame.payload:
         board.stop(at_s)
-        return board_messages.Done(frame.number)
+        return board_messages.FrameDone(frame.number)
     if frame.type not in _HANDLERS:
-        return board_messages.Refused(frame.number, Refusal.UNKNOWN_TYPE)
-    kind, handler = _HANDLERS[frame.type]
+        return board_messages.FrameRefused(frame.number, RefusalReason.UNKNOWN_TYPE)
+    message_class, handler = _HANDLERS[frame.type]
     try:
-        return handler(board, kind.unpacked(frame.payload)) or board_messages.Done(frame.number)
+        report = handler(board, message_class.unpack(frame.payload))
+        return report or board_messages.FrameDone(frame.number)
     except ProtocolError:
-        return board_messages.Refused(frame.number, Refusal.WRONG_LENGTH)
-    except RefusedError as refused:
-        return board_messages.Refused(frame.number, refused.reason)
+        return board_messages.FrameRefused(frame.number, RefusalReason.WRONG_LENGTH)
+    except FrameRefusedError as refusal:
+        return board_messages.FrameRefused(frame.number, refusal.reason)

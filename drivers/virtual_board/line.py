@@ -1,7 +1,7 @@
-"""A serial line with the boards at its end, byte by byte in time.
+"""Serial line with the boards at its end, which simulates the timing of bytes.
 
-Paced, a byte has come, and has left, when its stop bit is over: ten bits after the one before. On a
-shared bus the boards answer after the slot in which the host may continue.
+On a paced line a byte arrives at the end of its stop bit, ten bits after the previous byte. On a
+shared bus the boards answer after a slot in which the host may start another frame.
 """
 
 from collections import deque
@@ -9,116 +9,129 @@ from collections.abc import Sequence
 from math import inf
 from typing import NamedTuple
 
-from rotemina.drivers.mc68hc11.framing import Decoder, Frame, encoded
-from rotemina.drivers.mc68hc11.line_budget import Line as Speed
-from rotemina.drivers.mc68hc11.payload import Message
-from rotemina.drivers.virtual_board.firmware import Firmware
-from rotemina.drivers.virtual_board.frame_execution import answer
-from rotemina.drivers.virtual_board.line_faults import Channel
+from rotemina.drivers.mc68hc11 import LineCapacity
+from rotemina.drivers.mc68hc11.protocol import (
+    FrameDecoder,
+    SerialFrame,
+    WireMessage,
+    encode_frame,
+)
+from rotemina.drivers.virtual_board.firmware import BoardFirmware
+from rotemina.drivers.virtual_board.frame_execution import answer_frame
+from rotemina.drivers.virtual_board.line_faults import CableChannel
 
-_SLOT = 3  # bytes of silence after a frame on a shared bus
-_BACKLOG = 3 * 32  # bytes: telemetry that waits longer is out of date, and left out
-_ATOM = 1e-6  # of a byte, that division rounds by
+# Silence after each frame on a shared bus.
+_SLOT_BYTES = 3
+# If more bytes are waiting, new telemetry is dropped, because it would arrive too late.
+_MAX_BACKLOG_BYTES = 3 * 32
+# Rounding error of a division, as a fraction of a byte.
+_BYTE_ROUNDING = 1e-6
 
 
-class _Received(NamedTuple):
-    """Bytes up to the first zero among them, or to the last of a piece; times in s."""
+class _ReceivedPiece(NamedTuple):
+    """Received bytes up to a zero, or up to the last byte that the host has written."""
 
     end_s: float
     data: bytes
-    deaf: Firmware | None  # the board that was speaking
+    # A board that was sending and therefore does not receive these bytes.
+    deaf_board: BoardFirmware | None
 
 
-class _Outgoing:
-    """Bytes on their way to the host."""
-
-    def __init__(self, begin_s: float, data: bytearray, board: Firmware | None) -> None:
+class _OutgoingBytes:
+    def __init__(self, begin_s: float, data: bytearray, board: BoardFirmware | None) -> None:
         self.begin_s = begin_s
         self.data = data
-        self.left = 0
+        self.sent_count = 0
         self.board = board
 
 
 class SerialLine:
-    """One line and its boards.
+    """Serial line with its boards.
 
     Parameters
     ----------
-    boards : sequence of Firmware
-    speed : Line
-        What the line can carry.
+    boards : sequence of BoardFirmware
+    capacity : LineCapacity
+        Capacity of the line.
     paced : bool
-        Whether bytes take their time.
+        Whether bytes take the time that the baud rate implies.
     seed : int
-        Of disturbances.
+        Seed of the disturbances on the cable.
     """
 
-    def __init__(self, boards: Sequence[Firmware], speed: Speed, *, paced: bool, seed: int) -> None:
+    def __init__(
+        self, boards: Sequence[BoardFirmware], capacity: LineCapacity, *, paced: bool, seed: int
+    ) -> None:
         self.boards = tuple(boards)
-        self.bus = speed.half_duplex
-        self.byte_s = speed.seconds(1) if paced else 0.0
-        self.to_board = Channel(2 * seed)
-        self.to_host = Channel(2 * seed + 1)
-        self._decoders = [Decoder(of_board=True) for _ in boards]
-        self._received: deque[_Received] = deque()
-        self._heard_until_s = 0.0
-        self._outgoing: deque[_Outgoing] = deque()
-        self._said_until_s = 0.0
+        self.is_bus = capacity.half_duplex
+        self.byte_s = capacity.compute_duration_s(1) if paced else 0.0
+        self.to_board = CableChannel(2 * seed)
+        self.to_host = CableChannel(2 * seed + 1)
+        self._decoders = [FrameDecoder(is_board=True) for _ in boards]
+        self._received: deque[_ReceivedPiece] = deque()
+        self._received_until_s = 0.0
+        self._outgoing: deque[_OutgoingBytes] = deque()
+        self._sent_until_s = 0.0
         self._delayed: deque[tuple[float, bytes]] = deque()
-        self._answers: list[tuple[Firmware, Frame]] = []
-        self._speak_s = inf
+        self._answers: list[tuple[BoardFirmware, SerialFrame]] = []
+        self._answer_s = inf
 
     @property
-    def next_s(self) -> float:
-        """When something happens next: a byte has come, or a board begins to answer."""
-        return min(self._received[0].end_s if self._received else inf, self._speak_s)
+    def next_event_s(self) -> float:
+        """Time at which the next bytes reach the boards, or a board begins to answer, s."""
+        return min(self._received[0].end_s if self._received else inf, self._answer_s)
 
     @property
-    def leaves_s(self) -> float:
-        """When the next whole frame, or what is left of one, has reached the host."""
-        said = self._outgoing[0] if self._outgoing else None
-        ends_s = inf if said is None else said.begin_s + len(said.data) * self.byte_s
-        return min(ends_s, self._delayed[0][0] if self._delayed else inf)
+    def next_departure_s(self) -> float:
+        """Time at which the next frame to the host has arrived completely, s."""
+        outgoing = self._outgoing[0] if self._outgoing else None
+        frame_end_s = (
+            inf if outgoing is None else outgoing.begin_s + len(outgoing.data) * self.byte_s
+        )
+        return min(frame_end_s, self._delayed[0][0] if self._delayed else inf)
 
     def receive(self, data: bytes, at_s: float) -> None:
-        """Let the host have written bytes at a time that is not before the latest one."""
-        data = self.to_board.passed(data, at_s)
+        """Receive bytes that the host has written at the time ``at_s``, which must not decrease."""
+        data = self.to_board.transmit(data, at_s)
         at_s += self.to_board.delay_s
-        for piece in _pieces(data):
-            begin_s = max(at_s, self._heard_until_s)
+        for piece in _split_at_zeros(data):
+            begin_s = max(at_s, self._received_until_s)
             end_s = begin_s + len(piece) * self.byte_s
-            if begin_s < self._speak_s:
-                self._speak_s, self._answers = inf, []  # the host goes on: nobody answers
-            deaf = self._collide(begin_s, piece) if self.bus else None
-            self._received.append(_Received(end_s, piece, deaf))
-            self._heard_until_s = end_s
+            if begin_s < self._answer_s:
+                # The host sends in the slot, so no board answers.
+                self._answer_s, self._answers = inf, []
+            deaf_board = self._apply_collision(begin_s, piece) if self.is_bus else None
+            self._received.append(_ReceivedPiece(end_s, piece, deaf_board))
+            self._received_until_s = end_s
 
-    def step(self) -> None:
-        """Let happen what happens next."""
-        if self._speak_s < (self._received[0].end_s if self._received else inf):
-            self._speak()
+    def process_next(self) -> None:
+        """Process the next event."""
+        if self._answer_s < (self._received[0].end_s if self._received else inf):
+            self._send_answer()
             return
-        heard = self._received.popleft()
+        received = self._received.popleft()
         answers = []
         for board, decoder in zip(self.boards, self._decoders, strict=True):
-            if board is heard.deaf:
+            if board is received.deaf_board:
                 continue
-            for frame in decoder.feed(heard.data):
-                said = answer(board, frame, heard.end_s)
-                if said is not None:
-                    answers.append((board, said))
-        if answers and not self.bus:
-            for board, said in answers:
-                self._send(encoded(said), heard.end_s, board)
+            for frame in decoder.feed(received.data):
+                reply = answer_frame(board, frame, received.end_s)
+                if reply is not None:
+                    answers.append((board, reply))
+        if answers and not self.is_bus:
+            for board, reply in answers:
+                self._send(encode_frame(reply), received.end_s, board)
         elif answers and not (self._received and self.byte_s):
             self._answers += answers
-            self._speak_s = heard.end_s + _SLOT * self.byte_s
+            self._answer_s = received.end_s + _SLOT_BYTES * self.byte_s
 
-    def say(self, board: Firmware, messages: Sequence[Message], at_s: float) -> None:
-        """Let a board say something unasked; what the line has no room for is left out."""
+    def send_messages(
+        self, board: BoardFirmware, messages: Sequence[WireMessage], at_s: float
+    ) -> None:
+        """Send unsolicited messages of a board. Drop those that would arrive too late."""
         for message in messages:
-            if self._said_until_s - at_s <= _BACKLOG * self.byte_s:
-                self._send(encoded(board.framed(message)), at_s, board)
+            if self._sent_until_s - at_s <= _MAX_BACKLOG_BYTES * self.byte_s:
+                self._send(encode_frame(board.make_frame(message)), at_s, board)
 
     def disturb(self, data: bytes, at_s: float, *, towards_host: bool) -> None:
         """Put spurious bytes on the line."""
@@ -127,55 +140,57 @@ class SerialLine:
         else:
             self.receive(data, at_s)
 
-    def taken(self, to_s: float) -> bytes:
-        """Return the bytes that have reached the host by then."""
+    def take_bytes(self, to_s: float) -> bytes:
+        """Return the bytes that have reached the host by the time ``to_s``."""
         while self._outgoing:
-            said = self._outgoing[0]
-            count = len(said.data)
+            outgoing = self._outgoing[0]
+            count = len(outgoing.data)
             if self.byte_s:
-                count = min(count, int((to_s - said.begin_s) / self.byte_s + _ATOM))
-            elif said.begin_s > to_s:
+                count = min(count, int((to_s - outgoing.begin_s) / self.byte_s + _BYTE_ROUNDING))
+            elif outgoing.begin_s > to_s:
                 break
-            if count > said.left:
-                at_s = said.begin_s + count * self.byte_s
-                passed = self.to_host.passed(bytes(said.data[said.left : count]), at_s)
-                self._delayed.append((at_s + self.to_host.delay_s, passed))
-                said.left = count
-            if count < len(said.data):
+            if count > outgoing.sent_count:
+                at_s = outgoing.begin_s + count * self.byte_s
+                data = self.to_host.transmit(
+                    bytes(outgoing.data[outgoing.sent_count : count]), at_s
+                )
+                self._delayed.append((at_s + self.to_host.delay_s, data))
+                outgoing.sent_count = count
+            if count < len(outgoing.data):
                 break
             self._outgoing.popleft()
-        out = b""
-        while self._delayed and self._delayed[0][0] <= to_s + _ATOM * self.byte_s:
-            out += self._delayed.popleft()[1]
-        return out
+        received = b""
+        while self._delayed and self._delayed[0][0] <= to_s + _BYTE_ROUNDING * self.byte_s:
+            received += self._delayed.popleft()[1]
+        return received
 
-    def _speak(self) -> None:
-        board, said = self._answers.pop(0)
-        self._send(encoded(said), self._speak_s, board)
+    def _send_answer(self) -> None:
+        board, reply = self._answers.pop(0)
+        self._send(encode_frame(reply), self._answer_s, board)
         if self._answers:
-            self._speak_s = self._said_until_s + _SLOT * self.byte_s
+            self._answer_s = self._sent_until_s + _SLOT_BYTES * self.byte_s
         else:
-            self._speak_s = inf
+            self._answer_s = inf
 
-    def _send(self, data: bytes, at_s: float, board: Firmware | None) -> None:
-        begin_s = max(at_s, self._said_until_s)
-        self._outgoing.append(_Outgoing(begin_s, bytearray(data), board))
-        self._said_until_s = begin_s + len(data) * self.byte_s
+    def _send(self, data: bytes, at_s: float, board: BoardFirmware | None) -> None:
+        begin_s = max(at_s, self._sent_until_s)
+        self._outgoing.append(_OutgoingBytes(begin_s, bytearray(data), board))
+        self._sent_until_s = begin_s + len(data) * self.byte_s
 
-    def _collide(self, begin_s: float, piece: bytes) -> Firmware | None:
-        """Spoil what a board says while the host speaks; return the board, which hears nothing."""
-        if not self.byte_s or begin_s >= self._said_until_s:
+    def _apply_collision(self, begin_s: float, piece: bytes) -> BoardFirmware | None:
+        """Corrupt the bytes of a board that is sending at the same time; return that board."""
+        if not self.byte_s or begin_s >= self._sent_until_s:
             return None
-        for said in self._outgoing:
-            first = int((begin_s - said.begin_s) / self.byte_s)
-            for place, byte in enumerate(piece, start=first):
-                if said.left <= place < len(said.data):
-                    said.data[place] &= byte
+        for outgoing in self._outgoing:
+            first_index = int((begin_s - outgoing.begin_s) / self.byte_s)
+            for index, byte in enumerate(piece, start=first_index):
+                if outgoing.sent_count <= index < len(outgoing.data):
+                    outgoing.data[index] &= byte
         return self._outgoing[-1].board if self._outgoing else None
 
 
-def _pieces(data: bytes) -> list[bytes]:
-    """Cut bytes behind each zero."""
+def _split_at_zeros(data: bytes) -> list[bytes]:
+    """Split bytes after each zero. A piece contains the zero that ends it."""
     pieces = [part + b"\0" for part in data.split(b"\0")]
     pieces[-1] = pieces[-1][:-1]
     return [piece for piece in pieces if piece]

@@ -1,14 +1,14 @@
-"""Notes about the boards for observers: events, and the latency of stops."""
+"""Log of the boards for tests and the user: events, and the latencies of stops."""
 
 from collections import deque
 from dataclasses import dataclass, field
 
-_KEPT = 1000
+_MAX_NOTES = 1000
 
 
 @dataclass(frozen=True, slots=True)
-class Event:
-    """Something that happened: time of the process, s, and words."""
+class BoardEvent:
+    """Event of a board, with its simulated time, s."""
 
     at_s: float
     text: str
@@ -16,33 +16,33 @@ class Event:
 
 @dataclass(frozen=True, slots=True)
 class StopNote:
-    """A stop: when a board heard it, and from when on its commands were at rest, s."""
+    """Stop of a board: simulated times at which it was received and the axes came to rest, s."""
 
     board: int
-    heard_s: float
+    received_s: float
     rest_s: float
 
 
 @dataclass(slots=True)
-class Notes:
-    """The latest events and stops."""
+class BoardEventLog:
+    """Log of the latest events and stops."""
 
-    events: deque[Event] = field(default_factory=lambda: deque(maxlen=_KEPT))
-    stops: deque[StopNote] = field(default_factory=lambda: deque(maxlen=_KEPT))
+    events: deque[BoardEvent] = field(default_factory=lambda: deque(maxlen=_MAX_NOTES))
+    stops: deque[StopNote] = field(default_factory=lambda: deque(maxlen=_MAX_NOTES))
 
-    def say(self, at_s: float, text: str) -> None:
-        """Note an event."""
-        self.events.append(Event(at_s, text))
+    def add_event(self, at_s: float, text: str) -> None:
+        """Add an event."""
+        self.events.append(BoardEvent(at_s, text))
 
-    def stopped(self, note: StopNote) -> None:
-        """Note that a stop has been carried out."""
+    def add_stop(self, note: StopNote) -> None:
+        """Add a stop that has been executed."""
         self.stops.append(note)
-        rest_ms = 1e3 * (note.rest_s - note.heard_s)
-        self.say(
+        rest_ms = 1e3 * (note.rest_s - note.received_s)
+        self.add_event(
             note.rest_s, f"board {note.board}: stop heard, axes at rest {rest_ms:.2f} ms later"
         )
 
-    def taken(self) -> list[Event]:
+    def take_events(self) -> list[BoardEvent]:
         """Return the events since the last call."""
         events = list(self.events)
         self.events.clear()

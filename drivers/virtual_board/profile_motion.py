@@ -1,87 +1,97 @@
-"""A motion executed by a board at its own rate: summed differences of one axis."""
+"""Profile of one axis, which a board executes by itself by adding up differences."""
 
 from binascii import crc_hqx
 
 import numpy as np
 
-from rotemina.drivers.mc68hc11.host_messages import Quadratic, Segments
-from rotemina.drivers.mc68hc11.profile_upload import FRACTION, ticks_of
+from rotemina.drivers.mc68hc11 import UNITS_PER_STEP, evaluate_segments
+from rotemina.drivers.mc68hc11.protocol import LoadSegments, QuadraticSegment
 from rotemina.sim.arrays import FloatArray, IntArray
 
-_START = 0xFFFF  # of the check
+_CRC_INITIAL = 0xFFFF
 
 
-class Profile:
-    """Segments, as they are loaded, armed, and played from a tick on."""
+class OnBoardProfile:
+    """Profile in a board. It is first loaded, then armed, and finally executed."""
 
     def __init__(self) -> None:
         self.axis = 0
-        self._announced = 0
-        self._segments: list[Quadratic] = []
-        self._told: list[bytes] = []  # payloads, for the check
-        self.trigger: int | None = None  # what it waits for
-        self.since: int | None = None  # the tick at which it began
-        self._from = 0.0
-        self._path: IntArray | None = None  # behind each tick, kept once it was asked for
+        self._announced_count = 0
+        self._segments: list[QuadraticSegment] = []
+        # Payloads of the segments, for the checksum.
+        self._payloads: list[bytes] = []
+        # The trigger that an armed profile waits for.
+        self.trigger: int | None = None
+        # Tick at which the running profile began.
+        self.start_tick: int | None = None
+        self._start_position = 0.0
+        # Position after each tick, in steps · 2^-16 from the start, computed at its first use.
+        self._path: IntArray | None = None
 
     @property
     def running(self) -> bool:
-        """Whether it moves its axis."""
-        return self.since is not None
+        """Whether the profile is running."""
+        return self.start_tick is not None
 
     @property
     def complete(self) -> bool:
-        """Whether all announced segments are here."""
-        return 0 < self._announced == len(self._segments)
+        """Whether all announced segments have been loaded."""
+        return 0 < self._announced_count == len(self._segments)
 
     @property
-    def check(self) -> int:
-        """The check over the payloads of all segments."""
-        return crc_hqx(b"".join(self._told), _START)
+    def checksum(self) -> int:
+        """CRC over the payloads of all segments."""
+        return crc_hqx(b"".join(self._payloads), _CRC_INITIAL)
 
     @property
-    def ticks(self) -> int:
-        """How long it takes."""
-        return sum(one.ticks for one in self._segments)
+    def duration_ticks(self) -> int:
+        """Duration in ticks."""
+        return sum(segment.ticks for segment in self._segments)
 
     def begin(self, axis: int, segments: int) -> None:
-        """Announce a new one."""
+        """Prepare for a new profile of an axis with a number of segments."""
         self.clear()
-        self.axis, self._announced = axis, segments
+        self.axis, self._announced_count = axis, segments
 
-    def add(self, told: Segments) -> bool:
-        """Take segments whose turn it is, or that are here already; return whether they are."""
-        segments, own = list(told.segments()), self._segments
-        if told.index < len(own):
-            return own[told.index : told.index + len(segments)] == segments
-        if told.index != len(own) or len(own) + len(segments) > self._announced:
+    def add_segments(self, message: LoadSegments) -> bool:
+        """Add the next segments. Return whether they are the next ones, or repeat earlier ones."""
+        segments, loaded_segments = list(message.unpack_segments()), self._segments
+        if message.index < len(loaded_segments):
+            return loaded_segments[message.index : message.index + len(segments)] == segments
+        if (
+            message.index != len(loaded_segments)
+            or len(loaded_segments) + len(segments) > self._announced_count
+        ):
             return False
-        own += segments
-        self._told.append(told.packed())
+        loaded_segments += segments
+        self._payloads.append(message.pack())
         return True
 
     def start(self, tick: int, position: float) -> None:
-        """Begin to move from a position, steps, at a tick."""
-        self.since, self._from, self.trigger = tick, position, None
+        """Start the motion from a position, steps, at a tick."""
+        self.start_tick, self._start_position, self.trigger = tick, position, None
 
     def end(self) -> None:
-        """End the motion; it may be armed again."""
-        self.since = self.trigger = None
+        """End the motion. The profile may be armed again."""
+        self.start_tick = self.trigger = None
 
     def clear(self) -> None:
-        """Forget it."""
+        """Delete the profile."""
         self.end()
-        self._announced, self._path = 0, None
+        self._announced_count, self._path = 0, None
         self._segments.clear()
-        self._told.clear()
+        self._payloads.clear()
 
-    def greatest_speed(self) -> float:
-        """Return the greatest speed of all segments, steps a tick."""
-        return float(np.abs(np.diff(ticks_of(self._segments), prepend=0)).max()) / FRACTION
+    def compute_max_speed(self) -> float:
+        """Return the maximum speed of all segments, steps per tick."""
+        return (
+            float(np.abs(np.diff(evaluate_segments(self._segments), prepend=0)).max())
+            / UNITS_PER_STEP
+        )
 
-    def positions(self, elapsed: IntArray) -> FloatArray:
-        """Return where the axis is to be, steps, so many ticks (n,) after the begin."""
+    def evaluate_positions(self, elapsed: IntArray) -> FloatArray:
+        """Return the commanded positions (n,), steps, given the ticks (n,) since the start."""
         if self._path is None:
-            self._path = np.append(0, ticks_of(self._segments))
-        way = self._path[np.clip(elapsed, 0, len(self._path) - 1)]
-        return np.asarray(self._from + np.floor(way / FRACTION + 0.5))
+            self._path = np.append(0, evaluate_segments(self._segments))
+        displacement = self._path[np.clip(elapsed, 0, len(self._path) - 1)]
+        return np.asarray(self._start_position + np.floor(displacement / UNITS_PER_STEP + 0.5))

@@ -1,43 +1,43 @@
-"""Refusals of a board, and checks common to most frames."""
+"""Refusal of a frame by a board, and the checks that most frames need."""
 
-from rotemina.drivers.mc68hc11.protocol_codes import Fault, Refusal
-from rotemina.drivers.virtual_board.firmware import Firmware
+from rotemina.drivers.mc68hc11.protocol import BoardFault, RefusalReason
+from rotemina.drivers.virtual_board.firmware import BoardFirmware
 
 
-class RefusedError(Exception):
-    """The board does not do it; the reason is what it answers."""
+class FrameRefusedError(Exception):
+    """Refusal of a frame. The board answers with the reason."""
 
-    def __init__(self, reason: Refusal) -> None:
+    def __init__(self, reason: RefusalReason) -> None:
         self.reason = reason
 
 
-def demand(condition: bool, reason: Refusal) -> None:
-    """Refuse for this reason unless something holds."""
+def require(condition: bool, reason: RefusalReason) -> None:
+    """Refuse the frame for a reason unless a condition holds."""
     if not condition:
-        raise RefusedError(reason)
+        raise FrameRefusedError(reason)
 
 
-def axis_of(board: Firmware, axis: int) -> int:
-    """Return an axis' number if the board has it; refuse otherwise."""
-    demand(axis < len(board.axes), Refusal.BAD_VALUE)
+def require_axis(board: BoardFirmware, axis: int) -> int:
+    """Return the number of an axis. Refuse the frame if the board does not have the axis."""
+    require(axis < len(board.axes), RefusalReason.BAD_VALUE)
     return axis
 
 
-def axes_of(board: Firmware, bits: int) -> list[int]:
-    """Return the axis numbers of a bit mask; refuse none, or unknown ones."""
-    demand(0 < bits < 1 << len(board.axes), Refusal.BAD_VALUE)
+def parse_axes(board: BoardFirmware, bits: int) -> list[int]:
+    """Return the axis numbers in a bit mask. Refuse the frame if there are none or unknown ones."""
+    require(0 < bits < 1 << len(board.axes), RefusalReason.BAD_VALUE)
     return [axis for axis in range(len(board.axes)) if bits >> axis & 1]
 
 
-def demand_free(board: Firmware, axis: int | None = None) -> None:
-    """Refuse unless an axis, or every one, may be moved by a frame now."""
-    demand(board.fault is Fault.NONE, Refusal.FAULTY)
-    demand(board.known, Refusal.NOT_HOMED)
-    demand(not board.homing and not board.stream.playing, Refusal.BUSY)
-    own = board.profile.axis if axis is None else axis
-    demand(not (board.profile.running and board.profile.axis == own), Refusal.BUSY)
+def require_free(board: BoardFirmware, axis: int | None = None) -> None:
+    """Refuse the frame unless the axis, or every axis if it is None, may start to move now."""
+    require(board.fault is BoardFault.NONE, RefusalReason.FAULTY)
+    require(board.is_position_known, RefusalReason.NOT_HOMED)
+    require(not board.homing and not board.stream.playing, RefusalReason.BUSY)
+    profile_axis = board.profile.axis if axis is None else axis
+    require(not (board.profile.running and board.profile.axis == profile_axis), RefusalReason.BUSY)
 
 
-def has_converter(board: Firmware, axis: int) -> bool:
-    """Return whether a converter alone decides where an axis goes."""
-    return not board.steppers[axis] and not board.machine.looped[board.indices[axis]]
+def has_converter(board: BoardFirmware, axis: int) -> bool:
+    """Return whether an axis is an open-loop piezo, which its converter moves directly."""
+    return not board.is_stepper[axis] and not board.machine.has_loop[board.machine_indices[axis]]

@@ -1,52 +1,56 @@
-"""Samples of a board: sensor readings, beside the active commands."""
+"""Samples of a board: sensor readings and the commands in effect."""
 
-from rotemina.drivers.mc68hc11.board_messages import Inputs, Telemetry
-from rotemina.drivers.mc68hc11.payload import Message
-from rotemina.drivers.virtual_board.firmware import Firmware
+from rotemina.drivers.mc68hc11.protocol import OperatorInputs, Telemetry, WireMessage
+from rotemina.drivers.virtual_board.firmware import BoardFirmware
 
-_READING = (1 << 23) - 1
-_BUTTON_AT = 6  # in the byte of the switches
-_BUTTONS = 3
+_MAX_READING_STEPS = (1 << 23) - 1
+# The buttons follow the switches in the same byte.
+_BUTTON_SHIFT = 6
+_BUTTON_MASK = 3
 
 
-def take_samples(board: Firmware) -> list[Message]:
-    """Take what is due at the present tick; return what a board says unasked on its own line."""
-    said: list[Message] = []
+def take_samples(board: BoardFirmware) -> list[WireMessage]:
+    """Take the samples of the current tick. Return the messages to send without a request."""
+    messages: list[WireMessage] = []
     reporter = board.reporter
     board.machine.simulate()
-    if reporter.wants_sample(board.now):
-        sample = fresh_sample(board)
-        said.append(sample)
-        if reporter.take_sample(sample, board.now):
-            said.append(inputs(board))
-    said += reporter.take_captured(board.now)
-    return [] if board.line.half_duplex else said
+    if reporter.is_sample_due(board.latest_tick):
+        sample = make_sample(board)
+        messages.append(sample)
+        if reporter.take_sample(sample, board.latest_tick):
+            messages.append(make_inputs(board))
+    messages += reporter.take_captured_frames(board.latest_tick)
+    return [] if board.line_capacity.half_duplex else messages
 
 
-def fresh_sample(board: Firmware) -> Telemetry:
-    """Return a sample of the present tick."""
+def make_sample(board: BoardFirmware) -> Telemetry:
+    """Return a sample of the current tick."""
     board.machine.simulate()
-    counted = board.machine.counted()[board.indices.start : board.indices.stop]
-    readings = [int(min(max(one, -_READING), _READING)) for one in counted]
+    counters = board.machine.read_counters()[
+        board.machine_indices.start : board.machine_indices.stop
+    ]
+    readings = [
+        int(min(max(counter, -_MAX_READING_STEPS), _MAX_READING_STEPS)) for counter in counters
+    ]
     commands = [round(drive.position) for drive in board.drives]
-    return Telemetry.of(
-        board.clock.at_tick(board.now),
+    return Telemetry.from_samples(
+        board.clock.find_time_us(board.latest_tick),
         int(board.state),
         int(board.fault),
-        _switches(board),
-        board.stream.expected,
+        _pack_switches(board),
+        board.stream.expected_index,
         tuple(zip(readings, commands, strict=True)),
     )
 
 
-def inputs(board: Firmware) -> Inputs:
-    """Return what the operator holds."""
-    return Inputs.of(board.buttons, board.readings)
+def make_inputs(board: BoardFirmware) -> OperatorInputs:
+    """Return the message with the buttons and readings of the joystick."""
+    return OperatorInputs.from_readings(board.buttons, board.joystick_readings)
 
 
-def _switches(board: Firmware) -> int:
-    bits = (board.buttons & _BUTTONS) << _BUTTON_AT
-    for axis, index in enumerate(board.indices):
-        low, high = board.machine.closed(index)
+def _pack_switches(board: BoardFirmware) -> int:
+    bits = (board.buttons & _BUTTON_MASK) << _BUTTON_SHIFT
+    for axis, index in enumerate(board.machine_indices):
+        low, high = board.machine.read_switches(index)
         bits |= (low | high << 1) << 2 * axis
     return bits

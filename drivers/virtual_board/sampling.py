@@ -1,78 +1,86 @@
-"""The sampling instants of a board, for telemetry and captures."""
+"""Sampling schedules of a board, for telemetry and captures."""
 
-from rotemina.drivers.mc68hc11.board_messages import Captured
-from rotemina.drivers.mc68hc11.framing import MAX_PAYLOAD
-from rotemina.drivers.virtual_board.clock import MASK, BoardClock, signed
-from rotemina.drivers.virtual_board.machine import Machine
+from rotemina.drivers.mc68hc11.protocol import MAX_PAYLOAD_BYTES, CaptureSamples
+from rotemina.drivers.virtual_board.clock import TIME_MASK, CrystalClock, wrap_difference
+from rotemina.drivers.virtual_board.machine import BoardMachine
 
-_SAMPLE = 2  # bytes of one axis
-_LOW_BITS = 0xFFFF
+_SAMPLE_BYTES = 2
+_LOW_16_BITS = 0xFFFF
 
 
-class Schedule:
-    """Every so often a tick, from a time of the board on."""
+class SamplingSchedule:
+    """Periodic sampling ticks that start at a board time."""
 
-    def __init__(self, clock: BoardClock, period_us: int, begin_us: int, now: int) -> None:
+    def __init__(self, clock: CrystalClock, period_us: int, begin_us: int, now: int) -> None:
         self._clock = clock
         self._period_us = period_us
-        behind_us = signed(clock.at_tick(now) - begin_us)
-        if behind_us >= 0:  # the first one that is still to come
+        behind_us = wrap_difference(clock.find_time_us(now) - begin_us)
+        if behind_us >= 0:
+            # The start time has passed, so start at the next sampling instant.
             begin_us += (behind_us // period_us + 1) * period_us
-        self._due_us = begin_us & MASK
-        self.tick = clock.tick_at(self._due_us, now)
+        self._due_us = begin_us & TIME_MASK
+        self.next_tick = clock.find_tick(self._due_us, now)
 
-    def go_on(self, now: int) -> None:
-        """Wait for the next one."""
-        self._due_us = self._due_us + self._period_us & MASK
-        self.tick = self._clock.tick_at(self._due_us, now)
+    def advance(self, now: int) -> None:
+        """Advance to the next sampling instant."""
+        self._due_us = self._due_us + self._period_us & TIME_MASK
+        self.next_tick = self._clock.find_tick(self._due_us, now)
 
 
-class Capture:
-    """Samples of some axes at a rate that telemetry has no room for.
+class FirmwareCapture:
+    """Capture of some axes at a higher rate than telemetry.
 
     Parameters
     ----------
-    machine : Machine
+    machine : BoardMachine
     indices : tuple of int
-        The axes, by their numbers in the machine.
-    schedule : Schedule
-        When samples are taken; the first one at its present tick.
+        Indices of the axes in the machine.
+    schedule : SamplingSchedule
+        Ticks at which samples are taken. The first sample is taken at its current tick.
     samples : int
+        Number of samples.
     """
 
     def __init__(
-        self, machine: Machine, indices: tuple[int, ...], schedule: Schedule, samples: int
+        self,
+        machine: BoardMachine,
+        indices: tuple[int, ...],
+        schedule: SamplingSchedule,
+        samples: int,
     ) -> None:
         self._machine = machine
         self._indices = indices
         self._schedule = schedule
-        self._left = samples
-        self._frame = (MAX_PAYLOAD - Captured.LAYOUT.size) // (_SAMPLE * len(indices))
-        self._sent = 0
-        self.begins = schedule.tick
-        self._ticks: list[int] = []
-        self._plan()
+        self._remaining_count = samples
+        self._samples_per_frame = (MAX_PAYLOAD_BYTES - CaptureSamples.LAYOUT.size) // (
+            _SAMPLE_BYTES * len(indices)
+        )
+        self._sent_count = 0
+        self.begin_tick = schedule.next_tick
+        self._frame_ticks: list[int] = []
+        self._plan_frame()
 
-    def _plan(self) -> None:
-        """Find the ticks of the next frame."""
-        self._ticks = []
-        for _ in range(min(self._frame, self._left)):
-            self._ticks.append(self._schedule.tick)
-            self._schedule.go_on(self._schedule.tick)
-        self._left -= len(self._ticks)
+    def _plan_frame(self) -> None:
+        self._frame_ticks = []
+        for _ in range(min(self._samples_per_frame, self._remaining_count)):
+            self._frame_ticks.append(self._schedule.next_tick)
+            self._schedule.advance(self._schedule.next_tick)
+        self._remaining_count -= len(self._frame_ticks)
 
     @property
-    def due(self) -> int | None:
-        """The tick that completes the next frame, None when all is taken."""
-        return self._ticks[-1] if self._ticks else None
+    def due_tick(self) -> int | None:
+        """Tick that completes the next frame, or None if all samples have been taken."""
+        return self._frame_ticks[-1] if self._frame_ticks else None
 
-    def taken(self) -> Captured:
-        """Return the frame whose last tick has come; the machine is simulated up to there."""
-        readings = self._machine.readings(self._ticks, self._indices)
+    def take_frame(self) -> CaptureSamples:
+        """Return the frame that is due. The machine must be simulated up to its last tick."""
+        readings = self._machine.find_readings(self._frame_ticks, self._indices)
         packed = b"".join(
-            (int(one) & _LOW_BITS).to_bytes(_SAMPLE, "big") for row in readings for one in row
+            (int(reading) & _LOW_16_BITS).to_bytes(_SAMPLE_BYTES, "big")
+            for row in readings
+            for reading in row
         )
-        report = Captured(self._sent & _LOW_BITS, packed)
-        self._sent += len(self._ticks)
-        self._plan()
+        report = CaptureSamples(self._sent_count & _LOW_16_BITS, packed)
+        self._sent_count += len(self._frame_ticks)
+        self._plan_frame()
         return report

@@ -1,5 +1,9 @@
-"""Sensor calibration panel."""
+"""Panel for sensor calibration.
 
-from rotemina.app.shell.language import texts_of
+It guides an operator through the procedure, shows the errors before and after, and switches stored
+calibrations on and off. The procedure itself is in ``app/calibration``.
+"""
 
-tr, mark = texts_of("calibration")
+from rotemina.app.language import make_text_functions
+
+tr, mark = make_text_functions("calibration")

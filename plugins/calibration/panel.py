@@ -1,241 +1,262 @@
-"""Sensor calibration: the guided procedure, its result, and stored calibrations."""
+"""Panel for sensor calibration: the guided procedure, its result, and stored calibrations."""
 
 from collections.abc import Callable
 from datetime import datetime
 from pathlib import Path
 
-from rotemina.app.calibration.calibration_playback import CalibrationRun, Phase, RunState
-from rotemina.app.calibration.files import Source, kept, source_of
-from rotemina.app.calibration.store import Stored
-from rotemina.app.motion.ownership import OPERATOR
+from rotemina.app.calibration import (
+    CalibrationPlayback,
+    CalibrationPlaybackPhase,
+    CalibrationPlaybackState,
+    SourceRecord,
+    StoredCalibration,
+    make_calibration_file,
+    make_source_record,
+)
+from rotemina.app.language import marked, translate_message
+from rotemina.app.motion.device import OPERATOR
 from rotemina.app.motion.state import SessionState
-from rotemina.app.panel import Area, Panel, offer_in_palette
-from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.file_dialog import ask_files
-from rotemina.app.shell.language import marked
-from rotemina.app.shell.requests_at_rest import WaitingRequest
-from rotemina.app.shell.theme import Theme
-from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.app.widgets.scroll_areas import lay_beside, tabbed
-from rotemina.app.widgets.tab_dots import TabNews
+from rotemina.app.panel import (
+    Panel,
+    PanelArea,
+    offer_in_palette,
+)
+from rotemina.app.shell.records import ask_files
+from rotemina.app.widgets.controls import TabNews
+from rotemina.app.widgets.layout import lay_out_with_controls, make_tabs
+from rotemina.app.widgets.style import Theme
+from rotemina.app.workbench import Level, WaitingRequest, Workbench
 from rotemina.plugins.calibration import mark, tr
-from rotemina.plugins.calibration.procedure_controls import Procedure
-from rotemina.plugins.calibration.result_view import ResultView
-from rotemina.plugins.calibration.stored_view import StoredView
-from rotemina.plugins.calibration.words import NOTHING, motion_drawing, planned
-from rotemina.sim.calibration.comparable_parts import compared
-from rotemina.sim.calibration.plan import calibration_motion
-from rotemina.sim.calibration.sensor_calibration import Calibration, calibrated
-from rotemina.sim.records.reading import read_record
-from rotemina.sim.records.record import Record
-from rotemina.sim.trajectory.checked_trajectory import CheckedTrajectory
-from rotemina.sim.trajectory.dry_run import dry_run
+from rotemina.plugins.calibration.procedure_controls import CalibrationControls
+from rotemina.plugins.calibration.result_view import CalibrationResultView
+from rotemina.plugins.calibration.stored_view import StoredCalibrationsView
+from rotemina.plugins.calibration.words import NO_PLAN_TEXT, describe_motion, make_motion_curves
+from rotemina.sim.calibration import (
+    SensorCalibration,
+    calibrate_sensor,
+    compare_with_laser,
+    make_calibration_motion,
+)
+from rotemina.sim.records import Record, read_record
+from rotemina.sim.trajectory import CheckedTrajectory, dry_run
 
-NOT_RUN = mark("Not run: {why}. Press Run again.")
-RECORDS = mark("Records (*.csv *.txt *.dat *.gz);;All files (*)")
-_RESULT, _ISO, _STORED = range(3)  # tabs
-_WIDTH = 276  # of the procedure at least, px
+NOT_RUN_TEXT = mark("Not run: {why}. Press Run again.")
+RECORD_FILTER = mark("Records (*.csv *.txt *.dat *.gz);;All files (*)")
+_RESULT_TAB, _ISO_TAB, _STORED_TAB = range(3)
+_PROCEDURE_WIDTH_PX = 276
 
 
 class CalibrationPanel(Panel):
-    """The procedure beside its result and the stored calibrations."""
+    """Panel with the procedure next to its result and the stored calibrations."""
 
     title = marked("panels", "Sensor calibration")
-    area = Area.BOTTOM
+    area = PanelArea.BOTTOM
     order = 32
     help_page = "calibration.md#for-operators-the-panel-sensor-calibration"
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)
-        self.procedure = Procedure(workbench.robot)
-        self.result = ResultView(workbench.theme)
-        self.stored = StoredView()
-        self.calibration: Calibration | None = None
-        self._sources: tuple[Source, ...] = ()
+        self.procedure = CalibrationControls(workbench.robot)
+        self.result = CalibrationResultView(workbench.theme)
+        self.stored = StoredCalibrationsView()
+        self.calibration: SensorCalibration | None = None
+        self._sources: tuple[SourceRecord, ...] = ()
         self._motion: CheckedTrajectory | None = None
         self._plan_text = ""
-        self._run: CalibrationRun | None = None
-        self.tabs, self.views = tabbed(
+        self._run: CalibrationPlayback | None = None
+        self.tabs, self.views = make_tabs(
             tr("View"),
             {tr("Result"): self.result, "ISO 230-2": self.result.iso, tr("Stored"): self.stored},
         )
         self.news = TabNews(self.tabs)
-        self.tabs.setTabEnabled(_ISO, False)
-        lay_beside(self, self.procedure, _WIDTH, self.tabs, self.views)
+        self.tabs.setTabEnabled(_ISO_TAB, False)
+        lay_out_with_controls(self, self.procedure, _PROCEDURE_WIDTH_PX, self.tabs, self.views)
         self._connect()
-        offer_in_palette(self.procedure.run, self.result.store, self.stored.on, self.stored.off)
+        offer_in_palette(
+            self.procedure.run,
+            self.result.store,
+            self.stored.use_button,
+            self.stored.switch_off_button,
+        )
         offer_in_palette(
             self.procedure.plan, self.procedure.fit, self.procedure.stop, safe_while_hidden=True
         )
-        self._look()
-
-    # --- plan and run -----------------------------------------------------------------------------
+        self._refresh_stored()
 
     def plan(self) -> None:
-        """Make the motion and check it, in the background."""
-        axis, runs = self.procedure.chosen, self.procedure.runs.value()
+        """Compute the motion and check it by a dry run, in the background."""
+        axis, runs = self.procedure.chosen_axis, self.procedure.runs.value()
         targets, robot = self.procedure.targets.value(), self.workbench.robot
         period_s = self.workbench.session.setpoint_period_s
 
         def work() -> CheckedTrajectory:
-            motion = calibration_motion(robot, axis, runs=runs, targets=targets)
+            motion = make_calibration_motion(robot, axis, runs=runs, targets=targets)
             return dry_run(robot, motion, setpoint_period_s=period_s).require()
 
-        self.workbench.work("calibration plan", tr("Planning …"), work, self._take_plan)
+        self.workbench.work("calibration plan", tr("Planning …"), work, self._show_plan)
 
     def start(self) -> None:
-        """Play the planned motion; sensor and laser are recorded."""
+        """Play the planned motion, and record sensor and laser."""
         if self._run is not None or self._motion is None:
-            why = tr("there is no plan yet") if self._run is None else tr("a run is in progress")
-            WaitingRequest(self.workbench, tr(NOT_RUN)).withdraw(why)
+            reason = tr("there is no plan yet") if self._run is None else tr("a run is in progress")
+            WaitingRequest(self.workbench, tr(NOT_RUN_TEXT)).withdraw(reason)
             return
-        run = CalibrationRun(self.workbench.session, self.procedure.chosen, self._motion)
+        run = CalibrationPlayback(self.workbench.session, self.procedure.chosen_axis, self._motion)
         self._run = run
 
-        def refused() -> None:
+        def reset_run() -> None:
             run.close()
             if self._run is run:
                 self._run = None
-                self.procedure.told.setText(self._plan_text)
+                self.procedure.status_label.setText(self._plan_text)
 
-        request = WaitingRequest(self.workbench, tr(NOT_RUN), undone=refused)
+        request = WaitingRequest(self.workbench, tr(NOT_RUN_TEXT), on_refused=reset_run)
         self.workbench.at_rest.do(request, lambda: run.start(permit=request.permit))
-        self.look_now()
+        self.update_now()
 
     def stop(self) -> None:
-        """Stop the machine; nothing of the run is kept."""
+        """Stop the machine and discard the run."""
         if self._run is not None:
             self._run.stop(by=OPERATOR)
 
-    # --- fit and store ----------------------------------------------------------------------------
-
     def fit_record(self, name: str, record: Record) -> None:
-        """Calibrate by one record, in the background."""
-        self._fit(lambda: [(name, record)])
+        """Fit the calibration to one record, in the background."""
+        self._fit_records(lambda: [(name, record)])
 
     def fit_files(self, paths: list[Path]) -> None:
-        """Calibrate by records of files."""
+        """Fit the calibration to records from files, in the background."""
         robot = self.workbench.robot
-        self._fit(lambda: [(path.name, read_record(path, robot=robot)) for path in paths])
+        self._fit_records(lambda: [(path.name, read_record(path, robot=robot)) for path in paths])
 
     def store(self) -> None:
-        """Keep the result, and use it from now on."""
+        """Store the result, and use it from now on."""
         calibration, sources = self.calibration, self._sources
         if calibration is None:
             return
         store, robot = self.workbench.operation.calibrations, self.workbench.robot
 
         def work() -> Path:
-            file = kept(calibration, robot.name, sources, datetime.now().astimezone())
+            file = make_calibration_file(
+                calibration, robot.name, sources, datetime.now().astimezone()
+            )
             path = store.save(file)
-            store.switch(file.axis, path)
+            store.select(file.axis, path)
             return path
 
-        def done(path: Path) -> None:
-            self.result.done_storing()
+        def show_path(path: Path) -> None:
+            self.result.show_stored()
             text = tr("Calibration of {axis} in use: {path}")
             self.workbench.notify(Level.GOOD, text.format(axis=calibration.axis, path=path))
-            self._look()
+            self._refresh_stored()
 
-        self.workbench.work("store calibration", tr("Storing the calibration …"), work, done)
+        self.workbench.work("store calibration", tr("Storing the calibration …"), work, show_path)
 
     def switch(self, axis: str, path: Path | None) -> None:
-        """Use a stored calibration of an axis, or none."""
+        """Use the stored calibration at ``path`` for an axis, or no calibration if it is None."""
         store = self.workbench.operation.calibrations
         self.workbench.work(
             "switch calibration",
             tr("Switching the calibration …"),
-            lambda: store.switch(axis, path),
-            lambda _: self._look(),
+            lambda: store.select(axis, path),
+            lambda _: self._refresh_stored(),
         )
-
-    # --- inside -----------------------------------------------------------------------------------
 
     def _forget_plan(self) -> None:
         self._motion = None
-        self.procedure.told.setText(tr(NOTHING))
+        self.procedure.status_label.setText(tr(NO_PLAN_TEXT))
         self.procedure.progress.setValue(0)
 
-    def _take_plan(self, motion: CheckedTrajectory) -> None:
+    def _show_plan(self, motion: CheckedTrajectory) -> None:
         axis = motion.commands.axes[0]
-        if axis != self.procedure.chosen:
+        if axis != self.procedure.chosen_axis:
             return
         self._motion = motion
-        self._plan_text = planned(motion.commands, axis, self.workbench.robot)
-        self.procedure.told.setText(self._plan_text)
+        self._plan_text = describe_motion(motion.commands, axis, self.workbench.robot)
+        self.procedure.status_label.setText(self._plan_text)
         self.calibration = None
         self.result.show_result(None)
-        self.tabs.setTabEnabled(_ISO, False)
-        self.result.show_drawing(motion_drawing(motion.commands, axis))
-        self.news.mark(_RESULT)
-        self.look_now()
+        self.tabs.setTabEnabled(_ISO_TAB, False)
+        self.result.show_curves(make_motion_curves(motion.commands, axis))
+        self.news.mark(_RESULT_TAB)
+        self.update_now()
 
     def _refresh(self, session: SessionState) -> None:
         run = self._run
-        state = run.state if run is not None else RunState()
-        if run is not None and state.phase is Phase.IDLE:  # until the machine rests
-            state = RunState(Phase.MOVING)
+        state = run.state if run is not None else CalibrationPlaybackState()
+        # A run that waits for the machine to come to rest is shown as running.
+        if run is not None and state.phase is CalibrationPlaybackPhase.IDLE:
+            state = CalibrationPlaybackState(CalibrationPlaybackPhase.MOVING)
         motion = self._motion.commands if self._motion is not None else None
         if run is not None and motion is not None:
-            waits = self.workbench.at_rest.words if run.state.phase is Phase.IDLE else ""
-            self.procedure.show_run(state, motion.duration_s, waits)
+            waiting_text = (
+                self.workbench.at_rest.waiting_text
+                if run.state.phase is CalibrationPlaybackPhase.IDLE
+                else ""
+            )
+            self.procedure.show_run(state, motion.duration_s, waiting_text)
         self.procedure.refresh(session, motion, state)
-        if run is None or state.phase is Phase.MOVING:
+        if run is None or state.phase is CalibrationPlaybackPhase.MOVING:
             return
         self._run = None
         if run.record is not None:
             self.workbench.settled.emit(self)
-            self.fit_record(f"calibration of {self.procedure.chosen}", run.record)
-        elif state.phase is Phase.FAILED:
+            self.fit_record(f"calibration of {self.procedure.chosen_axis}", run.record)
+        elif state.phase is CalibrationPlaybackPhase.FAILED:
             text = tr("Calibration: {message}.")
             self.workbench.notify(
-                Level.ERROR, text.format(message=spoken(state.message)), about=self, subject=self
+                Level.ERROR,
+                text.format(message=translate_message(state.message)),
+                about=self,
+                subject=self,
             )
 
-    def _fit(self, records: Callable[[], list[tuple[str, Record]]]) -> None:
-        axis, robot = self.procedure.chosen, self.workbench.robot
+    def _fit_records(self, load_records: Callable[[], list[tuple[str, Record]]]) -> None:
+        axis, robot = self.procedure.chosen_axis, self.workbench.robot
         absolute = self.procedure.absolute.isChecked()
 
-        def work() -> tuple[Calibration, tuple[Source, ...]]:
-            read = records()
-            found = calibrated(
+        def work() -> tuple[SensorCalibration, tuple[SourceRecord, ...]]:
+            named_records = load_records()
+            calibration = calibrate_sensor(
                 robot,
-                [compared(record, axis, robot, name) for name, record in read],
+                [compare_with_laser(record, axis, robot, name) for name, record in named_records],
                 absolute=absolute,
             )
-            return found, tuple(source_of(record, name) for name, record in read)
+            return calibration, tuple(
+                make_source_record(record, name) for name, record in named_records
+            )
 
-        self.workbench.work("calibration fit", tr("Fitting the sensor …"), work, self._take_result)
+        self.workbench.work("calibration fit", tr("Fitting the sensor …"), work, self._show_result)
 
-    def _take_result(self, answer: tuple[Calibration, tuple[Source, ...]]) -> None:
+    def _show_result(self, answer: tuple[SensorCalibration, tuple[SourceRecord, ...]]) -> None:
         self.calibration, self._sources = answer
         self.result.show_result(self.calibration)
-        self.tabs.setTabEnabled(_ISO, self.result.iso.rowCount() > 0)
-        self.news.mark(_RESULT)
+        self.tabs.setTabEnabled(_ISO_TAB, self.result.iso.rowCount() > 0)
+        self.news.mark(_RESULT_TAB)
 
-    def _look(self) -> None:
-        """Read what is stored, let the session use what is on, and show both."""
+    def _refresh_stored(self) -> None:
+        """Read and show the stored calibrations, and apply those in use to the session."""
         store, session = self.workbench.operation.calibrations, self.workbench.session
 
-        def work() -> tuple[tuple[Stored, ...], tuple[str, ...]]:
+        def work() -> tuple[tuple[StoredCalibration, ...], tuple[str, ...]]:
             store.apply(session.corrections)
-            return store.listed()
+            return store.list_calibrations()
 
-        def done(answer: tuple[tuple[Stored, ...], tuple[str, ...]]) -> None:
-            self.stored.show_stored(answer[0])
+        def show_answer(answer: tuple[tuple[StoredCalibration, ...], tuple[str, ...]]) -> None:
+            calibrations, problems = answer
+            self.stored.show_stored(calibrations)
             text = tr("Stored")
-            if answer[0]:
-                text = tr("Stored ({n})").format(n=len(answer[0]))
-            self.tabs.setTabText(_STORED, text)
-            for problem in answer[1]:
+            if calibrations:
+                text = tr("Stored ({n})").format(n=len(calibrations))
+            self.tabs.setTabText(_STORED_TAB, text)
+            for problem in problems:
                 self.workbench.notify(Level.WARNING, problem, about=self)
 
-        doing = tr("Reading calibrations …")
-        self.workbench.work("stored calibrations", doing, work, done, renews=True)
+        activity = tr("Reading calibrations …")
+        self.workbench.work("stored calibrations", activity, work, show_answer, renews=True)
 
     def _ask_records(self) -> None:
         title = tr("Records with sensor and laser")
-        ask_files(self, self.workbench, title, tr(RECORDS), self.fit_files)
+        ask_files(self, self.workbench, title, tr(RECORD_FILTER), self.fit_files)
 
     def _close_run(self) -> None:
         if self._run is not None:

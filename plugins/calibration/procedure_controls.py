@@ -1,4 +1,4 @@
-"""The procedure's controls: which axis, how many runs, plan, run, stop, or fit files."""
+"""Controls of the calibration procedure: axis, runs and targets, and the buttons."""
 
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import (
@@ -12,27 +12,26 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.calibration.calibration_playback import Phase, RunState
-from rotemina.app.display_units import label
+from rotemina.app.calibration import CalibrationPlaybackPhase, CalibrationPlaybackState
+from rotemina.app.language import get_axis_label, translate_message
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.engine_words import spoken
-from rotemina.app.widgets.controls import allow, named
-from rotemina.app.widgets.labels import plain_text
-from rotemina.app.widgets.layouts import in_column
-from rotemina.drivers.samples import DeviceState
+from rotemina.app.widgets.controls import enable_unless, name_widget
+from rotemina.app.widgets.layout import make_column
+from rotemina.app.widgets.text import make_plain_label
+from rotemina.drivers.contract import DeviceState
 from rotemina.plugins.calibration import tr
-from rotemina.plugins.calibration.words import NOTHING, cycles, progress
-from rotemina.sim.calibration.plan import RUNS, TARGETS
-from rotemina.sim.records.record import Record
-from rotemina.sim.robot.model import Robot
+from rotemina.plugins.calibration.words import NO_PLAN_TEXT, describe_progress, has_iso_cycles
+from rotemina.sim.calibration import DEFAULT_RUNS, DEFAULT_TARGETS
+from rotemina.sim.records import Record
+from rotemina.sim.robot import Robot
 
 
-class Procedure(QWidget):
-    """Choices and buttons; what they ask for is done by the panel.
+class CalibrationControls(QWidget):
+    """Controls of the calibration procedure. The panel carries out their actions.
 
     Signals
     -------
-    changed() : axis, runs or targets are others; a plan made before is of no use.
+    changed() : axis, runs or targets have changed. An earlier plan is then obsolete.
     """
 
     changed = Signal()
@@ -40,14 +39,14 @@ class Procedure(QWidget):
     def __init__(self, robot: Robot) -> None:
         super().__init__()
         self._robot = robot
-        self.axis = named(QComboBox(), tr("Axis"), tr("Axis whose sensor is calibrated"))
+        self.axis = name_widget(QComboBox(), tr("Axis"), tr("Axis whose sensor is calibrated"))
         for name in robot.axes:
-            self.axis.addItem(label(name), name)
-        self.runs = _count(tr("Runs"), 3, 50, RUNS)
+            self.axis.addItem(get_axis_label(name), name)
+        self.runs = _make_count_field(tr("Runs"), 3, 50, DEFAULT_RUNS)
         self.runs.setToolTip(
             tr("3 to 50; each run validates the fit of the others once; ISO 230-2 requires 5")
         )
-        self.targets = _count(tr("Targets"), 5, 101, TARGETS)
+        self.targets = _make_count_field(tr("Targets"), 5, 101, DEFAULT_TARGETS)
         self.targets.setToolTip(tr("5 to 101 positions, approached from both sides (ISO 230-2)"))
         self.absolute = QCheckBox(tr("the laser's zero is the axis' zero"))
         self.absolute.setChecked(True)
@@ -60,45 +59,58 @@ class Procedure(QWidget):
         self.progress = QProgressBar()
         self.progress.setRange(0, 1000)
         self.progress.setTextVisible(False)
-        self.told = plain_text(tr(NOTHING), quiet=False, wrap=True)
+        self.status_label = make_plain_label(tr(NO_PLAN_TEXT), quiet=False, wrap=True)
         self._lay_out()
-        self.axis.currentIndexChanged.connect(self._change)
+        self.axis.currentIndexChanged.connect(self._on_changed)
         for field in (self.runs, self.targets):
-            field.valueChanged.connect(self._change)
-        self._change()
+            field.valueChanged.connect(self._on_changed)
+        self._on_changed()
 
     @property
-    def chosen(self) -> str:
-        """The axis."""
+    def chosen_axis(self) -> str:
+        """The selected axis."""
         return str(self.axis.currentData())
 
-    def show_run(self, state: RunState, duration_s: float, waits: str) -> None:
-        """Show how far the run is; ``waits`` is what it waits for, empty where it has begun."""
+    def show_run(
+        self, state: CalibrationPlaybackState, duration_s: float, waiting_text: str
+    ) -> None:
+        """Show the progress of the run.
+
+        ``waiting_text`` says what the run is waiting for. It is empty once the run has begun.
+        """
         self.progress.setValue(round(1000 * state.progress))
-        self.told.setText(waits or progress(state, duration_s))
+        self.status_label.setText(waiting_text or describe_progress(state, duration_s))
 
-    def refresh(self, session: SessionState, motion: Record | None, run: RunState) -> None:
-        """Enable what can be done now, and say why the rest cannot."""
-        moving = run.phase is Phase.MOVING
-        why_not = tr("a run is in progress") if moving else None
+    def refresh(
+        self, session: SessionState, motion: Record | None, run: CalibrationPlaybackState
+    ) -> None:
+        """Enable the actions that are possible now. Tooltips say why the others are not."""
+        is_running = run.phase is CalibrationPlaybackPhase.MOVING
+        objection = tr("a run is in progress") if is_running else None
         for widget in (self.axis, self.runs, self.absolute):
-            widget.setEnabled(not moving)
-        self.targets.setEnabled(not moving and cycles(self._robot, self.chosen))
-        allow(self.plan, why_not, tr("Compute the motion and check it against all limits"))
-        allow(self.fit, why_not, tr("Fit records of this axis with its sensor and the laser"))
-        allow(
-            self.stop, None if moving else tr("no run is in progress"), tr("Stop the machine now")
+            widget.setEnabled(not is_running)
+        self.targets.setEnabled(not is_running and has_iso_cycles(self._robot, self.chosen_axis))
+        enable_unless(
+            self.plan, objection, tr("Compute the motion and check it against all limits")
         )
-        if why_not is None and session.locked is not None:
-            why_not = spoken(session.locked)
-        if why_not is None and motion is None:
-            why_not = tr("there is no plan yet")
-        if why_not is None and session.activity is not DeviceState.IDLE:
-            why_not = tr("the machine is still moving")
-        allow(self.run, why_not, tr("Play the motion, record sensor and laser, and fit"))
+        enable_unless(
+            self.fit, objection, tr("Fit records of this axis with its sensor and the laser")
+        )
+        enable_unless(
+            self.stop,
+            None if is_running else tr("no run is in progress"),
+            tr("Stop the machine now"),
+        )
+        if objection is None and session.lock_reason is not None:
+            objection = translate_message(session.lock_reason)
+        if objection is None and motion is None:
+            objection = tr("there is no plan yet")
+        if objection is None and session.activity is not DeviceState.IDLE:
+            objection = tr("the machine is still moving")
+        enable_unless(self.run, objection, tr("Play the motion, record sensor and laser, and fit"))
 
-    def _change(self) -> None:
-        self.targets.setEnabled(cycles(self._robot, self.chosen))
+    def _on_changed(self) -> None:
+        self.targets.setEnabled(has_iso_cycles(self._robot, self.chosen_axis))
         self.changed.emit()
 
     def _lay_out(self) -> None:
@@ -108,15 +120,15 @@ class Procedure(QWidget):
         form.addRow(tr("Runs"), self.runs)
         form.addRow(tr("Targets"), self.targets)
         buttons = QGridLayout()
-        for place, button in enumerate((self.plan, self.run, self.stop, self.fit)):
-            buttons.addWidget(button, place // 2, place % 2)
-        parts = form, self.absolute, buttons, self.progress, self.told, 1
-        in_column(*parts, on=self, margins=(0, 0, 6, 0), spacing=4)
+        for index, button in enumerate((self.plan, self.run, self.stop, self.fit)):
+            buttons.addWidget(button, index // 2, index % 2)
+        parts = form, self.absolute, buttons, self.progress, self.status_label, 1
+        make_column(*parts, on=self, margins=(0, 0, 6, 0), spacing=4)
 
 
-def _count(name: str, least: int, most: int, preset: int) -> QSpinBox:
-    field = named(QSpinBox(), name)
-    field.setRange(least, most)
-    field.setValue(preset)
+def _make_count_field(name: str, minimum: int, maximum: int, initial_value: int) -> QSpinBox:
+    field = name_widget(QSpinBox(), name)
+    field.setRange(minimum, maximum)
+    field.setValue(initial_value)
     field.setKeyboardTracking(False)
     return field

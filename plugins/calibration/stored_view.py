@@ -1,74 +1,87 @@
-"""The stored calibrations, and the switch for the one in use."""
+"""View of the stored calibrations, with buttons to switch them on and off."""
 
 from pathlib import Path
 
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QPushButton, QWidget
 
-from rotemina.app.calibration.store import Stored
-from rotemina.app.widgets.controls import allow, plain_tip
-from rotemina.app.widgets.layouts import in_column, in_row
-from rotemina.app.widgets.table import Table
+from rotemina.app.calibration import StoredCalibration
+from rotemina.app.widgets.controls import enable_unless, make_tooltip
+from rotemina.app.widgets.layout import make_column, make_row
+from rotemina.app.widgets.text import TextTable
 from rotemina.plugins.calibration import mark, tr
-from rotemina.plugins.calibration.words import STORED_HEAD, shown, stored_row
+from rotemina.plugins.calibration.words import STORED_HEADINGS, make_stored_row, translate_headings
 
-_NONE = mark("select a calibration in the table")
+_NONE_SELECTED_TEXT = mark("select a calibration in the table")
 
 
-class StoredView(QWidget):
-    """Table and buttons.
+class StoredCalibrationsView(QWidget):
+    """Table of the stored calibrations, with buttons to use one or switch it off.
 
     Signals
     -------
-    switched(str, object) : an axis shall use the calibration of this path, or None.
+    switched(str, object) : axis, and path of the calibration that the axis is to use, or None.
     """
 
     switched = Signal(str, object)
 
     def __init__(self) -> None:
         super().__init__()
-        self.stored: tuple[Stored, ...] = ()
-        self.table = Table(tr("Stored calibrations"), shown(STORED_HEAD))
-        self.table.itemSelectionChanged.connect(self._allow)
-        self.on, self.off = QPushButton(tr("Use")), QPushButton(tr("Switch off"))
-        self.on.clicked.connect(lambda: self._switch(on=True))
-        self.off.clicked.connect(lambda: self._switch(on=False))
-        in_column((self.table, 1), in_row(1, self.on, self.off), on=self, margins=0, spacing=4)
-        self._allow()
+        self.stored: tuple[StoredCalibration, ...] = ()
+        self.table = TextTable(tr("Stored calibrations"), translate_headings(STORED_HEADINGS))
+        self.table.itemSelectionChanged.connect(self._update_buttons)
+        self.use_button, self.switch_off_button = (
+            QPushButton(tr("Use")),
+            QPushButton(tr("Switch off")),
+        )
+        self.use_button.clicked.connect(lambda: self._switch(on=True))
+        self.switch_off_button.clicked.connect(lambda: self._switch(on=False))
+        make_column(
+            (self.table, 1),
+            make_row(1, self.use_button, self.switch_off_button),
+            on=self,
+            margins=0,
+            spacing=4,
+        )
+        self._update_buttons()
 
     @property
-    def chosen(self) -> Stored | None:
-        """The calibration of the chosen row."""
+    def selected(self) -> StoredCalibration | None:
+        """The selected calibration, or None."""
         rows = {index.row() for index in self.table.selectedIndexes()}
         return self.stored[rows.pop()] if rows else None
 
-    def show_stored(self, stored: tuple[Stored, ...]) -> None:
+    def show_stored(self, stored: tuple[StoredCalibration, ...]) -> None:
         """Show the stored calibrations, and keep the selection."""
-        chosen = self.chosen
+        selected = self.selected
         self.table.clearSelection()
         self.stored = stored
-        self.table.show_rows(tuple(map(stored_row, stored)))
-        for row, one in enumerate(stored):
-            self.table.item(row, 0).setToolTip(plain_tip(str(one.path), one.calibration.name))
-            if chosen is not None and one.path == chosen.path:
+        self.table.show_rows(tuple(map(make_stored_row, stored)))
+        for row, entry in enumerate(stored):
+            self.table.item(row, 0).setToolTip(
+                make_tooltip(str(entry.path), entry.calibration.name)
+            )
+            if selected is not None and entry.path == selected.path:
                 self.table.selectRow(row)
-        self._allow()
+        self._update_buttons()
 
     def _switch(self, *, on: bool) -> None:
-        chosen = self.chosen
-        if chosen is not None:
-            path: Path | None = chosen.path if on else None
-            self.switched.emit(chosen.calibration.axis, path)
+        selected = self.selected
+        if selected is not None:
+            path: Path | None = selected.path if on else None
+            self.switched.emit(selected.calibration.axis, path)
 
-    def _allow(self) -> None:
-        chosen, none = self.chosen, tr(_NONE)
-        already = None if chosen is None or not chosen.on else tr("already on")
-        idle = None if chosen is None or chosen.on else tr("already off")
-        allow(
-            self.on, none if chosen is None else already, tr("Correct the axis' readings with it")
+    def _update_buttons(self) -> None:
+        selected, no_selection = self.selected, tr(_NONE_SELECTED_TEXT)
+        use_objection = None if selected is None or not selected.on else tr("already on")
+        switch_off_objection = None if selected is None or selected.on else tr("already off")
+        enable_unless(
+            self.use_button,
+            no_selection if selected is None else use_objection,
+            tr("Correct the axis' readings with it"),
         )
-        allow(
-            self.off,
-            none if chosen is None else idle,
+        enable_unless(
+            self.switch_off_button,
+            no_selection if selected is None else switch_off_objection,
             tr("Do not correct the readings of the axis"),
         )

@@ -1,5 +1,8 @@
-"""Comparison of model and record."""
+"""Panel that compares the model with a record of the machine.
 
-from rotemina.app.shell.language import texts_of
+It has a table of all taps, and plots of one. The figures come from ``sim/comparison``.
+"""
 
-tr, mark = texts_of("comparison")
+from rotemina.app.language import make_text_functions
+
+tr, mark = make_text_functions("comparison")

@@ -1,8 +1,9 @@
-"""Compensation of hysteresis.
+"""Panel for the compensation of hysteresis.
 
-Train, check and apply an inverse, and tune a loop around it.
+The operator trains, checks and applies an inverse model, and tunes a control loop around it. The
+inverse models are in ``sim/compensate``, and the search for gains is in ``sim/tuning``.
 """
 
-from rotemina.app.shell.language import texts_of
+from rotemina.app.language import make_text_functions
 
-tr, mark = texts_of("compensation")
+tr, mark = make_text_functions("compensation")

@@ -1,49 +1,58 @@
-"""The search of gains for the panel; free of Qt."""
+"""Search for loop gains. This module does not use Qt."""
 
 import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 
-from rotemina.sim.compensate.inverse import Inverse
-from rotemina.sim.compensate.inverse_parameters import InverseModel
-from rotemina.sim.robot.model import Robot
-from rotemina.sim.tuning.search import Generation, SearchSettings, generations
-from rotemina.sim.tuning.search_problem import TuningProblem
-from rotemina.sim.tuning.tuning_result import Tuning, tuning_of
+from rotemina.sim.compensate import Inverse, InverseModel
+from rotemina.sim.robot import Robot
+from rotemina.sim.tuning import (
+    SearchGeneration,
+    SearchSettings,
+    TuningProblem,
+    TuningResult,
+    make_tuning,
+    run_search,
+)
 
-RATE_HZ = 5000.0
+LOOP_RATE_HZ = 5000.0
 
 
-def problem_of(robot: Robot, axis: str, model: InverseModel | None) -> TuningProblem:
-    """Return the problem of an axis, fed forward through an inverse or not.
+def make_problem(robot: Robot, axis: str, model: InverseModel | None) -> TuningProblem:
+    """Return the tuning problem of an axis.
+
+    ``model`` is the inverse model for the feed-forward, or None for a loop without it.
 
     Raises
     ------
     TuningError, FeedbackError, EffectError
         If the axis cannot be tuned.
     """
-    inverse = None if model is None else Inverse(model, 1.0 / RATE_HZ, preview=True)
-    return TuningProblem(robot, axis, RATE_HZ, inverse=inverse)
+    inverse = None if model is None else Inverse(model, 1.0 / LOOP_RATE_HZ, preview=True)
+    return TuningProblem(robot, axis, LOOP_RATE_HZ, inverse=inverse)
 
 
-def search(
+def search_gains(
     problem: TuningProblem,
     settings: SearchSettings,
-    tell: Callable[[Generation], bool],
+    report: Callable[[SearchGeneration], bool],
     inverse: str,
-) -> Tuning:
-    """Search until the end or until ``tell`` requests a stop; return the result.
+) -> TuningResult:
+    """Return the result of a search.
+
+    It runs to the last generation, or until ``report``, called after each one, returns False.
 
     Raises
     ------
     TuningError
-        If no gains keep the constraints.
+        If no gains meet the constraints.
     """
-    last = None
-    jobs = max((os.cpu_count() or 1) - 1, 1)  # one core stays free for the machine
-    with ThreadPoolExecutor(jobs) as pool:
-        for last in generations(problem, settings, pool.map):
-            if not tell(last):
+    latest = None
+    # One core stays free for the control of the machine.
+    thread_count = max((os.cpu_count() or 1) - 1, 1)
+    with ThreadPoolExecutor(thread_count) as pool:
+        for latest in run_search(problem, settings, pool.map):
+            if not report(latest):
                 break
-    assert last is not None, "settings ask for one generation at least"
-    return tuning_of(problem, settings, last, inverse=inverse)
+    assert latest is not None, "the settings require at least one generation"
+    return make_tuning(problem, settings, latest, inverse=inverse)

@@ -1,108 +1,118 @@
-"""Actions on the machine: inverse, loop, sweep, and trials."""
+"""Actions on the machine: inverse, loop, sweep and trials."""
 
 from collections.abc import Callable
 
-from rotemina.app.display_units import label
-from rotemina.app.motion.compensation import NamedInverse
-from rotemina.app.motion.regulation import NamedRegulation, regulation_of
-from rotemina.app.motion.state import Event, PlaybackFinished, SessionState
-from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.requests_at_rest import WaitingRequest
-from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.app.widgets.controls import allow
-from rotemina.drivers.samples import DeviceState
+from rotemina.app.language import get_axis_label, translate_message
+from rotemina.app.motion.session import NamedInverse, NamedRegulation, make_regulation
+from rotemina.app.motion.state import (
+    PlaybackFinished,
+    SessionEvent,
+    SessionState,
+)
+from rotemina.app.widgets.controls import enable_unless
+from rotemina.app.workbench import Level, WaitingRequest, Workbench
+from rotemina.drivers.contract import DeviceState
 from rotemina.plugins.compensation import mark, tr
-from rotemina.plugins.compensation.controls import Controls
-from rotemina.plugins.compensation.inverse_training import Learned
+from rotemina.plugins.compensation.controls import CompensationControls
+from rotemina.plugins.compensation.inverse_training import TrainedInverses
 from rotemina.plugins.compensation.plot_views import LiveView
-from rotemina.plugins.compensation.trial_motion import Aid, Trial, trial_motion, trial_of
-from rotemina.plugins.compensation.typed_gains import typed_loop
+from rotemina.plugins.compensation.trial_motion import (
+    CompensationMode,
+    CompensationTrial,
+    evaluate_trial,
+    make_trial_motion,
+)
+from rotemina.plugins.compensation.typed_gains import make_typed_loop
 from rotemina.plugins.compensation.words import (
-    APPLY,
     AT_A_LIMIT,
-    SWEEP,
-    SWITCH,
+    INVERSE_BUTTON_TEXTS,
+    LOOP_BUTTON_TEXTS,
+    SWEEP_TIP,
+    describe_owners,
     exceedance_text,
-    owners_text,
     residual_text,
 )
-from rotemina.sim.compensate.conditioning import conditioning
-from rotemina.sim.compensate.judgement import NAMES
-from rotemina.sim.feedback.gains import Gains
-from rotemina.sim.records.record import Record
-from rotemina.sim.robot.model import Robot
-from rotemina.sim.tuning.tuning_result import Tuning
+from rotemina.sim.compensate import KIND_NAMES, make_conditioning_sweep
+from rotemina.sim.feedback import ControllerGains
+from rotemina.sim.records import Record
+from rotemina.sim.robot import Robot
+from rotemina.sim.tuning import TuningResult
 
 NOT_PLAYED = mark("Not played: {why}. Press the button again.")
 
 
-class Actuation:
-    """Applies and removes inverses and loops, and runs trials.
+class CompensationActions:
+    """Actions that apply and remove inverses and loops, and play trials.
 
     Parameters
     ----------
     workbench : Workbench
-    controls : Controls
+    controls : CompensationControls
     live : LiveView
-        Where trials are drawn.
+        View in which trials are drawn.
     """
 
-    def __init__(self, workbench: Workbench, controls: Controls, live: LiveView) -> None:
+    def __init__(
+        self, workbench: Workbench, controls: CompensationControls, live: LiveView
+    ) -> None:
         self._workbench, self._controls, self._live = workbench, controls, live
-        self.trials: dict[Aid, Trial] = {}
+        self.trials: dict[CompensationMode, CompensationTrial] = {}
 
-    def switch(self, learned: Learned | None, source: str) -> None:
-        """Apply the chosen inverse to its axis, or remove the present one."""
+    def switch(self, inverses: TrainedInverses | None, source: str) -> None:
+        """Apply the chosen inverse to its axis, or remove the one that is applied."""
         session, axis = self._workbench.session, self._controls.chosen
         if axis in session.inverses.applied:
-            self._workbench.ask(lambda: session.inverses.remove(axis))
+            self._workbench.run_request(lambda: session.inverses.remove(axis))
             return
-        if learned is None or learned.axis != axis:
+        if inverses is None or inverses.axis != axis:
             text = tr("Nothing is applied: no inverse of {axis} is trained. Train one first.")
             self._workbench.notify(
-                Level.WARNING, text.format(axis=label(axis)), about="compensation.md"
+                Level.WARNING, text.format(axis=get_axis_label(axis)), about="compensation.md"
             )
             return
         kind = self._controls.kind.currentData()
-        name = f"{NAMES[kind]}, {source}"
-        inverse = NamedInverse(learned.trained.models[kind], learned.provenance.robot, name)
-        self._workbench.ask(lambda: session.inverses.apply(inverse))
+        name = f"{KIND_NAMES[kind]}, {source}"
+        inverse = NamedInverse(inverses.trained.models[kind], inverses.provenance.robot, name)
+        self._workbench.run_request(lambda: session.inverses.apply(inverse))
 
-    def apply(self, tuning: Tuning | None, name: str) -> None:
-        """Close the loop of the gains shown, if it is stable, or open the one that is closed.
+    def apply(self, tuning: TuningResult | None, name: str) -> None:
+        """Close a loop with the gains shown, if it is stable. Open the loop if it is closed.
 
-        They are those of the marked point, unless others were typed.
+        The gains are those of the selected point, unless the operator has typed others.
         """
         workbench, axis = self._workbench, self._controls.chosen
         session, robot = workbench.session, workbench.robot
         if axis in session.loops.applied:
-            workbench.ask(lambda: session.loops.remove(axis))
+            workbench.run_request(lambda: session.loops.remove(axis))
             return
-        own = tuning if tuning is not None and tuning.axis == axis else None
-        permit = session.permit()  # a stop while the loop is checked ends the wish
+        axis_tuning = tuning if tuning is not None and tuning.axis == axis else None
+        # A stop during the check of the loop revokes this permit.
+        permit = session.permit()
 
-        def done(loop: NamedRegulation) -> None:
-            workbench.ask(lambda: session.loops.apply(loop, permit=permit))
+        def on_made(loop: NamedRegulation) -> None:
+            workbench.run_request(lambda: session.loops.apply(loop, permit=permit))
 
-        make = self._loop_of(robot, axis, own, name)
-        if make is not None:
-            workbench.work("apply gains", tr("Checking the loop …"), make, done)
+        make_loop = self._make_loop_factory(robot, axis, axis_tuning, name)
+        if make_loop is not None:
+            workbench.work("apply gains", tr("Checking the loop …"), make_loop, on_made)
 
-    def _loop_of(
-        self, robot: Robot, axis: str, tuning: Tuning | None, name: str
+    def _make_loop_factory(
+        self, robot: Robot, axis: str, tuning: TuningResult | None, name: str
     ) -> Callable[[], NamedRegulation] | None:
-        """Return what makes the loop; None where what was typed is none, which is told."""
+        """Return a function that makes the loop, or None after reporting invalid typed gains."""
         fields = self._controls.typed
         if tuning is not None and not fields.typed:
-            return lambda: regulation_of(robot, tuning, name)
-        found: list[Gains] = []
-        base = tuning.best.gains if tuning is not None else None
-        if not self._workbench.ask(lambda: found.append(fields.gains(axis, base))):
+            return lambda: make_regulation(robot, tuning, name)
+        typed_gains: list[ControllerGains] = []
+        point_gains = tuning.chosen_point.gains if tuning is not None else None
+        if not self._workbench.run_request(
+            lambda: typed_gains.append(fields.read_gains(axis, point_gains))
+        ):
             return None
-        return lambda: typed_loop(robot, axis, found[0])
+        return lambda: make_typed_loop(robot, axis, typed_gains[0])
 
     def sweep(self) -> None:
-        """Swing over all that the inverse saw, with the inverse on."""
+        """Sweep the axis over the whole range of its inverse, with the inverse applied."""
         session, axis = self._workbench.session, self._controls.chosen
         inverse = session.inverses.applied.get(axis)
         if inverse is None:
@@ -111,59 +121,70 @@ class Actuation:
             )
             return
         start = session.snapshot().command[axis]
-        self._play(lambda: conditioning(self._workbench.robot, inverse.model, start))
+        self._play(lambda: make_conditioning_sweep(self._workbench.robot, inverse.model, start))
 
-    def try_it(self) -> None:
-        """Play decaying swings, and show the error next to those of other states."""
+    def play_trial(self) -> None:
+        """Play decaying oscillations. The error is shown next to the errors in other modes."""
         axis = self._controls.chosen
-        self._play(lambda: trial_motion(self._workbench.robot, axis))
+        self._play(lambda: make_trial_motion(self._workbench.robot, axis))
 
-    def forget(self) -> None:
+    def forget_trials(self) -> None:
         """Forget all trials."""
         self.trials.clear()
         self._live.clear()
 
-    def on_event(self, event: Event) -> None:
-        """Take what a trial left from its record."""
+    def on_event(self, event: SessionEvent) -> None:
+        """Evaluate and draw a trial whose playback has finished."""
         if not isinstance(event, PlaybackFinished) or event.record is None or not event.completed:
             return
         axis = self._controls.chosen
-        trial = trial_of(event.record, axis)
+        trial = evaluate_trial(event.record, axis)
         if trial is not None:
-            self.trials[trial.by] = trial
+            self.trials[trial.mode] = trial
             self._live.show_trial(trial, self._unit)
 
-    def refresh(self, state: SessionState, other: str | None) -> None:
-        """Show what is on and was left, and what can be done; ``other``: why no inverse is."""
+    def refresh(self, state: SessionState, no_inverse_reason: str | None) -> None:
+        """Show errors and warnings, and enable the buttons.
+
+        ``no_inverse_reason`` says why there is no inverse to apply, None if there is one.
+        """
         controls, session, axis = self._controls, self._workbench.session, self._controls.chosen
-        for one, told in controls.residuals.items():
-            told.setText(residual_text(self.trials.get(one), self._unit))
+        for mode, text in controls.residuals.items():
+            text.setText(residual_text(self.trials.get(mode), self._unit))
         inverse_on, loop_on = axis in session.inverses.applied, axis in session.loops.applied
-        controls.switch.show_meaning(tr(SWITCH[inverse_on]))
-        controls.apply.show_meaning(tr(APPLY[loop_on]))
-        said = exceedance_text(session.inverses.exceedance(axis))
-        at_limit = tr(AT_A_LIMIT) if axis in session.loops.limited else ""
-        waits = self._workbench.at_rest.words
-        controls.beyond.setText(" ".join(filter(None, (waits, said, at_limit))))
-        moves = None if state.activity is DeviceState.IDLE else tr("the axis is moving")
-        locked = spoken(state.locked) if state.locked else None
-        waiting = self._workbench.at_rest.against_another
-        still = locked or waiting or moves or owners_text(state.owners)
+        controls.switch.show_meaning(tr(INVERSE_BUTTON_TEXTS[inverse_on]))
+        controls.apply.show_meaning(tr(LOOP_BUTTON_TEXTS[loop_on]))
+        exceedance = exceedance_text(session.inverses.find_exceedance(axis))
+        at_limit = tr(AT_A_LIMIT) if axis in session.loops.limited_axes else ""
+        waiting_text = self._workbench.at_rest.waiting_text
+        controls.warnings.setText(" ".join(filter(None, (waiting_text, exceedance, at_limit))))
+        moving_objection = None if state.activity is DeviceState.IDLE else tr("the axis is moving")
+        lock_objection = translate_message(state.lock_reason) if state.lock_reason else None
+        waiting_objection = self._workbench.at_rest.objection
+        motion_objection = (
+            lock_objection or waiting_objection or moving_objection or describe_owners(state.owners)
+        )
         no_axis = None if axis else tr("the robot has no piezo in open loop")
-        allow(controls.switch, still or (None if inverse_on else other), self._switch_tip())
-        no_loop = session.loops.unavailable or no_axis
-        tip = tr(
+        enable_unless(
+            controls.switch,
+            motion_objection or (None if inverse_on else no_inverse_reason),
+            self._get_switch_tooltip(),
+        )
+        no_loop = session.loops.unavailable_reason or no_axis
+        tooltip = tr(
             "Close a loop with these gains around the axis, or open it; the axis stays in place"
         )
-        allow(controls.apply, still or (None if loop_on else no_loop), tip)
+        enable_unless(controls.apply, motion_objection or (None if loop_on else no_loop), tooltip)
         no_inverse = None if inverse_on else tr("no inverse is active: apply one first")
-        allow(controls.sweep, still or no_inverse, tr(SWEEP))
-        allow(
-            controls.trial, still or no_axis, tr("Play 6 s of oscillations over 60 % of the range")
+        enable_unless(controls.sweep, motion_objection or no_inverse, tr(SWEEP_TIP))
+        enable_unless(
+            controls.trial,
+            motion_objection or no_axis,
+            tr("Play 6 s of oscillations over 60 % of the range"),
         )
 
-    def _switch_tip(self) -> str:
-        if self._workbench.session.inverses.live:
+    def _get_switch_tooltip(self) -> str:
+        if self._workbench.session.inverses.is_applied_per_tick:
             return tr("Apply the inverse to every set-point of this axis; the axis stays in place")
         return tr(
             "Apply the inverse to ends of moves, speeds and each row of a trajectory; "

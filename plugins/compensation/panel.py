@@ -1,4 +1,4 @@
-"""Compensation of hysteresis: train, check, apply, tune."""
+"""Panel for the compensation of hysteresis: train, check and apply inverses, tune loops."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -6,240 +6,268 @@ from pathlib import Path
 
 from PySide6.QtCore import Signal
 
-from rotemina.app.motion.compensation import NamedInverse, check_belongs
+from rotemina.app.language import marked, translate_message
+from rotemina.app.motion.session import NamedInverse, check_inverse_fits
 from rotemina.app.motion.state import SessionState
-from rotemina.app.panel import Area, Panel, offer_in_palette
-from rotemina.app.shell.background_job import Job, Tell
-from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.file_dialog import ask_file, ask_files, ask_where
-from rotemina.app.shell.language import marked
-from rotemina.app.shell.theme import Theme
-from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.app.widgets.controls import allow
-from rotemina.app.widgets.scroll_areas import lay_beside, tabbed
-from rotemina.app.widgets.tab_dots import TabNews
-from rotemina.drivers.samples import DeviceState
+from rotemina.app.panel import (
+    Panel,
+    PanelArea,
+    offer_in_palette,
+)
+from rotemina.app.shell.records import (
+    ask_file,
+    ask_files,
+    ask_save_path,
+)
+from rotemina.app.widgets.controls import TabNews, enable_unless
+from rotemina.app.widgets.layout import lay_out_with_controls, make_tabs
+from rotemina.app.widgets.style import Theme
+from rotemina.app.workbench import BackgroundJob, Level, ReportProgress, Workbench
+from rotemina.drivers.contract import DeviceState
 from rotemina.plugins.compensation import mark, tr
-from rotemina.plugins.compensation.controls import Controls
+from rotemina.plugins.compensation.controls import CompensationControls
 from rotemina.plugins.compensation.gain_search import GainSearch
 from rotemina.plugins.compensation.inverse_training import (
-    Learned,
-    Listener,
-    learned_from,
-    learned_simulated,
+    ProgressListener,
+    TrainedInverses,
+    train_from_records,
+    train_in_simulation,
 )
-from rotemina.plugins.compensation.machine_actions import Actuation
-from rotemina.plugins.compensation.plot_views import CheckView, FrontView, LiveView
-from rotemina.plugins.compensation.words import NO_FRONT, NOTHING, kind_name
-from rotemina.sim.compensate.file import read_trained, write_trained
-from rotemina.sim.records.reading import read_record
-from rotemina.sim.robot.model import Robot
+from rotemina.plugins.compensation.machine_actions import CompensationActions
+from rotemina.plugins.compensation.plot_views import CheckView, LiveView, ParetoFrontView
+from rotemina.plugins.compensation.words import NO_FRONT, NO_INVERSE, describe_kind
+from rotemina.sim.compensate import read_trained, write_trained
+from rotemina.sim.records import read_record
+from rotemina.sim.robot import Robot
 
-RECORDS = mark("Records (*.csv *.txt *.dat *.gz);;All files (*)")
-INVERSES = mark("Inverses (*.json)")
-TUNINGS = mark("Tunings (*.toml)")
-CHECK, LIVE, FRONT = range(3)  # tabs
-_WIDTH = 300  # of the controls at least, px
-_SEED = 0
+RECORD_FILTER = mark("Records (*.csv *.txt *.dat *.gz);;All files (*)")
+INVERSE_FILTER = mark("Inverses (*.json)")
+TUNING_FILTER = mark("Tunings (*.toml)")
+CHECK_TAB, LIVE_TAB, FRONT_TAB = range(3)
+_MIN_CONTROLS_WIDTH_PX = 300
+_TRAINING_SEED = 0
 
 
 class CompensationPanel(Panel):
-    """Controls beside the judgement, the live loops and the search of gains."""
+    """Panel with controls at the left, and the check, live and tuning views at the right."""
 
     title = marked("panels", "Compensation")
-    area = Area.BOTTOM
+    area = PanelArea.BOTTOM
     order = 33
     help_page = "compensation.md#the-panel"
-    _happened = Signal(object)
+    _event_received = Signal(object)
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)
         theme = workbench.theme
-        self.controls = Controls(workbench.robot)
-        self.check, self.live, self.front = CheckView(theme), LiveView(theme), FrontView(theme)
-        self.actuation = Actuation(workbench, self.controls, self.live)
+        self.controls = CompensationControls(workbench.robot)
+        self.check, self.live, self.front = (
+            CheckView(theme),
+            LiveView(theme),
+            ParetoFrontView(theme),
+        )
+        self.actions_on_machine = CompensationActions(workbench, self.controls, self.live)
         self.search = GainSearch(workbench, self.controls, self.front)
-        self.job = Job(self)
-        self.learned: Learned | None = None
+        self.job = BackgroundJob(self)
+        self.inverses: TrainedInverses | None = None
         self._source = ""
-        self.tabs, self.views = tabbed(
+        self.tabs, self.views = make_tabs(
             tr("View"), {tr("Check"): self.check, tr("Live"): self.live, tr("Tuning"): self.front}
         )
         self.news = TabNews(self.tabs)
-        lay_beside(self, self.controls, _WIDTH, self.tabs, self.views)
+        lay_out_with_controls(self, self.controls, _MIN_CONTROLS_WIDTH_PX, self.tabs, self.views)
         self._connect()
         offer_in_palette(self.controls.switch, self.controls.apply, self.controls.trial)
-        harmless = self.controls.save, self.controls.tune, self.controls.keep, self.controls.stop
-        offer_in_palette(*harmless, safe_while_hidden=True)
+        safe_buttons = (
+            self.controls.save,
+            self.controls.tune,
+            self.controls.keep,
+            self.controls.stop,
+        )
+        offer_in_palette(*safe_buttons, safe_while_hidden=True)
         self._change_axis()
-        self.controls.tell("", None)
+        self.controls.show_progress("", None)
 
-    # --- learn ------------------------------------------------------------------------------------
-
-    def learn_simulated(self) -> None:
-        """Move the simulated axis with the machine's effects, and learn from that."""
-        robot, axis = self._robot(), self.controls.chosen
-        self._learn(
-            "simulator", lambda tell: learned_simulated(robot, robot.effects, axis, _SEED, tell)
+    def train_in_simulation(self) -> None:
+        """Train with a motion of the simulated axis, with the current effects."""
+        robot, axis = self._make_simulated_robot(), self.controls.chosen
+        self._train(
+            "simulator",
+            lambda report: train_in_simulation(robot, robot.effects, axis, _TRAINING_SEED, report),
         )
 
-    def learn_record(self) -> None:
-        """Learn from the record in hand."""
-        robot, axis, record = self._robot(), self.controls.chosen, self.workbench.record
+    def train_from_record(self) -> None:
+        """Train with the last record."""
+        robot, axis, record = (
+            self._make_simulated_robot(),
+            self.controls.chosen,
+            self.workbench.record,
+        )
         if record is not None:
-            named = [("last record", record)]
-            self._learn(named[0][0], lambda tell: learned_from(robot, axis, named, tell))
+            records = [("last record", record)]
+            self._train(
+                records[0][0], lambda report: train_from_records(robot, axis, records, report)
+            )
 
-    def learn_files(self, paths: list[Path]) -> None:
-        """Learn from records of files."""
-        robot, axis = self._robot(), self.controls.chosen
+    def train_from_files(self, paths: list[Path]) -> None:
+        """Train with records from files."""
+        robot, axis = self._make_simulated_robot(), self.controls.chosen
 
-        def work(tell: Listener) -> Learned:
+        def work(report: ProgressListener) -> TrainedInverses:
             records = [(path.name, read_record(path, robot=robot)) for path in paths]
-            return learned_from(robot, axis, records, tell)
+            return train_from_records(robot, axis, records, report)
 
-        self._learn(", ".join(path.name for path in paths), work)
+        self._train(", ".join(path.name for path in paths), work)
 
     def open_file(self, path: Path) -> None:
-        """Take the inverses of a file in hand."""
+        """Load inverses from a file."""
         robot = self.workbench.robot
 
-        def work() -> Learned:
+        def work() -> TrainedInverses:
             trained, provenance = read_trained(path)
-            model = trained.models[trained.chosen]
-            check_belongs(robot, NamedInverse(model, provenance.robot, path.name))
-            return Learned(trained, provenance, {})
+            model = trained.models[trained.recommended_kind]
+            check_inverse_fits(robot, NamedInverse(model, provenance.robot, path.name))
+            return TrainedInverses(trained, provenance, {})
 
-        def done(learned: Learned) -> None:
+        def on_read(inverses: TrainedInverses) -> None:
             self._source = path.name
-            self._take(learned)
+            self._use_inverses(inverses)
 
-        self.workbench.read_file("open inverse", path.name, work, done)
+        self.workbench.read_file("open inverse", path.name, work, on_read)
 
     def save_file(self, path: Path) -> None:
-        """Keep the inverses in hand."""
-        learned = self.learned
-        if learned is None:
+        """Write the inverses to a file."""
+        inverses = self.inverses
+        if inverses is None:
             return
 
-        def done() -> None:
+        def on_saved() -> None:
             self._source = path.name
 
         self.workbench.write_file(
             "save inverse",
             path,
-            lambda: write_trained(path, learned.trained, learned.provenance),
-            done,
+            lambda: write_trained(path, inverses.trained, inverses.provenance),
+            on_saved,
         )
 
-    # --- act and tune -----------------------------------------------------------------------------
-
-    def try_it(self) -> None:
-        """Play decaying swings, and show the error beside those of other states."""
-        self.tabs.setCurrentIndex(LIVE)
-        self.actuation.try_it()
+    def play_trial(self) -> None:
+        """Play decaying oscillations. The error is shown next to the errors in other modes."""
+        self.tabs.setCurrentIndex(LIVE_TAB)
+        self.actions_on_machine.play_trial()
 
     def tune(self) -> None:
-        """Search gains; the front is drawn as it evolves."""
-        learned = self.learned if self.controls.forward.isChecked() else None
-        model = None if learned is None else learned.trained.models[learned.trained.chosen]
-        self.tabs.setCurrentIndex(FRONT)
-        self.search.tune(self._robot(), self.controls.chosen, model, self._source)
+        """Search for gains, and draw the front of each generation."""
+        inverses = self.inverses if self.controls.forward.isChecked() else None
+        model = (
+            None if inverses is None else inverses.trained.models[inverses.trained.recommended_kind]
+        )
+        self.tabs.setCurrentIndex(FRONT_TAB)
+        self.search.tune(self._make_simulated_robot(), self.controls.chosen, model, self._source)
 
     def stop(self) -> None:
-        """Stop the machine's trial, or end what is worked on; a search keeps what it found."""
+        """Stop the search, the training or the machine. The front found so far is kept."""
         if self.search.running:
             self.search.stop()
         elif self.job.running:
             self.job.stop()
-            self.controls.tell(tr("Stopped; nothing was replaced."), None)
+            self.controls.show_progress(tr("Stopped; nothing was replaced."), None)
         else:
             self.workbench.stop()
 
-    # --- inside -----------------------------------------------------------------------------------
-
-    def _robot(self) -> Robot:
-        """Return the robot with the effects that act on the simulated machine at present."""
+    def _make_simulated_robot(self) -> Robot:
         robot, effects = self.workbench.robot, self.workbench.session.service.effects
         return robot if effects is None else replace(robot, effects=effects)
 
-    def _learn(self, source: str, work: Callable[[Listener], Learned]) -> None:
-        def named(tell: Tell) -> tuple[str, Learned]:
-            return source, work(lambda what, share: tell(what, share, None))
+    def _train(self, source: str, work: Callable[[ProgressListener], TrainedInverses]) -> None:
+        def train(report: ReportProgress) -> tuple[str, TrainedInverses]:
+            return source, work(lambda message, share: report(message, share, None))
 
-        self.controls.tell(tr("Training …"), 0.0)
-        self.job.start(named)
+        self.controls.show_progress(tr("Training …"), 0.0)
+        self.job.start(train)
 
-    def _told(self, what: str, share: float, _news: object) -> None:
-        self.controls.tell(spoken(what), share)
+    def _on_progress(self, message: str, share: float, _report: object) -> None:
+        self.controls.show_progress(translate_message(message), share)
 
-    def _finished(self, answer: tuple[str, Learned]) -> None:
-        self.controls.tell("", None)
+    def _on_finished(self, answer: tuple[str, TrainedInverses]) -> None:
+        self.controls.show_progress("", None)
         self.workbench.settled.emit(self)
-        self._source, learned = answer
-        self._take(learned)
+        self._source, inverses = answer
+        self._use_inverses(inverses)
 
-    def _failed(self, message: str) -> None:
-        self.controls.tell(tr("Failed; nothing was replaced."), None)
+    def _on_failed(self, message: str) -> None:
+        self.controls.show_progress(tr("Failed; nothing was replaced."), None)
         text = tr("Compensation: {message}")
         self.workbench.notify(Level.ERROR, text.format(message=message), about=self, subject=self)
 
-    def _take(self, learned: Learned) -> None:
-        self.learned = learned
-        kinds = self.controls.kind
-        kinds.clear()
-        for kind in learned.trained.models:
-            name = kind_name(kind)
-            if kind == learned.trained.chosen:
+    def _use_inverses(self, inverses: TrainedInverses) -> None:
+        self.inverses = inverses
+        kind_choice = self.controls.kind
+        kind_choice.clear()
+        for kind in inverses.trained.models:
+            name = describe_kind(kind)
+            if kind == inverses.trained.recommended_kind:
                 name = tr("{inverse} (recommended)").format(inverse=name)
-            kinds.addItem(name, kind)
-        kinds.setCurrentIndex(kinds.findData(learned.trained.chosen))
-        self.controls.axis.setCurrentIndex(self.controls.axis.findData(learned.axis))
-        self.check.show_learned(learned)
-        self.news.mark(CHECK)
+            kind_choice.addItem(name, kind)
+        kind_choice.setCurrentIndex(kind_choice.findData(inverses.trained.recommended_kind))
+        self.controls.axis.setCurrentIndex(self.controls.axis.findData(inverses.axis))
+        self.check.show_inverses(inverses)
+        self.news.mark(CHECK_TAB)
 
     def _refresh(self, state: SessionState) -> None:
         controls, axis = self.controls, self.controls.chosen
         no_axis = None if axis else tr("the robot has no piezo in open loop")
         running = self.job.running or self.search.running
         busy = tr("work is in progress; stop it or wait") if running else no_axis
-        record = None if self.workbench.record is not None else tr("there is no record")
-        none = None if self.learned is not None else tr(NOTHING)
-        other = self._other(axis)
-        point = None if self.search.tuning is not None else tr(NO_FRONT)
-        self.actuation.refresh(state, other)
-        allow(
+        no_record = None if self.workbench.record is not None else tr("there is no record")
+        nothing_to_save = None if self.inverses is not None else tr(NO_INVERSE)
+        no_inverse_reason = self._find_inverse_objection(axis)
+        no_point = None if self.search.tuning is not None else tr(NO_FRONT)
+        self.actions_on_machine.refresh(state, no_inverse_reason)
+        enable_unless(
             controls.simulate, busy, tr("Train with a motion of the simulated axis over its range")
         )
-        allow(controls.record, busy or record, tr("Train with the last record"))
-        allow(controls.files, busy, tr("Train with records that have cmd and meas or ref"))
-        allow(controls.open, busy, tr("Load inverses from a file"))
-        allow(controls.save, none, tr("Save these inverses to a file"))
-        allow(controls.tune, busy, tr("Search gains of a PID loop at 5 kHz on the simulated axis"))
-        allow(controls.forward, other, tr("Feed the reference forward through the current inverse"))
-        allow(controls.keep, busy or point, tr("Save the front with the selected point"))
-        allow(controls.open_gains, busy, tr("Load gains from a file that rotemina tune wrote"))
-        working = running or state.activity is DeviceState.PLAYING
-        allow(controls.stop, None if working else tr("nothing is running"), tr("Stop the work"))
+        enable_unless(controls.record, busy or no_record, tr("Train with the last record"))
+        enable_unless(controls.files, busy, tr("Train with records that have cmd and meas or ref"))
+        enable_unless(controls.open, busy, tr("Load inverses from a file"))
+        enable_unless(controls.save, nothing_to_save, tr("Save these inverses to a file"))
+        enable_unless(
+            controls.tune, busy, tr("Search gains of a PID loop at 5 kHz on the simulated axis")
+        )
+        enable_unless(
+            controls.forward,
+            no_inverse_reason,
+            tr("Feed the reference forward through the current inverse"),
+        )
+        enable_unless(controls.keep, busy or no_point, tr("Save the front with the selected point"))
+        enable_unless(
+            controls.open_gains, busy, tr("Load gains from a file that rotemina tune wrote")
+        )
+        can_stop = running or state.activity is DeviceState.PLAYING
+        enable_unless(
+            controls.stop, None if can_stop else tr("nothing is running"), tr("Stop the work")
+        )
 
-    def _other(self, axis: str) -> str | None:
-        """Return why the inverse in hand is none for an axis; None if it is one."""
-        if self.learned is None:
-            return tr(NOTHING)
-        mine = self.learned.axis
-        if mine == axis:
+    def _find_inverse_objection(self, axis: str) -> str | None:
+        if self.inverses is None:
+            return tr(NO_INVERSE)
+        trained_axis = self.inverses.axis
+        if trained_axis == axis:
             return None
-        return tr("the current inverse belongs to axis {axis}").format(axis=mine)
+        return tr("the current inverse belongs to axis {axis}").format(axis=trained_axis)
 
     def _connect(self) -> None:
         controls = self.controls
         for button, action in (
-            (controls.simulate, self.learn_simulated),
-            (controls.record, self.learn_record),
-            (controls.switch, lambda: self.actuation.switch(self.learned, self._source)),
-            (controls.apply, lambda: self.actuation.apply(self.search.tuning, self.search.name)),
-            (controls.sweep, self.actuation.sweep),
-            (controls.trial, self.try_it),
+            (controls.simulate, self.train_in_simulation),
+            (controls.record, self.train_from_record),
+            (controls.switch, lambda: self.actions_on_machine.switch(self.inverses, self._source)),
+            (
+                controls.apply,
+                lambda: self.actions_on_machine.apply(self.search.tuning, self.search.name),
+            ),
+            (controls.sweep, self.actions_on_machine.sweep),
+            (controls.trial, self.play_trial),
             (controls.tune, self.tune),
             (controls.stop, self.stop),
         ):
@@ -247,52 +275,53 @@ class CompensationPanel(Panel):
         controls.axis.currentIndexChanged.connect(lambda _: self._change_axis())
         controls.files.clicked.connect(self._ask_records)
         controls.open.clicked.connect(self._ask_inverses)
-        controls.save.clicked.connect(self._ask_where_inverses)
-        controls.keep.clicked.connect(self._ask_where_gains)
+        controls.save.clicked.connect(self._ask_save_inverses)
+        controls.keep.clicked.connect(self._ask_save_gains)
         controls.open_gains.clicked.connect(self._ask_gains)
-        self.job.told.connect(self._told)
-        self.job.finished.connect(self._finished)
-        self.job.failed.connect(self._failed)
-        self.search.failed.connect(self._failed)
-        self._happened.connect(self.actuation.on_event)
-        self._unsubscribe = self.workbench.session.subscribe(self._happened.emit)
+        self.job.progressed.connect(self._on_progress)
+        self.job.finished.connect(self._on_finished)
+        self.job.failed.connect(self._on_failed)
+        self.search.failed.connect(self._on_failed)
+        self._event_received.connect(self.actions_on_machine.on_event)
+        self._unsubscribe = self.workbench.session.subscribe(self._event_received.emit)
         self.follow(self._refresh)
         self.workbench.theme_changed.connect(self._use_theme)
         self.workbench.closing.connect(self._close)
 
     def _ask_records(self) -> None:
-        title, kinds = tr("Records"), tr(RECORDS)
-        ask_files(self, self.workbench, title, kinds, self.learn_files)
+        title, file_filter = tr("Records"), tr(RECORD_FILTER)
+        ask_files(self, self.workbench, title, file_filter, self.train_from_files)
 
     def _ask_inverses(self) -> None:
-        title, kinds = tr("Inverses"), tr(INVERSES)
-        ask_file(self, self.workbench, title, kinds, self.open_file)
+        title, file_filter = tr("Inverses"), tr(INVERSE_FILTER)
+        ask_file(self, self.workbench, title, file_filter, self.open_file)
 
-    def _ask_where_inverses(self) -> None:
+    def _ask_save_inverses(self) -> None:
         title = tr("Save inverses")
-        ask_where(self, self.workbench, title, tr(INVERSES), "inverses.json", self.save_file)
+        ask_save_path(
+            self, self.workbench, title, tr(INVERSE_FILTER), "inverses.json", self.save_file
+        )
 
     def _ask_gains(self) -> None:
-        title, kinds = tr("Gains"), tr(TUNINGS)
-        ask_file(self, self.workbench, title, kinds, self.search.open)
+        title, file_filter = tr("Gains"), tr(TUNING_FILTER)
+        ask_file(self, self.workbench, title, file_filter, self.search.open)
 
-    def _ask_where_gains(self) -> None:
-        title, kinds = tr("Save gains"), tr(TUNINGS)
-        ask_where(self, self.workbench, title, kinds, "gains.toml", self.search.keep)
+    def _ask_save_gains(self) -> None:
+        title, file_filter = tr("Save gains"), tr(TUNING_FILTER)
+        ask_save_path(self, self.workbench, title, file_filter, "gains.toml", self.search.save)
 
     def _change_axis(self) -> None:
-        """Forget the trials of another axis; what is drawn of none yet has this one's unit."""
-        self.actuation.forget()
+        self.actions_on_machine.forget_trials()
         axis = self.controls.chosen
         unit = (self.workbench.robot.unit(axis) if axis else None) or "m"
         self.live.set_unit(unit)
-        if self.learned is None:
+        if self.inverses is None:
             self.check.set_unit(unit)
         tuning = self.search.tuning
         if tuning is None:
             self.front.set_unit(unit)
-        shown = tuning.best.gains if tuning is not None and tuning.axis == axis else None
-        self.controls.typed.show_gains(axis, shown)
+        gains = tuning.chosen_point.gains if tuning is not None and tuning.axis == axis else None
+        self.controls.typed.show_gains(axis, gains)
 
     def _use_theme(self, theme: Theme) -> None:
         for view in (self.check, self.live, self.front):

@@ -1,4 +1,4 @@
-"""Plots of the panel: loops, the front of a search, and responses of a loop."""
+"""Plots of hysteresis loops, of the Pareto front of a search, and of closed-loop responses."""
 
 from html import escape
 
@@ -8,42 +8,59 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QLabel, QWidget
 
-from rotemina.app.shell.plot import Line, SignalPlot
-from rotemina.app.shell.theme import Theme
-from rotemina.app.widgets.labels import legend, plain_text
-from rotemina.app.widgets.layouts import in_column, in_row
-from rotemina.app.widgets.table import Table
+from rotemina.app.widgets.drawing import LineStyle, SignalPlot
+from rotemina.app.widgets.layout import make_column, make_row
+from rotemina.app.widgets.style import Theme
+from rotemina.app.widgets.text import TextTable, make_colour_legend, make_plain_label
 from rotemina.plugins.compensation import mark, tr
-from rotemina.plugins.compensation.inverse_training import Learned
-from rotemina.plugins.compensation.trial_motion import Aid, Trial
-from rotemina.plugins.compensation.words import HEAD, NOTHING, judged, reasons
+from rotemina.plugins.compensation.inverse_training import TrainedInverses
+from rotemina.plugins.compensation.trial_motion import CompensationMode, CompensationTrial
+from rotemina.plugins.compensation.words import (
+    INVERSE_HEADINGS,
+    NO_INVERSE,
+    explain_recommendation,
+    make_residual_rows,
+)
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.tuning.objectives import SecondObjective
-from rotemina.sim.tuning.search import Generation, objectives_of
-from rotemina.sim.tuning.search_problem import Evaluation
-from rotemina.sim.tuning.tuning_result import Tuning
+from rotemina.sim.tuning import (
+    ScenarioEvaluation,
+    SearchGeneration,
+    SecondObjective,
+    TuningResult,
+    compute_objectives,
+)
 
-# Names of curves.
-_POSITION, _WANTED = mark("position"), mark("desired")
-_INVERTED, _FRONT = mark("its inverse"), mark("front")
-_MICRO = 1e6
-_AXIS_WIDTH = 52
-_NEAR_PX = 40.0  # of a click to the point that it means
+_POSITION_CURVE, _DESIRED_CURVE = mark("position"), mark("desired")
+_INVERSE_CURVE, _FRONT_CURVE = mark("inverse model"), mark("front")
+_MICRO_PER_SI = 1e6
+_AXIS_WIDTH_PX = 52
+
+# A click chooses the nearest point within this distance.
+_MAX_CLICK_DISTANCE_PX = 40.0
 
 
-class _Plot(SignalPlot):
-    """A plot of loops."""
-
+class _FullCurvePlot(SignalPlot):
     def draw(self, name: str, x: FloatArray, y: FloatArray) -> None:
-        """Draw a curve (n,) as it is: thinning by its highest and lowest would tear a loop."""
+        """Draw a curve without downsampling, which would break up a loop.
+
+        ``x`` and ``y`` have shape (n,).
+        """
         self._draw(name, x, y)
         self.autoRange(padding=0.04)
 
 
-class Curves(QWidget):
-    """A title with the names of curves in their colours, above a plot of them.
+class CurvePlot(QWidget):
+    """Plot with a title and a colour legend above it.
 
-    Titles and names are marked texts, translated here; a title may hold ``{unit}``.
+    Parameters
+    ----------
+    theme : Theme
+    title : str
+        May contain ``{unit}``. Titles and names are marked texts, which are translated here.
+    roles : mapping of str to str
+        Colour role of each curve, by the name of the curve.
+    bottom : str
+        Title of the horizontal axis. May contain ``{unit}``.
     """
 
     def __init__(self, theme: Theme, title: str, roles: dict[str, str], bottom: str) -> None:
@@ -52,80 +69,84 @@ class Curves(QWidget):
         self._theme, self._unit = theme, ""
         self.title = QLabel()
         self.title.setTextFormat(Qt.TextFormat.RichText)
-        self.title.setWordWrap(True)  # so that the window may be narrow
-        self.plot = _Plot(theme)
+        # The title must not limit how narrow the window can be.
+        self.title.setWordWrap(True)
+        self.plot = _FullCurvePlot(theme)
         self.plot.setMinimumSize(130, 110)
         item = self.plot.getPlotItem()
-        item.getAxis("left").setWidth(_AXIS_WIDTH)
+        item.getAxis("left").setWidth(_AXIS_WIDTH_PX)
         for name, role in roles.items():
-            self.plot.add_curve(name, Line(role))
-        in_column(self.title, (self.plot, 1), on=self, margins=0, spacing=2)
-        self._write()
+            self.plot.add_curve(name, LineStyle(role))
+        make_column(self.title, (self.plot, 1), on=self, margins=0, spacing=2)
+        self._write_titles()
 
     def draw(self, name: str, x: FloatArray, y: FloatArray) -> None:
-        """Draw a curve (n,)."""
+        """Draw the curve ``name``. ``x`` and ``y`` have shape (n,)."""
         self.plot.draw(name, x, y)
 
     def clear(self) -> None:
-        """Draw nothing."""
+        """Clear all curves."""
         for name in self._roles:
             self.plot.clear_signal(name)
 
     def set_unit(self, unit: str) -> None:
-        """Name the unit, "m" or "rad", of what is drawn in millionths of it."""
+        """Set the SI unit, "m" or "rad". Titles show µm or µrad, in which curves must be drawn."""
         self._unit = unit
-        self._write()
+        self._write_titles()
 
     def set_theme(self, theme: Theme) -> None:
         """Change all colours."""
         self._theme = theme
         self.plot.set_theme(theme)
-        self._write()
+        self._write_titles()
 
-    def _write(self) -> None:
-        """Write the names of axes and curves."""
+    def _write_titles(self) -> None:
         title, bottom = (
             tr(text).format(unit=f"µ{self._unit}") for text in (self._title, self._bottom)
         )
         self.plot.getPlotItem().setLabel("bottom", bottom)
-        shown = ((tr(name), role) for name, role in self._roles.items())
-        self.title.setText(f"{escape(title)}: {legend(self._theme, shown)}")
+        names_and_roles = ((tr(name), role) for name, role in self._roles.items())
+        self.title.setText(f"{escape(title)}: {make_colour_legend(self._theme, names_and_roles)}")
 
 
 class CheckView(QWidget):
-    """All kinds side by side on unseen rows, the reason, and the loop."""
+    """Residuals of all inverses in the validation, and the loop of the recommended one."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
-        self.table = Table(
+        self.table = TextTable(
             tr("Residual of each inverse on validation rows"),
-            [tr(text) for text in HEAD],
-            choose=False,
+            [tr(text) for text in INVERSE_HEADINGS],
+            selectable=False,
         )
-        self.why = plain_text(tr(NOTHING), quiet=False, wrap=True)
-        roles = {_POSITION: "quiet", _INVERTED: "accent"}
-        self.loop = Curves(
+        self.why = make_plain_label(tr(NO_INVERSE), quiet=False, wrap=True)
+        roles = {_POSITION_CURVE: "quiet", _INVERSE_CURVE: "accent"}
+        self.loop = CurvePlot(
             theme,
-            mark("Validation rows, over the command [{unit}]"),
+            mark("Validation data against the command [{unit}]"),
             roles,
             mark("command [{unit}]"),
         )
-        in_row((in_column((self.table, 1), self.why), 3), (self.loop, 2), on=self, margins=0)
+        make_row((make_column((self.table, 1), self.why), 3), (self.loop, 2), on=self, margins=0)
 
     def set_unit(self, unit: str) -> None:
-        """Name the unit, "m" or "rad", of what will be drawn."""
+        """Set the SI unit of the curves, "m" or "rad"."""
         self.loop.set_unit(unit)
 
-    def show_learned(self, learned: Learned) -> None:
-        """Show the figures of inverses, and the loop of the recommended one."""
-        self.table.show_rows(judged(learned.trained))
-        self.why.setText(reasons(learned.trained))
+    def show_inverses(self, inverses: TrainedInverses) -> None:
+        """Show the figures of all inverses, and the loop of the recommended one."""
+        self.table.show_rows(make_residual_rows(inverses.trained))
+        self.why.setText(explain_recommendation(inverses.trained))
         self.loop.clear()
-        self.loop.set_unit(next(iter(learned.trained.models.values())).unit)
-        loop = learned.loops.get(learned.trained.chosen)
+        self.loop.set_unit(next(iter(inverses.trained.models.values())).unit)
+        loop = inverses.loops.get(inverses.trained.recommended_kind)
         if loop is not None:
-            self.loop.draw(_POSITION, _MICRO * loop.command, _MICRO * loop.position)
-            self.loop.draw(_INVERTED, _MICRO * loop.command, _MICRO * loop.inverted)
+            self.loop.draw(
+                _POSITION_CURVE, _MICRO_PER_SI * loop.command, _MICRO_PER_SI * loop.position
+            )
+            self.loop.draw(
+                _INVERSE_CURVE, _MICRO_PER_SI * loop.command, _MICRO_PER_SI * loop.inverted
+            )
 
     def set_theme(self, theme: Theme) -> None:
         """Change all colours."""
@@ -133,53 +154,53 @@ class CheckView(QWidget):
 
 
 class LiveView(QWidget):
-    """The loops of the trial motion without help, with the inverse, with feedback, with both."""
+    """Trials without compensation, with the inverse, with feedback, and with both."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
-        names = zip(Aid, ("quiet", "accent", "warning", "good"), strict=True)
-        roles = {one.value: role for one, role in names}
-        self.loop = Curves(
-            theme, mark("Reading over reference [{unit}]"), roles, mark("reference [{unit}]")
+        modes_and_roles = zip(CompensationMode, ("quiet", "accent", "warning", "good"), strict=True)
+        roles = {mode.value: role for mode, role in modes_and_roles}
+        self.loop = CurvePlot(
+            theme, mark("Reading against reference [{unit}]"), roles, mark("reference [{unit}]")
         )
-        self.left = Curves(
+        self.error = CurvePlot(
             theme,
             mark("Reading − reference, mean removed [{unit}]"),
             roles,
             mark("reference [{unit}]"),
         )
-        in_row((self.loop, 1), (self.left, 1), on=self, margins=0)
+        make_row((self.loop, 1), (self.error, 1), on=self, margins=0)
 
     def set_unit(self, unit: str) -> None:
-        """Name the unit, "m" or "rad", of what will be drawn."""
+        """Set the SI unit of the curves, "m" or "rad"."""
         self.loop.set_unit(unit)
-        self.left.set_unit(unit)
+        self.error.set_unit(unit)
 
-    def show_trial(self, trial: Trial, unit: str) -> None:
-        """Draw a trial beside the other one."""
+    def show_trial(self, trial: CompensationTrial, unit: str) -> None:
+        """Draw a trial. The curves of other modes stay."""
         self.set_unit(unit)
-        name = trial.by.value
-        wanted, left = _MICRO * trial.wanted, trial.position - trial.wanted
-        self.loop.draw(name, wanted, _MICRO * trial.position)
-        self.left.draw(name, wanted, _MICRO * (left - left.mean()))
+        name = trial.mode.value
+        reference, error = _MICRO_PER_SI * trial.reference, trial.position - trial.reference
+        self.loop.draw(name, reference, _MICRO_PER_SI * trial.position)
+        self.error.draw(name, reference, _MICRO_PER_SI * (error - error.mean()))
 
     def clear(self) -> None:
-        """Draw nothing."""
+        """Clear all curves."""
         self.loop.clear()
-        self.left.clear()
+        self.error.clear()
 
     def set_theme(self, theme: Theme) -> None:
         """Change all colours."""
         self.loop.set_theme(theme)
-        self.left.set_theme(theme)
+        self.error.set_theme(theme)
 
 
-class FrontView(QWidget):
-    """The front as it evolves, and step and triangle of the point that was clicked.
+class ParetoFrontView(QWidget):
+    """View of the Pareto front, and of the responses of the point that was clicked.
 
     Signals
     -------
-    picked(int) : the number of a point.
+    picked(int) : index of the point that was clicked.
     """
 
     picked = Signal(int)
@@ -187,77 +208,94 @@ class FrontView(QWidget):
     def __init__(self, theme: Theme) -> None:
         super().__init__()
         self._front: FloatArray = np.zeros((0, 2))
-        self._marked: int | None = None
-        roles = {_FRONT: "accent"}
-        self.front = Curves(
-            theme, mark("Effort [ranges/s] over tracking [%]"), roles, mark("tracking rms [%]")
+        roles = {_FRONT_CURVE: "accent"}
+        self.front = CurvePlot(
+            theme,
+            mark("Control effort [ranges/s] against tracking error [%]"),
+            roles,
+            mark("rms tracking error [%]"),
         )
         self._dots = pg.ScatterPlotItem(size=8, pen=None)
-        self._mark = pg.ScatterPlotItem(size=14, brush=None)
+        self._selection_marker = pg.ScatterPlotItem(size=14, brush=None)
         self.front.plot.addItem(self._dots)
-        self.front.plot.addItem(self._mark)
-        self.front.plot.setToolTip(tr("Click a point to simulate its step and triangle"))
+        self.front.plot.addItem(self._selection_marker)
+        self.front.plot.setToolTip(tr("Click a point to simulate its step and triangle responses"))
         self.front.plot.setAccessibleName(tr("Pareto front"))
-        self.front.plot.scene().sigMouseClicked.connect(self._clicked)
-        tries = {_WANTED: "quiet", _POSITION: "accent"}
-        self.step = Curves(theme, mark("Step [{unit}]"), tries, mark("time [ms]"))
-        self.triangle = Curves(theme, mark("Triangle [{unit}]"), tries, mark("time [ms]"))
-        in_row((self.front, 1), (self.step, 1), (self.triangle, 1), on=self, margins=0)
+        self.front.plot.scene().sigMouseClicked.connect(self._on_click)
+        response_roles = {_DESIRED_CURVE: "quiet", _POSITION_CURVE: "accent"}
+        self.step = CurvePlot(theme, mark("Step [{unit}]"), response_roles, mark("time [ms]"))
+        self.triangle = CurvePlot(
+            theme, mark("Triangle [{unit}]"), response_roles, mark("time [ms]")
+        )
+        make_row((self.front, 1), (self.step, 1), (self.triangle, 1), on=self, margins=0)
         self.set_theme(theme)
 
     def set_unit(self, unit: str) -> None:
-        """Name the unit, "m" or "rad", of what will be drawn."""
+        """Set the SI unit of the curves, "m" or "rad"."""
         self.step.set_unit(unit)
         self.triangle.set_unit(unit)
 
-    def show_generation(self, found: Generation, against: SecondObjective) -> None:
-        """Draw the front of a search that continues."""
-        points = [objectives_of(one.figures, against) for one in found.front]
-        self._draw(np.array(points).reshape(-1, 2))
-        self._mark.setData([], [])
+    def show_generation(
+        self, generation: SearchGeneration, second_objective: SecondObjective
+    ) -> None:
+        """Draw the front of a running search."""
+        points = [compute_objectives(point.figures, second_objective) for point in generation.front]
+        self._draw_front(np.array(points).reshape(-1, 2))
+        self._selection_marker.setData([], [])
 
-    def show_tuning(self, tuning: Tuning) -> None:
-        """Draw a result."""
-        against = tuning.provenance.against
-        self._draw(np.array([objectives_of(one.figures, against) for one in tuning.points]))
+    def show_tuning(self, tuning: TuningResult) -> None:
+        """Draw the front of a finished search."""
+        second_objective = tuning.provenance.against
+        self._draw_front(
+            np.array(
+                [compute_objectives(point.figures, second_objective) for point in tuning.points]
+            )
+        )
 
-    def mark(self, number: int) -> None:
-        """Mark a point."""
-        x, y = self._front[number]
-        self._mark.setData([100.0 * x], [y])
+    def clear_front(self) -> None:
+        """Remove the front and the mark of the selected point."""
+        self._draw_front(np.zeros((0, 2)))
+        self._selection_marker.setData([], [])
 
-    def show_tries(self, step: Evaluation, triangle: Evaluation, unit: str) -> None:
-        """Draw how the loop answers."""
+    def highlight_point(self, index: int) -> None:
+        """Mark the selected point."""
+        x, y = self._front[index]
+        self._selection_marker.setData([100.0 * x], [y])
+
+    def show_responses(
+        self, step: ScenarioEvaluation, triangle: ScenarioEvaluation, unit: str
+    ) -> None:
+        """Draw the closed-loop responses to a step and a triangle."""
         self.set_unit(unit)
-        for view, one in ((self.step, step), (self.triangle, triangle)):
-            time_ms = 1e3 * one.traces.time_s
-            view.draw(_WANTED, time_ms, _MICRO * one.traces.reference)
-            view.draw(_POSITION, time_ms, _MICRO * one.traces.position)
+        for view, evaluation in ((self.step, step), (self.triangle, triangle)):
+            time_ms = 1e3 * evaluation.traces.time_s
+            view.draw(_DESIRED_CURVE, time_ms, _MICRO_PER_SI * evaluation.traces.reference)
+            view.draw(_POSITION_CURVE, time_ms, _MICRO_PER_SI * evaluation.traces.position)
 
-    def nearest(self, x: float, y: float) -> int | None:
-        """Return the number of the point next to a place of the plot; None: none is near."""
+    def find_nearest(self, x: float, y: float) -> int | None:
+        """Return the index of the point nearest to (x, y) in the plot, or None if none is close."""
         if not len(self._front):
             return None
         size = self.front.plot.getViewBox().viewPixelSize()
-        apart = (self._front * (100.0, 1.0) - (x, y)) / size
-        distance = np.hypot(*apart.T)
-        number = int(np.argmin(distance))
-        return number if distance[number] <= _NEAR_PX else None
+        offset_px = (self._front * (100.0, 1.0) - (x, y)) / size
+        distance = np.hypot(*offset_px.T)
+        index = int(np.argmin(distance))
+        return index if distance[index] <= _MAX_CLICK_DISTANCE_PX else None
 
     def set_theme(self, theme: Theme) -> None:
         """Change all colours."""
         for view in (self.front, self.step, self.triangle):
             view.set_theme(theme)
         self._dots.setBrush(QColor(theme.accent))
-        self._mark.setPen(pg.mkPen(QColor(theme.text), width=2))
+        self._selection_marker.setPen(pg.mkPen(QColor(theme.text), width=2))
 
-    def _draw(self, front: FloatArray) -> None:
+    def _draw_front(self, front: FloatArray) -> None:
         self._front = front
         self._dots.setData(100.0 * front[:, 0], front[:, 1])
-        self.front.draw(_FRONT, 100.0 * front[:, 0], front[:, 1])
+        self.front.draw(_FRONT_CURVE, 100.0 * front[:, 0], front[:, 1])
 
-    def _clicked(self, event: "pg.GraphicsScene.mouseEvents.MouseClickEvent") -> None:
-        place = self.front.plot.getViewBox().mapSceneToView(event.scenePos())
-        number = self.nearest(place.x(), place.y())
-        if number is not None:
-            self.picked.emit(number)
+    def _on_click(self, event: "pg.GraphicsScene.mouseEvents.MouseClickEvent") -> None:
+        position = self.front.plot.getViewBox().mapSceneToView(event.scenePos())
+        index = self.find_nearest(position.x(), position.y())
+        if index is not None:
+            self.picked.emit(index)

@@ -1,4 +1,4 @@
-"""The motion that tests compensation, and its remaining error; free of widgets."""
+"""Trial motion that shows the remaining error of the compensation, without widgets."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -7,17 +7,21 @@ import numpy as np
 
 from rotemina.plugins.compensation import mark
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.model import Robot
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot import Robot
 
-NAME = "compensation trial"
-_RATE_HZ, _WHOLE_S, _HZ = 500.0, 6.0, 1.0
-_SWING, _FADED = 0.3, 0.75  # of the range: the first swing; how much less the last one is
+TRIAL_NAME = "compensation trial"
+_RATE_HZ, _DURATION_S, _OSCILLATION_HZ = 500.0, 6.0, 1.0
+
+# Amplitude of the first oscillation relative to the range, and its relative decrease by the end.
+_FIRST_AMPLITUDE_RATIO, _DECAY_RATIO = 0.3, 0.75
+
+# The oscillations grow during the onset. The evaluation skips the first part of the trial.
 _ONSET_S, _SKIPPED_S = 1.0, 2.0
 
 
-class Aid(StrEnum):
-    """What helped the axis on a trial."""
+class CompensationMode(StrEnum):
+    """Compensation that was active during a trial."""
 
     NONE = mark("without")
     INVERSE = mark("with the inverse")
@@ -25,54 +29,58 @@ class Aid(StrEnum):
     BOTH = mark("with both")
 
     @classmethod
-    def of(cls, *, inverse: bool, loop: bool) -> "Aid":
-        """Return it for what was on."""
+    def from_flags(cls, *, inverse: bool, loop: bool) -> "CompensationMode":
+        """Return the mode for an active inverse and an active loop."""
         if inverse:
             return cls.BOTH if loop else cls.INVERSE
         return cls.LOOP if loop else cls.NONE
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Trial:
-    """What one play of the motion left, SI: rms about the mean, the mean, and the loop (n,)."""
+class CompensationTrial:
+    """Result of one trial in SI units.
 
-    by: Aid
+    ``rms`` is the rms of the error about its mean, ``offset`` the mean of the error. ``reference``
+    and ``position`` have shape (n,).
+    """
+
+    mode: CompensationMode
     rms: float
     offset: float
-    wanted: FloatArray
+    reference: FloatArray
     position: FloatArray
 
 
-def trial_motion(robot: Robot, axis: str) -> Record:
-    """Return swings about mid-range that grow at first and fade then."""
-    described = robot.axes[axis]
-    time_s = np.arange(round(_WHOLE_S * _RATE_HZ)) / _RATE_HZ
-    onset = np.minimum(time_s / _ONSET_S, 1.0)
-    onset = onset**3 * (10.0 - 15.0 * onset + 6.0 * onset**2)
-    swing = _SWING * (1.0 - _FADED * time_s / _WHOLE_S) * onset
-    shares = 0.5 + swing * np.sin(2.0 * np.pi * _HZ * time_s)
-    path = described.range[0] + described.span * shares
+def make_trial_motion(robot: Robot, axis: str) -> Record:
+    """Return oscillations about mid-range. They grow during the onset and then decay."""
+    axis_model = robot.axes[axis]
+    time_s = np.arange(round(_DURATION_S * _RATE_HZ)) / _RATE_HZ
+    onset_time = np.minimum(time_s / _ONSET_S, 1.0)
+    onset = onset_time**3 * (10.0 - 15.0 * onset_time + 6.0 * onset_time**2)
+    amplitude = _FIRST_AMPLITUDE_RATIO * (1.0 - _DECAY_RATIO * time_s / _DURATION_S) * onset
+    relative_position = 0.5 + amplitude * np.sin(2.0 * np.pi * _OSCILLATION_HZ * time_s)
+    command = axis_model.range[0] + axis_model.span * relative_position
     units = {axis: robot.unit(axis) or "m"}
-    return Record.from_signals(time_s, {(axis, Tap.CMD): path}, units, {"name": NAME})
+    return Record.from_signals(time_s, {(axis, Tap.CMD): command}, units, {"name": TRIAL_NAME})
 
 
-def trial_of(record: Record, axis: str) -> Trial | None:
-    """Return the result of a recorded trial of an axis; None if incomplete."""
-    if record.metadata.get("trajectory") != NAME or not record.has(axis, Tap.MEAS):
+def evaluate_trial(record: Record, axis: str) -> CompensationTrial | None:
+    """Return the result of a trial of an axis, or None if the record is not of a trial."""
+    if record.metadata.get("trajectory") != TRIAL_NAME or not record.has(axis, Tap.MEAS):
         return None
-    since = record.time_s >= record.time_s[0] + _SKIPPED_S
-    if not since.any():
+    rows = record.time_s >= record.time_s[0] + _SKIPPED_S
+    if not rows.any():
         return None
-    wanted = record.signal(axis, Tap.CMD)[since]
-    position = record.signal(axis, Tap.MEAS)[since]
-    left = position - wanted
-    return Trial(
-        Aid.of(
+    reference = record.signal(axis, Tap.CMD)[rows]
+    position = record.signal(axis, Tap.MEAS)[rows]
+    error = position - reference
+    return CompensationTrial(
+        CompensationMode.from_flags(
             inverse=f"compensation {axis}" in record.metadata,
             loop=f"feedback {axis}" in record.metadata,
         ),
-        float(np.std(left)),
-        float(np.mean(left)),
-        wanted,
+        float(np.std(error)),
+        float(np.mean(error)),
+        reference,
         position,
     )

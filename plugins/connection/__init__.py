@@ -1,5 +1,13 @@
-"""Device, its settings, conditions for motion."""
+"""The Connection panel: the device, its settings, and the conditions for motion.
 
-from rotemina.app.shell.language import texts_of
+Each section of the panel is one module. The folder exports the reasons why homing and similar
+actions are unavailable, which other panels show as well.
+"""
 
-tr, mark = texts_of("connection")
+import lazy_loader
+
+from rotemina.app.language import make_text_functions
+
+tr, mark = make_text_functions("connection")
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -1,68 +1,77 @@
-"""Positions of the axes: homing, the way back, and owners."""
+"""Section with buttons for homing and for the return to the previous position.
+
+It also shows who moves which axis.
+"""
 
 from PySide6.QtWidgets import QHBoxLayout, QPushButton
 
-from rotemina.app.display_units import label
+from rotemina.app.language import get_axis_label
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.state_words import describe_motion
-from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.controls import allow, button
-from rotemina.app.widgets.section import Section
-from rotemina.drivers.abilities import Homer
+from rotemina.app.widgets.controls import enable_unless, make_button
+from rotemina.app.widgets.layout import Section
+from rotemina.app.workbench import Workbench, describe_motion
+from rotemina.drivers.abilities import AxisHomer
 from rotemina.plugins.connection import tr, unavailable_reasons
 
 
-class PositionSection(Section):
-    """Homing of all axes or of one, and taking back a move."""
+class HomingSection(Section):
+    """Section that homes all axes or one axis, and undoes the latest move."""
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(tr("Position"))
         self._workbench = workbench
         self.text = self.add_text()
-        self.home_all = button(tr("Home all"), workbench.home)
-        self.home: dict[str, QPushButton] = {}
-        self._axes: QHBoxLayout = self.add_row(self.home_all)
-        self.back = button(tr("Back"), workbench.undo)
+        self.home_all = make_button(tr("Home all"), workbench.home)
+        self.home_buttons: dict[str, QPushButton] = {}
+        self._button_row: QHBoxLayout = self.add_row(self.home_all)
+        self.back = make_button(tr("Back"), workbench.undo)
         self.add_row(self.back)
         self.owners = self.add_text()
 
     def refresh(self, state: SessionState) -> None:
-        """Show a state."""
+        """Show the state of the session."""
         driver = self._workbench.session.driver
-        self._offer(driver.homing_axes if isinstance(driver, Homer) else ())
-        self.text.setText(_known(state))
-        why = unavailable_reasons.against_homing(state, driver)
-        allow(self.home_all, why, tr("Find the limit switches of all axes with switches"))
-        for axis, one in self.home.items():
-            allow(one, why, tr("Find the limit switch of {label}").format(label=label(axis)))
-        allow(
+        self._show_home_buttons(driver.homing_axes if isinstance(driver, AxisHomer) else ())
+        self.text.setText(_describe_homing(state))
+        homing_objection = unavailable_reasons.find_homing_objection(state, driver)
+        enable_unless(
+            self.home_all, homing_objection, tr("Find the limit switches of all axes with switches")
+        )
+        for axis, home_button in self.home_buttons.items():
+            enable_unless(
+                home_button,
+                homing_objection,
+                tr("Find the limit switch of {label}").format(label=get_axis_label(axis)),
+            )
+        enable_unless(
             self.back,
-            unavailable_reasons.against_going_back(
-                state, undoable=self._workbench.session.undoable
+            unavailable_reasons.find_undo_objection(
+                state, undoable=self._workbench.session.can_undo
             ),
             tr("Return to the position before the latest move: up, across, down"),
         )
         self.owners.setText(describe_motion(state))
 
-    def _offer(self, axes: tuple[str, ...]) -> None:
-        """Have a button for each axis that has a switch."""
-        if tuple(self.home) == axes:
+    def _show_home_buttons(self, axes: tuple[str, ...]) -> None:
+        if tuple(self.home_buttons) == axes:
             return
-        for old in self.home.values():
-            self._axes.removeWidget(old)
-            old.hide()
-            old.deleteLater()
-        self.home = {axis: self._button(axis) for axis in axes}
-        for one in self.home.values():
-            self._axes.addWidget(one)
+        for old_button in self.home_buttons.values():
+            self._button_row.removeWidget(old_button)
+            old_button.hide()
+            old_button.deleteLater()
+        self.home_buttons = {axis: self._make_home_button(axis) for axis in axes}
+        for home_button in self.home_buttons.values():
+            self._button_row.addWidget(home_button)
 
-    def _button(self, axis: str) -> QPushButton:
-        made = button(label(axis), lambda: self._workbench.home((axis,)))
-        made.setAccessibleName(tr("Home {label}").format(label=label(axis)))
-        return made
+    def _make_home_button(self, axis: str) -> QPushButton:
+        home_button = make_button(get_axis_label(axis), lambda: self._workbench.home((axis,)))
+        home_button.setAccessibleName(tr("Home {label}").format(label=get_axis_label(axis)))
+        return home_button
 
 
-def _known(state: SessionState) -> str:
+def _describe_homing(state: SessionState) -> str:
     if state.unhomed:
-        return tr("Not homed: {axes}").format(axes=", ".join(label(axis) for axis in state.unhomed))
+        return tr("Not homed: {axes}").format(
+            axes=", ".join(get_axis_label(axis) for axis in state.unhomed)
+        )
     return tr("All positions are known.") if state.position_known else tr("No position is known.")

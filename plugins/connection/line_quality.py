@@ -1,13 +1,13 @@
-"""The quality of the line, and the latency of stops."""
+"""Sections with the quality of the communication line, and with the latency of stops."""
 
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.figures import Figures
-from rotemina.app.widgets.section import Section
+from rotemina.app.widgets.layout import Section
+from rotemina.app.widgets.text import ValueGrid
+from rotemina.app.workbench import Workbench
 from rotemina.plugins.connection import mark, tr
-from rotemina.sim.quantities import fixed
+from rotemina.sim.messages import format_fixed
 
-_LINE = (
+_LINE_STATISTICS = (
     mark("Frames sent"),
     mark("Frames received"),
     mark("Rejected"),
@@ -15,27 +15,27 @@ _LINE = (
     mark("Round trip"),
     mark("Load"),
 )
-_STOP = (
+_STOP_STATISTICS = (
     mark("Latest"),
     mark("99.9 % of stops within"),
     mark("Worst"),
     mark("Last stop sent within"),
-    mark("At rest after"),
+    mark("Standstill after the last stop"),
 )
 
 
-class LineSection(Section):
-    """Frames, losses, round trip and load."""
+class LineQualitySection(Section):
+    """Section with the frame counters, round-trip time and load of the line."""
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(tr("Line"))
         self._session = workbench.session
         self.text = self.add_text()
-        self.figures = Figures({tr(name): "" for name in _LINE})
+        self.figures = ValueGrid({tr(name): "" for name in _LINE_STATISTICS})
         self.column.addWidget(self.figures)
 
     def refresh(self, state: SessionState) -> None:
-        """Show a state."""
+        """Show the link statistics of the session."""
         link = state.link
         self.text.setVisible(link is None)
         self.figures.setVisible(link is not None)
@@ -47,31 +47,34 @@ class LineSection(Section):
             f"{link.received}",
             f"{link.rejected}",
             f"{link.repeated}",
-            milliseconds(link.round_trip_s),
-            f"{fixed(100.0 * link.load, 0)} %",
+            format_milliseconds(link.round_trip_s),
+            f"{format_fixed(100.0 * link.load, 0)} %",
         )
 
 
-class StopSection(Section):
-    """How long a stop takes to be out on the line, as of all the time."""
+class StopLatencySection(Section):
+    """Section with the stop latency in this session, and the timing of the last stop.
+
+    The stop latency is the time from the request until the stop is sent to the device.
+    """
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(tr("Stop latency"))
-        self.figures = Figures({tr(name): "" for name in _STOP})
+        self.figures = ValueGrid({tr(name): "" for name in _STOP_STATISTICS})
         self.column.addWidget(self.figures)
 
     def refresh(self, state: SessionState) -> None:
-        """Show a state."""
+        """Show the statistics of the session and the timing of its last stop."""
         latency = state.stop_latency
         self.figures.show_values(
-            milliseconds(latency.latest if latency else None),
-            milliseconds(latency.most if latency else None),
-            milliseconds(latency.worst if latency else None),
-            milliseconds(state.stop_latency_s),
-            milliseconds(state.standstill_s),
+            format_milliseconds(latency.latest if latency else None),
+            format_milliseconds(latency.p99_9_s if latency else None),
+            format_milliseconds(latency.worst if latency else None),
+            format_milliseconds(state.stop_latency_s),
+            format_milliseconds(state.standstill_s),
         )
 
 
-def milliseconds(seconds: float | None) -> str:
-    """Return a short time as text."""
-    return "–" if seconds is None else f"{fixed(1e3 * seconds, 2)} ms"
+def format_milliseconds(seconds: float | None) -> str:
+    """Return a time in seconds as text in milliseconds, or a dash for None."""
+    return "–" if seconds is None else f"{format_fixed(1e3 * seconds, 2)} ms"

@@ -1,27 +1,30 @@
-"""The connected device and its state: everything to settle before motion."""
+"""The Connection panel: the device, and everything that must be in order before motion."""
 
 from PySide6.QtWidgets import QWidget
 
+from rotemina.app.language import marked
 from rotemina.app.motion.state import SessionState
-from rotemina.app.panel import Area, Panel, offer_in_palette
-from rotemina.app.shell.language import marked
-from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.layouts import in_column
-from rotemina.app.widgets.scroll_areas import scrolled
+from rotemina.app.panel import (
+    Panel,
+    PanelArea,
+    offer_in_palette,
+)
+from rotemina.app.widgets.layout import make_column, make_scroll_area
+from rotemina.app.workbench import Workbench
 from rotemina.plugins.connection.driver_choice import DeviceSection
-from rotemina.plugins.connection.homing_section import PositionSection
-from rotemina.plugins.connection.line_quality import LineSection, StopSection
-from rotemina.plugins.connection.parameter_differences import ParameterSection
-from rotemina.plugins.connection.service_voltage import VoltageSection
+from rotemina.plugins.connection.homing_section import HomingSection
+from rotemina.plugins.connection.line_quality import LineQualitySection, StopLatencySection
+from rotemina.plugins.connection.parameter_differences import ParameterDifferencesSection
+from rotemina.plugins.connection.service_voltage import ServiceVoltageSection
 from rotemina.plugins.connection.state_section import StateSection
-from rotemina.plugins.connection.tip_floor import TipSection
+from rotemina.plugins.connection.tip_floor import TipFloorSection
 
 
 class ConnectionPanel(Panel):
-    """State, device, position, tip, voltage, line, stop latency and parameters, in one column."""
+    """Panel with sections for the state, device, homing, tip, voltage, line and parameters."""
 
     title = marked("panels", "Connection")
-    area = Area.RIGHT
+    area = PanelArea.RIGHT
     order = 20
     help_page = "connection.md"
 
@@ -29,12 +32,12 @@ class ConnectionPanel(Panel):
         super().__init__(workbench)
         self.state = StateSection(workbench)
         self.device = DeviceSection(workbench)
-        self.position = PositionSection(workbench)
-        self.parameters = ParameterSection(workbench)
-        self.tip = TipSection(workbench)
-        self.voltage = VoltageSection(workbench)
-        self.line = LineSection(workbench)
-        self.stop = StopSection(workbench)
+        self.position = HomingSection(workbench)
+        self.parameters = ParameterDifferencesSection(workbench)
+        self.tip = TipFloorSection(workbench)
+        self.voltage = ServiceVoltageSection(workbench)
+        self.line = LineQualitySection(workbench)
+        self.stop = StopLatencySection(workbench)
         self._sections = (
             self.state,
             self.device,
@@ -43,11 +46,12 @@ class ConnectionPanel(Panel):
             self.voltage,
             self.line,
             self.stop,
-            self.parameters,  # last: no button moves when a table of differences appears
+            # This section is last, so that no button moves when its table appears.
+            self.parameters,
         )
         content = QWidget()
-        in_column(*self._sections, 1, on=content, margins=(10, 4, 10, 8), spacing=4)
-        in_column(scrolled(content, least=300), on=self, margins=0)
+        make_column(*self._sections, 1, on=content, margins=(10, 4, 10, 8), spacing=4)
+        make_column(make_scroll_area(content, min_width=300), on=self, margins=0)
         self.follow(self._refresh)
         offer_in_palette(self.device.connect_button, self.device.disconnect_button)
         offer_in_palette(self.state.confirm, self.parameters.write, self.parameters.accept)

@@ -1,51 +1,54 @@
-"""Differences between device parameters and robot file: write or accept them."""
+"""Section with the parameters that differ between the device and the robot file."""
 
 from PySide6.QtWidgets import QHeaderView
 
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.controls import allow, button
-from rotemina.app.widgets.labels import plain_text
-from rotemina.app.widgets.section import Section
-from rotemina.app.widgets.table import Table
-from rotemina.drivers.abilities import Parameterised
-from rotemina.drivers.driver import Driver
+from rotemina.app.widgets.controls import enable_unless, make_button
+from rotemina.app.widgets.layout import Section
+from rotemina.app.widgets.text import TextTable, make_plain_label
+from rotemina.app.workbench import Workbench
+from rotemina.drivers.abilities import ParameterStore
+from rotemina.drivers.contract import Driver
 from rotemina.plugins.connection import mark, tr, unavailable_reasons
-from rotemina.sim.quantities import rounded
+from rotemina.sim.messages import format_rounded
 
-COLUMNS = (mark("Parameter"), mark("Device"), mark("Robot file"))
-_MOST_ROWS_SHOWN = 6
+COLUMN_TITLES = (mark("Parameter"), mark("Device"), mark("Robot file"))
+_MAX_VISIBLE_ROWS = 6
 
 
-class ParameterSection(Section):
-    """A table of the differences, and the two ways to settle them."""
+class ParameterDifferencesSection(Section):
+    """Section with a table of the differences.
+
+    Its buttons write the values of the robot file to the device, or accept those of the device.
+    """
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(tr("Parameters"))
         self._session = workbench.session
-        self._shown: tuple[str, ...] = ()
-        self.text = plain_text(lines=3)
+        self._shown_differences: tuple[str, ...] = ()
+        self.text = make_plain_label(lines=3)
         self.column.addWidget(self.text)
-        self.table = Table(
-            tr("Parameters that differ"), [tr(name) for name in COLUMNS], row_height=24
+        self.table = TextTable(
+            tr("Parameters that differ"), [tr(name) for name in COLUMN_TITLES], row_height=24
         )
         self.table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
         self.table.setVisible(False)
-        self.write = button(tr("Write to device"), workbench.write_parameters)
-        self.accept = button(tr("Accept"), workbench.accept_parameters)
+        self.write = make_button(tr("Write to device"), workbench.write_parameters)
+        self.accept = make_button(tr("Accept"), workbench.accept_parameters)
         self.add_row(self.write, self.accept)
-        self.column.addWidget(self.table)  # last: no button moves when it appears
+        # The table is last, so that no button moves when it appears.
+        self.column.addWidget(self.table)
 
     def refresh(self, state: SessionState) -> None:
-        """Show a state."""
+        """Show the differences in this state."""
         driver = self._session.driver
-        if state.differences != self._shown:
-            self._shown = state.differences
-            self._fill(_rows(driver, state.differences))
-        why = unavailable_reasons.against_writing(state, driver)
+        if state.differences != self._shown_differences:
+            self._shown_differences = state.differences
+            self._fill_table(_make_rows(driver, state.differences))
+        objection = unavailable_reasons.find_write_objection(state, driver)
         count = len(state.differences)
         if count:
-            are = (
+            subject = (
                 tr("One parameter differs")
                 if count == 1
                 else tr("{count} parameters differ").format(count=count)
@@ -54,36 +57,47 @@ class ParameterSection(Section):
                 tr(
                     "{are} from the robot file; the machine cannot move until you write or "
                     "accept the values."
-                ).format(are=are)
+                ).format(are=subject)
             )
         else:
-            keeps = isinstance(driver, Parameterised)
-            none = tr("{name} stores no parameters.").format(name=driver.name)
-            self.text.setText(tr("The parameters match the robot file.") if keeps else none)
-        allow(self.write, why, tr("Store the values of the robot file in the device"))
-        allow(self.accept, why, tr("Use the values of the device until the next connection"))
+            stores_parameters = isinstance(driver, ParameterStore)
+            no_parameters_text = tr("{name} stores no parameters.").format(name=driver.name)
+            self.text.setText(
+                tr("The parameters match the robot file.")
+                if stores_parameters
+                else no_parameters_text
+            )
+        enable_unless(self.write, objection, tr("Store the values of the robot file in the device"))
+        enable_unless(
+            self.accept, objection, tr("Use the values of the device until the next connection")
+        )
 
-    def _fill(self, rows: list[tuple[str, ...]]) -> None:
+    def _fill_table(self, rows: list[tuple[str, ...]]) -> None:
         self.table.show_rows(rows, tips=True)
         self.table.setVisible(bool(rows))
-        self.table.setFixedHeight(28 + 24 * min(len(rows), _MOST_ROWS_SHOWN))
+        self.table.setFixedHeight(28 + 24 * min(len(rows), _MAX_VISIBLE_ROWS))
 
 
-def _rows(driver: Driver, told: tuple[str, ...]) -> list[tuple[str, ...]]:
-    """Return name, device and robot file of what was told, as far as the driver still says so."""
-    known = (
-        {str(one): one for one in driver.differences} if isinstance(driver, Parameterised) else {}
+def _make_rows(driver: Driver, difference_texts: tuple[str, ...]) -> list[tuple[str, ...]]:
+    """Return the name, device value and robot-file value of each difference.
+
+    If the driver no longer reports a difference, its row contains only the text.
+    """
+    reported_differences = (
+        {str(difference): difference for difference in driver.differences}
+        if isinstance(driver, ParameterStore)
+        else {}
     )
     rows: list[tuple[str, ...]] = []
-    for text in told:
-        one = known.get(text)
+    for text in difference_texts:
+        difference = reported_differences.get(text)
         rows.append(
             (text, "", "")
-            if one is None
+            if difference is None
             else (
-                one.name,
-                f"{rounded(one.device, 6)} {one.unit}",
-                f"{rounded(one.robot, 6)} {one.unit}",
+                difference.name,
+                f"{format_rounded(difference.device, 6)} {difference.unit}",
+                f"{format_rounded(difference.robot, 6)} {difference.unit}",
             )
         )
     return rows

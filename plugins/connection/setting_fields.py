@@ -1,21 +1,25 @@
-"""Fields for the settings of a driver, each by its type."""
+"""Fields for the settings of a driver. The type of a setting determines its widget."""
 
 from collections.abc import Sequence
 
 from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QFormLayout, QLabel, QLineEdit, QWidget
 
-from rotemina.app.driver_settings import typed
-from rotemina.app.shell.engine_words import error_text
-from rotemina.app.shell.operator_requests import OfferedPort
-from rotemina.app.widgets.controls import plain_tip, set_property, show_tip
-from rotemina.app.widgets.wheel_safe import SteadyChoice
-from rotemina.drivers.settings import SettingError, SettingValue
+from rotemina.app.language import describe_error
+from rotemina.app.settings import parse_setting
+from rotemina.app.widgets.controls import (
+    WheelSafeComboBox,
+    make_tooltip,
+    set_property,
+    show_tooltip,
+)
+from rotemina.app.workbench import OfferedPort
+from rotemina.drivers.contract import DriverSettingError, SettingValue
 from rotemina.plugins.connection import mark, tr
-from rotemina.sim.quantities import localized
+from rotemina.sim.messages import localize_number
 
-# Settings of the program's own drivers, as people say them.
-NAMES = (
+# The names of the built-in drivers' settings as shown, marked here for translation.
+SETTING_NAMES = (
     mark("sample rate"),
     mark("seed"),
     mark("settle"),
@@ -27,44 +31,46 @@ NAMES = (
     mark("watchdog"),
     mark("latency"),
 )
-_UNITS = {"s": "s", "ms": "ms", "hz": "Hz", "v": "V", "m": "m"}
+_UNIT_SYMBOLS = {"s": "s", "ms": "ms", "hz": "Hz", "v": "V", "m": "m"}
 
 
-def _written(value: SettingValue) -> str:
-    """Return a value as a field holds it, a number with the decimal sign in use."""
-    return localized(f"{value:g}") if isinstance(value, float) else str(value)
+def _format_value(value: SettingValue) -> str:
+    return localize_number(f"{value:g}") if isinstance(value, float) else str(value)
 
 
-class PortChoice(SteadyChoice):
-    """The ports that exist, and room to type another."""
+class PortChoice(WheelSafeComboBox):
+    """Choice of a port. The operator can also type a port that is not listed."""
 
     def __init__(self) -> None:
         super().__init__(letters=12)
         self.setEditable(True)
         self.setInsertPolicy(self.InsertPolicy.NoInsert)
-        edit = self.lineEdit()
-        assert edit is not None
-        edit.setPlaceholderText(tr("none"))
+        line_edit = self.lineEdit()
+        assert line_edit is not None
+        line_edit.setPlaceholderText(tr("none"))
 
-    def offer(self, ports: Sequence[OfferedPort]) -> None:
-        """Put ports into the list; what is written stays."""
+    def offer_ports(self, ports: Sequence[OfferedPort]) -> None:
+        """List ports without changing the text in the field."""
         text = self.currentText()
         self.blockSignals(True)
         self.clear()
         for port in ports:
             self.addItem(port.device)
-            self.setItemData(self.count() - 1, plain_tip(port.about), Qt.ItemDataRole.ToolTipRole)
+            self.setItemData(
+                self.count() - 1, make_tooltip(port.about), Qt.ItemDataRole.ToolTipRole
+            )
         self.setCurrentIndex(-1)
         self.setEditText(text)
         self.blockSignals(False)
 
 
 class SettingField(QObject):
-    """The widget of one setting.
+    """Widget of one setting.
 
     Signals
     -------
-    changed() : someone has written or chosen something else.
+    changed()
+        Emitted when the operator has entered or chosen another value.
     """
 
     changed = Signal()
@@ -72,82 +78,83 @@ class SettingField(QObject):
     def __init__(self, name: str, default: SettingValue, value: SettingValue) -> None:
         super().__init__()
         self.name, self._default = name, default
-        self.widget = self._made(value)
-        self.widget.setAccessibleName(tr("Setting {name}").format(name=spoken(name)))
-        self._about = tr("{name}; preset {default}").format(
-            name=spoken(name), default=_written(default) or tr("none")
+        self.widget = self._make_widget(value)
+        self.widget.setAccessibleName(tr("Setting {name}").format(name=format_setting_name(name)))
+        self._tooltip = tr("{name}; default {default}").format(
+            name=format_setting_name(name), default=_format_value(default) or tr("none")
         )
-        self.widget.setToolTip(plain_tip(self._about))
+        self.widget.setToolTip(make_tooltip(self._tooltip))
 
     @property
     def is_port(self) -> bool:
-        """Whether it names a port."""
+        """Whether the setting is a port."""
         return isinstance(self.widget, PortChoice)
 
-    def value(self) -> SettingValue:
-        """Return what the field holds.
+    def read_value(self) -> SettingValue:
+        """Return the value in the field.
 
         Raises
         ------
-        SettingError
-            If that is no value of its type.
+        DriverSettingError
+            If the text is not a value of the type of the setting.
         """
         if isinstance(self.widget, QCheckBox):
             return self.widget.isChecked()
-        return typed(self.name, self._default, self._text())
+        return parse_setting(self.name, self._default, self._read_text())
 
-    def offer(self, ports: Sequence[OfferedPort]) -> None:
-        """Offer ports, where the field names one."""
+    def offer_ports(self, ports: Sequence[OfferedPort]) -> None:
+        """List ports if the setting is a port."""
         if isinstance(self.widget, PortChoice):
-            self.widget.offer(ports)
+            self.widget.offer_ports(ports)
 
     def set_text(self, text: str) -> None:
-        """Write into the field."""
+        """Enter a text in the field."""
         if isinstance(self.widget, PortChoice):
             self.widget.setEditText(text)
         elif isinstance(self.widget, QLineEdit):
             self.widget.setText(text)
 
-    def complaint(self) -> str | None:
-        """Return the problem of the field and mark it, or None."""
-        wrong = None
+    def find_problem(self) -> str | None:
+        """Return why the value is invalid, or None, and mark or unmark the field accordingly."""
+        problem = None
         try:
-            self.value()
-        except SettingError as error:
-            wrong = error_text(error)
-        set_property(self.widget, "bad", bool(wrong))
-        show_tip(self.widget, self._about, wrong or "")
-        return wrong
+            self.read_value()
+        except DriverSettingError as error:
+            problem = describe_error(error)
+        set_property(self.widget, "bad", bool(problem))
+        show_tooltip(self.widget, self._tooltip, problem or "")
+        return problem
 
-    def _text(self) -> str:
+    def _read_text(self) -> str:
         if isinstance(self.widget, PortChoice):
             return self.widget.currentText()
         assert isinstance(self.widget, QLineEdit)
         return self.widget.text()
 
-    def _made(self, value: SettingValue) -> QWidget:
+    def _make_widget(self, value: SettingValue) -> QWidget:
         if isinstance(self._default, bool):
-            switch = QCheckBox()
-            switch.setChecked(bool(value))
-            switch.toggled.connect(self.changed)
-            return switch
+            check_box = QCheckBox()
+            check_box.setChecked(bool(value))
+            check_box.toggled.connect(self.changed)
+            return check_box
         if isinstance(self._default, str) and self.name.endswith("port"):
             choice = PortChoice()
             choice.setEditText(str(value))
             choice.activated.connect(lambda _: self.changed.emit())
             choice.lineEdit().editingFinished.connect(self.changed)
             return choice
-        edit = QLineEdit(_written(value))
-        edit.editingFinished.connect(self.changed)
-        return edit
+        text_field = QLineEdit(_format_value(value))
+        text_field.editingFinished.connect(self.changed)
+        return text_field
 
 
 class SettingForm(QWidget):
-    """The settings of one driver.
+    """Form with the settings of one driver.
 
     Signals
     -------
-    changed() : any field did.
+    changed()
+        Emitted when the value of any field has changed.
     """
 
     changed = Signal()
@@ -162,7 +169,7 @@ class SettingForm(QWidget):
         form.setLabelAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
         self.fields = {name: SettingField(name, defaults[name], values[name]) for name in defaults}
         for name, field in self.fields.items():
-            title = QLabel(spoken(name))
+            title = QLabel(format_setting_name(name))
             title.setTextFormat(Qt.TextFormat.PlainText)
             title.setBuddy(field.widget)
             form.addRow(title, field.widget)
@@ -171,32 +178,32 @@ class SettingForm(QWidget):
 
     @property
     def port_fields(self) -> list[SettingField]:
-        """Those that name a port."""
+        """The fields of the settings that are ports."""
         return [field for field in self.fields.values() if field.is_port]
 
-    def complaint(self) -> str | None:
-        """Return the first problem, and mark all invalid fields."""
-        wrong = [field.complaint() for field in self.fields.values()]
-        return next((one for one in wrong if one is not None), None)
+    def find_problem(self) -> str | None:
+        """Return the problem of the first invalid field, or None, and mark all invalid fields."""
+        problems = [field.find_problem() for field in self.fields.values()]
+        return next((problem for problem in problems if problem is not None), None)
 
-    def values(self) -> dict[str, SettingValue]:
-        """Return all settings.
+    def read_values(self) -> dict[str, SettingValue]:
+        """Return the values of all settings by name.
 
         Raises
         ------
-        SettingError
-            If a field holds no value of its type.
+        DriverSettingError
+            If the text of a field is not a value of its type.
         """
-        return {name: field.value() for name, field in self.fields.items()}
+        return {name: field.read_value() for name, field in self.fields.items()}
 
 
-def spoken(name: str) -> str:
-    """Return a setting's name as people say it: ``settle_s`` is ``settle [s]``."""
-    head, _, unit = name.rpartition("_")
-    if head and unit in _UNITS:
-        return f"{_translated(head)} [{_UNITS[unit]}]"
-    return _translated(name)
+def format_setting_name(name: str) -> str:
+    """Return the name of a setting as shown: ``settle_s`` becomes ``settle [s]``."""
+    stem, _, unit = name.rpartition("_")
+    if stem and unit in _UNIT_SYMBOLS:
+        return f"{_translate_name(stem)} [{_UNIT_SYMBOLS[unit]}]"
+    return _translate_name(name)
 
 
-def _translated(name: str) -> str:
+def _translate_name(name: str) -> str:
     return tr(name.replace("_", " "))

@@ -1,62 +1,62 @@
-"""The state of the session: its phase, what locks motion, and what ends that."""
+"""Section with the state of the session: its phase, the reason for a lock, and its buttons."""
 
+from rotemina.app.language import translate_message
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.state_tone import PhaseLabel
-from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.controls import allow, button
-from rotemina.app.widgets.labels import plain_text
-from rotemina.app.widgets.layouts import in_row
-from rotemina.app.widgets.section import Section
+from rotemina.app.widgets.controls import enable_unless, make_button
+from rotemina.app.widgets.layout import Section, make_row
+from rotemina.app.widgets.text import make_plain_label
+from rotemina.app.workbench import PhaseLabel, Workbench
 from rotemina.plugins.connection import tr, unavailable_reasons
 
 
 class StateSection(Section):
-    """The phase in one word, and the reason why motion is locked."""
+    """Section with the phase in one word, the reason for a lock, and the lock buttons."""
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(tr("State"))
         self.phase = PhaseLabel()
-        self.device = plain_text()
-        self.column.addLayout(in_row(self.phase, (self.device, 1), spacing=8))
+        self.device = make_plain_label()
+        self.column.addLayout(make_row(self.phase, (self.device, 1), spacing=8))
         self.reason = self.add_text()
-        self.emergency = button(tr("Stop and lock"), workbench.emergency_stop)
-        self.release = button(tr("Release"), workbench.release)
-        self.clear = button(tr("Clear fault"), workbench.clear_fault)
-        self.confirm = button(tr("Confirm position"), workbench.confirm_position)
+        self.emergency = make_button(tr("Stop and lock"), workbench.emergency_stop)
+        self.release = make_button(tr("Release"), workbench.release)
+        self.clear = make_button(tr("Clear fault"), workbench.clear_fault)
+        self.confirm = make_button(tr("Confirm position"), workbench.confirm_position)
         self.add_row(self.emergency, self.release)
         self.add_row(self.clear, self.confirm)
         self._workbench, self._session = workbench, workbench.session
 
     def refresh(self, state: SessionState) -> None:
-        """Show a state."""
+        """Show the state of the session."""
         display = self._workbench.describe(state)
-        self.phase.show_word(display.headword, display.tone)
+        self.phase.show_phase(display.headword, display.tone)
         self.device.setText(self._session.driver.name)
-        locked = state.locked
+        lock_reason = state.lock_reason
         self.reason.setText(
             tr("Motion is possible.")
-            if locked is None
-            else tr("Locked: {locked}.").format(locked=spoken(locked))
+            if lock_reason is None
+            else tr("Locked: {locked}.").format(locked=translate_message(lock_reason))
         )
-        latched = (
-            tr("{latched} is already locked").format(latched=spoken(state.latched))
-            if state.latched is not None
+        stop_objection = (
+            tr("{latched} is already locked").format(latched=translate_message(state.latch_reason))
+            if state.latch_reason is not None
             else None
         )
-        allow(self.emergency, latched, tr("Stop all axes and block motion until release"))
-        allow(
+        enable_unless(
+            self.emergency, stop_objection, tr("Stop all axes and block motion until release")
+        )
+        enable_unless(
             self.release,
-            None if state.latched is not None else tr("nothing is locked"),
+            None if state.latch_reason is not None else tr("nothing is locked"),
             tr("Release the lock; the machine stays at rest until the next command"),
         )
-        allow(
+        enable_unless(
             self.clear,
-            unavailable_reasons.against_clearing(state),
+            unavailable_reasons.find_clear_objection(state),
             tr("Acknowledge the device's fault"),
         )
-        allow(
+        enable_unless(
             self.confirm,
-            unavailable_reasons.against_confirming(state),
+            unavailable_reasons.find_confirm_objection(state),
             tr("Confirm that the machine has not moved since the connection was lost"),
         )

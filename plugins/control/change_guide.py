@@ -1,4 +1,7 @@
-"""Guided change of pin or dish; nothing descends by itself with the new one."""
+"""Guide for changing the pin (the tool) or the dish.
+
+After the change, no step lowers Z automatically.
+"""
 
 from collections.abc import Callable, Mapping
 from math import isfinite
@@ -6,199 +9,237 @@ from typing import NamedTuple
 
 from PySide6.QtWidgets import QDialog, QLabel, QWidget
 
-from rotemina.app.motion.saved_positions import LOAD, WORK
+from rotemina.app.motion.session import LOAD, WORK
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.pending_confirmations import Pending
-from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.changing_button import ChangingButton
-from rotemina.app.widgets.controls import allow, button
-from rotemina.app.widgets.layouts import in_column, in_row
-from rotemina.plugins.connection.unavailable_reasons import against_teaching, in_motion
+from rotemina.app.widgets.controls import ChangingButton, enable_unless, make_button
+from rotemina.app.widgets.layout import make_column, make_row
+from rotemina.app.workbench import PendingConfirmation, Workbench
+from rotemina.plugins.connection import find_rest_objection, find_teach_objection
 from rotemina.plugins.control import tr
 
-LIFT = "z"
-_THERE = 1e-9  # m or rad
+LIFT_AXIS = "z"
+# An axis is at a position if its command differs from it by no more than this, m or rad.
+_POSITION_TOLERANCE = 1e-9
 
 
-class Step(NamedTuple):
-    """A step: its action, its button, why it is unavailable, and whether it is done."""
+class GuideStep(NamedTuple):
+    """Step of the guide.
+
+    Attributes
+    ----------
+    text : str
+        The instruction to the operator.
+    button_text : str
+    run : callable
+        Runs when the operator presses the button.
+    find_objection : callable
+        Returns why the action is unavailable in a state, or None.
+    is_done : callable
+        Returns whether the step is completed in a state.
+    """
 
     text: str
-    word: str
+    button_text: str
     run: Callable[[], object]
-    against: Callable[[SessionState], str | None]
-    done: Callable[[SessionState], bool]
+    find_objection: Callable[[SessionState], str | None]
+    is_done: Callable[[SessionState], bool]
 
 
 class ChangeGuide(QDialog):
-    """One step after the other, each by a press of its own; the window can be used beside it.
+    """Dialog that leads through the steps of the change.
+
+    Each step takes one press of the button; teaching the floor takes two. The rest of the window
+    stays usable meanwhile.
 
     Parameters
     ----------
     workbench : Workbench
-    places : mapping of str to (mapping axis -> float)
-        Saved positions, m or rad.
+    get_saved_positions : callable
+        Returns the saved positions: name -> axis -> m or rad.
     show_panel : callable
-        Brings a panel up by its name.
+        Shows the panel with the given name.
     parent : QWidget
     """
 
     def __init__(
         self,
         workbench: Workbench,
-        places: Callable[[], Mapping[str, Mapping[str, float]]],
+        get_saved_positions: Callable[[], Mapping[str, Mapping[str, float]]],
         show_panel: Callable[[str], object],
         parent: QWidget,
     ) -> None:
         super().__init__(parent)
         self.setWindowTitle(tr("Change pin or dish"))
-        self._bench, self._session = workbench, workbench.session
-        self._places, self._show_panel = places, show_panel
-        self._teaching: Pending[bool] = Pending(workbench.session)
-        self._at, self._begun = 0, False
-        self._top = self._session.robot.axes[LIFT].range[1]
-        self.steps = self._listed()
+        self._workbench, self._session = workbench, workbench.session
+        self._get_saved_positions, self._show_panel = get_saved_positions, show_panel
+        # True while the first press of Teach floor waits for the second one, else None.
+        self._teach_confirmation: PendingConfirmation[bool] = PendingConfirmation(workbench.session)
+        self._step_index, self._is_step_started = 0, False
+        self._z_upper_limit = self._session.robot.axes[LIFT_AXIS].range[1]
+        self.steps = self._make_steps()
         self.lines = [QLabel() for _ in self.steps]
-        words = [*(step.word for step in self.steps), tr("Teach here?")]
-        self.do = ChangingButton(*words, run=self._do)  # a double click on Release must not move
-        self.skip = button(tr("Skip"), self._next, tr("Skip this step"))
-        in_column(*self.lines, on=self).addLayout(in_row((self.do, 1), self.skip))
+        button_texts = [*(step.button_text for step in self.steps), tr("Teach here?")]
+        # A ChangingButton ignores the second click of a double click, which would start the next
+        # move after Release.
+        self.action_button = ChangingButton(*button_texts, run=self._run_step)
+        self.skip_button = make_button(tr("Skip"), self._go_to_next_step, tr("Skip this step"))
+        make_column(*self.lines, on=self).addLayout(
+            make_row((self.action_button, 1), self.skip_button)
+        )
         workbench.refreshed.connect(self.refresh)
 
     @property
-    def at(self) -> int:
-        """Which step is next; their number after the last one."""
-        return self._at
+    def step_index(self) -> int:
+        """The index of the current step, or ``len(steps)`` once the last one is done."""
+        return self._step_index
 
-    def begin(self) -> None:
-        """Begin with the first step."""
-        self._at, self._begun = 0, False
-        self.refresh(self._session.snapshot())
+    def open_at_first_step(self) -> None:
+        """Open the guide at the first step."""
+        self._step_index, self._is_step_started = 0, False
+        self._show_steps(self._session.snapshot())
         self.show()
         self.raise_()
 
     def refresh(self, state: SessionState) -> None:
-        """Continue where a step is done, and say which one is next."""
+        """Go to the next step if the current one is done, and mark the current step."""
         if not self.isVisible():
             return
-        if self._begun and self.steps[self._at].done(state):
-            self._next()
-        for number, (line, step) in enumerate(zip(self.lines, self.steps, strict=True)):
-            sign = "✓" if number < self._at else "▸" if number == self._at else "  "
-            line.setText(f"{sign} {number + 1}  {step.text}")
-            line.setEnabled(number <= self._at)
-        if self._at < len(self.steps):
-            step = self.steps[self._at]
-            asked = self._teaching.what is not None
-            self.do.show_meaning(tr("Teach here?") if asked else step.word)
-            allow(self.do, step.against(state), step.text)
+        if self._is_step_started and self.steps[self._step_index].is_done(state):
+            self._go_to_next_step()
+        self._show_steps(state)
 
-    def _do(self) -> None:
-        self._begun = True
-        self.steps[self._at].run()
+    def _show_steps(self, state: SessionState) -> None:
+        for index, (line, step) in enumerate(zip(self.lines, self.steps, strict=True)):
+            symbol = "✓" if index < self._step_index else "▸" if index == self._step_index else "  "
+            line.setText(f"{symbol} {index + 1}  {step.text}")
+            line.setEnabled(index <= self._step_index)
+        if self._step_index < len(self.steps):
+            step = self.steps[self._step_index]
+            waits_for_confirmation = self._teach_confirmation.item is not None
+            self.action_button.show_meaning(
+                tr("Teach here?") if waits_for_confirmation else step.button_text
+            )
+            enable_unless(self.action_button, step.find_objection(state), step.text)
 
-    def _next(self) -> None:
-        self._teaching.withdraw()
-        self._at, self._begun = self._at + 1, False
-        if self._at == len(self.steps):
+    def _run_step(self) -> None:
+        self._is_step_started = True
+        self.steps[self._step_index].run()
+
+    def _go_to_next_step(self) -> None:
+        self._teach_confirmation.withdraw()
+        self._step_index, self._is_step_started = self._step_index + 1, False
+        if self._step_index == len(self.steps):
             self.close()
 
-    # --- steps ------------------------------------------------------------------------------------
-
-    def _listed(self) -> tuple[Step, ...]:
+    def _make_steps(self) -> tuple[GuideStep, ...]:
         session = self._session
-        top = self._top
+        z_upper_limit = self._z_upper_limit
 
-        def to_move(state: SessionState) -> str | None:
-            return state.locked or in_motion(state)
+        def find_move_objection(state: SessionState) -> str | None:
+            return state.lock_reason or find_rest_objection(state)
 
-        def to_place(name: str) -> Callable[[SessionState], str | None]:
-            none = tr("position {name!r} is not saved; skip the step or save the position")
+        def make_move_objection_finder(name: str) -> Callable[[SessionState], str | None]:
+            not_saved = tr("position {name!r} is not saved; skip the step or save the position")
             return lambda state: (
-                to_move(state) if name in self._places() else none.format(name=name)
+                find_move_objection(state)
+                if name in self._get_saved_positions()
+                else not_saved.format(name=name)
             )
 
         return (
-            Step(
-                tr("Retract: Z to its upper end"),
+            GuideStep(
+                tr("Retract: move Z to its upper limit"),
                 tr("Retract"),
-                lambda: self._bench.go_to({LIFT: top}),
-                to_move,
-                lambda state: _rests_at(state, {LIFT: top}),
+                lambda: self._workbench.go_to({LIFT_AXIS: z_upper_limit}),
+                find_move_objection,
+                lambda state: _is_resting_at(state, {LIFT_AXIS: z_upper_limit}),
             ),
-            Step(
+            GuideStep(
                 tr("Go to the load position"),
                 tr("Go there"),
-                lambda: self._bench.ask(lambda: session.go_safely(self._places()[LOAD])),
-                to_place(LOAD),
-                lambda state: _rests_at(state, self._places().get(LOAD, {})),
+                lambda: self._workbench.run_request(
+                    lambda: session.go_safely(self._get_saved_positions()[LOAD])
+                ),
+                make_move_objection_finder(LOAD),
+                lambda state: _is_resting_at(state, self._get_saved_positions().get(LOAD, {})),
             ),
-            Step(
-                tr("Discard the floor and the tip in the picture"),
+            GuideStep(
+                tr("Discard the taught floor, and stop tracking the tip in the image"),
                 tr("Discard"),
-                self._forget,
-                to_move,
-                lambda _: self._floor() is None,
+                self._discard_floor_and_tip,
+                find_move_objection,
+                lambda _: self._find_floor() is None,
             ),
-            Step(
-                tr("Lock; then change the pin or the dish by hand"),
+            GuideStep(
+                tr("Stop and lock; then change the pin or the dish by hand"),
                 tr("Stop and lock"),
-                self._bench.emergency_stop,
+                self._workbench.emergency_stop,
                 lambda _: None,
-                lambda state: state.latched is not None,
+                # `latch_reason` is set only by an emergency stop; `lock_reason` also has other
+                # causes.
+                lambda state: state.latch_reason is not None,
             ),
-            Step(
+            GuideStep(
                 tr("Pin or dish changed, hands clear: release the lock"),
                 tr("Release"),
-                self._bench.release,
+                self._workbench.release,
                 lambda _: None,
-                lambda state: state.latched is None,
+                lambda state: state.latch_reason is None,
             ),
-            Step(
+            GuideStep(
                 tr("Move above the work position with Z raised"),
                 tr("Go there"),
-                lambda: self._bench.ask(lambda: session.go_safely(self._above_work())),
-                to_place(WORK),
-                lambda state: _rests_at(state, self._above_work()),
+                lambda: self._workbench.run_request(
+                    lambda: session.go_safely(self._find_position_above_work())
+                ),
+                make_move_objection_finder(WORK),
+                lambda state: _is_resting_at(state, self._find_position_above_work()),
             ),
-            Step(
-                tr("Find the tip in the microscope; lower it slowly by hand"),
+            GuideStep(
+                tr("Find the tip in the microscope; lower the tip slowly with the manual controls"),
                 tr("Show the microscope"),
                 lambda: self._show_panel("microscope"),
                 lambda _: None,
+                # The step is done as soon as its button has been pressed.
                 lambda _: True,
             ),
-            Step(
+            GuideStep(
                 tr("Teach the floor where the tip touches"),
                 tr("Teach floor"),
-                self._teach,
-                lambda state: against_teaching(state, session.bounds.keep_out),
-                lambda _: self._floor() is not None,
+                self._teach_floor,
+                lambda state: find_teach_objection(state, session.bounds.keep_out),
+                lambda _: self._find_floor() is not None,
             ),
         )
 
-    def _above_work(self) -> dict[str, float]:
-        """Return the work position with Z at its upper end: the new pin may be longer."""
-        return {**self._places().get(WORK, {}), LIFT: self._top}
+    def _find_position_above_work(self) -> dict[str, float]:
+        """Return the work position with Z at its upper limit, because the new pin may be longer."""
+        return {**self._get_saved_positions().get(WORK, {}), LIFT_AXIS: self._z_upper_limit}
 
-    def _forget(self) -> None:
-        if self._floor() is not None:
-            self._bench.clear_floor()
-        self._bench.ask(lambda: self._bench.microscope.track(False))
+    def _discard_floor_and_tip(self) -> None:
+        if self._find_floor() is not None:
+            self._workbench.clear_floor()
+        self._workbench.run_request(lambda: self._workbench.microscope.track(False))
 
-    def _teach(self) -> None:
-        """Ask again; a stop withdraws the question."""
-        if self._teaching.take():
-            self._bench.teach_floor()
+    def _teach_floor(self) -> None:
+        """Ask for confirmation at the first press, and teach the floor at the second.
+
+        A stop in between cancels the confirmation.
+        """
+        if self._teach_confirmation.take():
+            self._workbench.teach_floor()
         else:
-            self._teaching.put(True)
+            self._teach_confirmation.put(True)
 
-    def _floor(self) -> float | None:
+    def _find_floor(self) -> float | None:
         zone = self._session.bounds.keep_out
         return zone.floor if zone is not None and isfinite(zone.floor) else None
 
 
-def _rests_at(state: SessionState, place: Mapping[str, float]) -> bool:
-    """Whether the machine rests there, as commanded."""
-    there = all(abs(state.command.get(axis, at + 1.0) - at) <= _THERE for axis, at in place.items())
-    return there and in_motion(state) is None
+def _is_resting_at(state: SessionState, position: Mapping[str, float]) -> bool:
+    """Return whether the machine is at rest and its commands match a position, m or rad."""
+    is_at_position = all(
+        axis in state.command and abs(state.command[axis] - target) <= _POSITION_TOLERANCE
+        for axis, target in position.items()
+    )
+    return is_at_position and find_rest_objection(state) is None

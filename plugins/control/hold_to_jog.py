@@ -7,22 +7,29 @@ from PySide6.QtCore import QEvent, QObject, Qt, QTimer
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QApplication, QPushButton
 
-from rotemina.app.shell.workbench import Workbench
-from rotemina.drivers.clock import Clock
-from rotemina.drivers.gate import Permit
+from rotemina.app.workbench import Workbench
+from rotemina.drivers.contract import Clock, Permit
 from rotemina.sim.errors import InputError
 
-RENEW_MS = 50  # well within the lease of a speed
-REPEATED_S = 1.0  # a key that repeats no more for so long is let go of, whoever saw that
+# The interval at which the commanded speed is renewed. It is much shorter than the time for which
+# a commanded speed stays valid.
+RENEW_INTERVAL_MS = 50
+# A key that has not repeated for this long counts as released: its release event may be lost.
+MAX_KEY_REPEAT_GAP_S = 1.0
 
 
-class Holding(QObject):
-    """Renews the speed of one axis while a button is down.
+class HoldToJog(QObject):
+    """Motion of one axis while a button is held.
 
-    A stop, release, loss of focus, another window or program, a locked screen, a menu or dialog, a
-    modifier key, a dock that is hidden or a button that is locked end it; so does a key that stops
-    repeating, for its release may be lost, and a window that hangs, because nobody renews the lease
-    then. After a stop the button has to be pressed again.
+    A commanded speed is valid only for a short time (a lease) and is renewed while the button is
+    down. The motion ends
+
+    - when the button is released, disabled or hidden,
+    - when the machine is stopped; the button must then be pressed again,
+    - when another window or program, a menu, a dialog or a locked screen takes the focus,
+    - when a modifier key is pressed or released,
+    - when a key stops repeating, because its release may have been lost,
+    - when the window hangs, because the lease is then not renewed.
     """
 
     def __init__(
@@ -32,68 +39,74 @@ class Holding(QObject):
         self._workbench, self._axis = workbench, axis
         self._button: QPushButton | None = None
         self._speed, self._clock = 0.0, clock
-        self._permit: Permit | None = None  # of the press: a stop since then ends it
-        self._key_s: float | None = None  # when the key said last that it is down
+        # The permit issued at the press: a later stop makes it invalid.
+        self._permit: Permit | None = None
+        # Time of the last key press, including automatic repeats; None if the mouse was used.
+        self._last_key_s: float | None = None
         self._modifiers = Qt.KeyboardModifier.NoModifier
-        self._renewing = QTimer(self, interval=RENEW_MS)
-        self._renewing.timeout.connect(self._renew)
+        self._renew_timer = QTimer(self, interval=RENEW_INTERVAL_MS)
+        self._renew_timer.timeout.connect(self._renew_speed)
 
     @property
-    def busy(self) -> bool:
-        """Whether the axis is being driven."""
+    def is_active(self) -> bool:
+        """Whether the axis is being moved."""
         return self._button is not None
 
-    def watch(self, button: QPushButton) -> None:
-        """Tell presses by a key from those by the mouse; once for each button."""
+    def watch_button(self, button: QPushButton) -> None:
+        """Watch whether a button is pressed by a key or by the mouse. Call it once per button."""
         button.installEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
-        """Note how the button is held; a key says so again and again."""
+        """Note how the button is held. A held key repeats its press, and the mouse does not."""
         if event.type() == QEvent.Type.KeyPress:
-            self._key_s = self._clock()
+            self._last_key_s = self._clock()
         elif event.type() == QEvent.Type.MouseButtonPress:
-            self._key_s = None
+            self._last_key_s = None
         return False
 
     def begin(self, button: QPushButton, speed: float) -> None:
-        """Go at a speed, m/s or rad/s, while the button is held."""
+        """Move at a speed, m/s or rad/s, while the button is held."""
         self._button, self._speed = button, speed
         self._permit = self._workbench.session.permit()
         self._modifiers = QGuiApplication.keyboardModifiers()
-        self._renewing.start()
-        self._renew()
+        self._renew_timer.start()
+        self._renew_speed()
 
     def end(self) -> None:
-        """Halt the axis."""
+        """Stop the axis if it is being moved."""
         if self._button is None:
             return
         self._button = None
-        self._renewing.stop()
-        # Stopped, locked or another's by now, it is refused; the lease ends by itself.
+        self._renew_timer.stop()
+        # The command is refused if the axis has been stopped, locked or reserved by another owner
+        # in the meantime. The lease then expires by itself.
         with suppress(InputError):
             self._workbench.session.move_velocity({self._axis: 0.0}, permit=self._permit)
 
-    def _renew(self) -> None:
+    def _renew_speed(self) -> None:
         session, speeds, permit = self._workbench.session, {self._axis: self._speed}, self._permit
-        if not self._held():
+        if not self._is_held():
             self.end()
-        elif not self._workbench.ask(lambda: session.move_velocity(speeds, permit=permit)):
-            self.end()  # the reason is told once
+        elif not self._workbench.run_request(lambda: session.move_velocity(speeds, permit=permit)):
+            # End at the first refusal, so that its reason is reported only once.
+            self.end()
 
-    def _held(self) -> bool:
+    def _is_held(self) -> bool:
         button = self._button
         return (
             button is not None
             and self._permit is not None
-            and self._permit.valid
+            and self._permit.is_valid
             and button.isDown()
             and button.isEnabled()
             and button.isActiveWindow()
             and QGuiApplication.applicationState() is Qt.ApplicationState.ApplicationActive
-            # A dock behind another one is not hidden for Qt, only moved away.
+            # Qt does not hide a dock that is behind another tab, but moves it out of view.
             and not button.visibleRegion().isEmpty()
             and QGuiApplication.keyboardModifiers() == self._modifiers
             and QApplication.activePopupWidget() is None
             and QApplication.activeModalWidget() is None
-            and (self._key_s is None or self._clock() - self._key_s <= REPEATED_S)
+            and (
+                self._last_key_s is None or self._clock() - self._last_key_s <= MAX_KEY_REPEAT_GAP_S
+            )
         )

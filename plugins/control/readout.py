@@ -1,4 +1,4 @@
-"""A reading with its age, and a range bar."""
+"""Readout of a position, and a bar that shows the position within its range."""
 
 from collections.abc import Sequence
 
@@ -6,17 +6,17 @@ from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QBrush, QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from rotemina.app.display_units import axis_scale
-from rotemina.app.shell.workbench import Workbench
+from rotemina.app.language import choose_axis_scale
 from rotemina.app.widgets.controls import set_property
-from rotemina.app.widgets.labels import LiveLabel
-from rotemina.app.widgets.when_dressed import WhenDressed
+from rotemina.app.widgets.style import OnStyleChange
+from rotemina.app.widgets.text import LiveLabel
+from rotemina.app.workbench import Workbench
 from rotemina.plugins.control import tr
-from rotemina.plugins.control.wording import LITTLE
+from rotemina.plugins.control.wording import NEAR_END_FRACTION
 
 
-class Readout(LiveLabel):
-    """A large number; too old, it is grey and hatched."""
+class PositionReadout(LiveLabel):
+    """Large number that turns grey and hatched when it is out of date."""
 
     def __init__(self, workbench: Workbench, name: str) -> None:
         super().__init__("–")
@@ -26,7 +26,7 @@ class Readout(LiveLabel):
         self.setAccessibleName(name)
 
     def show_value(self, text: str, *, stale: bool) -> None:
-        """Show another reading."""
+        """Show a reading; a ``stale`` one is grey and hatched."""
         if text != self.text():
             self.setText(text)
         if bool(self.property("stale")) != stale:
@@ -35,7 +35,7 @@ class Readout(LiveLabel):
             self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
-        """Draw the number, over its hatching."""
+        """Draw the number, over a hatching if the reading is out of date."""
         if self.property("stale"):
             painter = QPainter(self)
             painter.fillRect(
@@ -46,10 +46,10 @@ class Readout(LiveLabel):
 
 
 class RangeBar(QWidget):
-    """Where an axis is within its range: a line with a mark for its command and its position.
+    """Bar over the range of an axis, filled up to the position, with a mark at the command.
 
-    Ticks mark where little of the range is left; the stretch warns beyond them. What the tip's
-    bounds forbid is hatched. With ``ends``, both ends are labelled.
+    Two ticks bound the zones near the ends of the range. In these zones the bar is filled in the
+    warning colour. Forbidden intervals are hatched. Both ends can be labelled.
     """
 
     def __init__(self, workbench: Workbench, axis: str) -> None:
@@ -60,71 +60,77 @@ class RangeBar(QWidget):
         self._command: float | None = None
         self._stale = False
         self._forbidden: Sequence[tuple[float, float]] = ()
-        scale = axis_scale(workbench.robot.axes[axis])
-        rough = scale._replace(decimals=0)
-        self.ends = rough.number(self._low), rough.text(self._high)
+        scale = choose_axis_scale(workbench.robot.axes[axis])
+        rounded_scale = scale._replace(decimals=0)
+        self.end_texts = (
+            rounded_scale.format_value(self._low),
+            rounded_scale.format_with_unit(self._high),
+        )
         self._labelled = False
-        WhenDressed(self, self._fit)
+        OnStyleChange(self, self._fit_height)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
 
     def show_position(self, position: float | None, command: float | None, *, stale: bool) -> None:
-        """Move the marks; None hides one."""
-        shown = (position, command, stale)
-        if shown != (self._position, self._command, self._stale):
-            self._position, self._command, self._stale = shown
+        """Show a position and a command, m or rad; None hides the one or the other."""
+        new_values = (position, command, stale)
+        if new_values != (self._position, self._command, self._stale):
+            self._position, self._command, self._stale = new_values
             self.update()
 
     def show_forbidden(self, stretches: Sequence[tuple[float, float]]) -> None:
-        """Hatch stretches, m or rad."""
+        """Hatch intervals (low, high), m or rad."""
         if tuple(stretches) != tuple(self._forbidden):
             self._forbidden = stretches
             self.update()
 
     def label_ends(self, *, labelled: bool) -> None:
-        """Write the ends of the range beside the bar, or leave them to the tooltip."""
+        """Show the ends of the range next to the bar if ``labelled``."""
         self._labelled = labelled
-        self._fit()
+        self._fit_height()
         self.update()
 
-    def _fit(self) -> None:
+    def _fit_height(self) -> None:
         self.setFixedHeight(self.fontMetrics().height() if self._labelled else 9)
 
-    def track(self) -> QRectF:
-        """Return where the range is drawn."""
-        low, high = (self.fontMetrics().horizontalAdvance(end) + 6 for end in self.ends)
+    def find_track(self) -> QRectF:
+        """Return the rectangle in which the range is drawn."""
+        left_margin, right_margin = (
+            self.fontMetrics().horizontalAdvance(text) + 6 for text in self.end_texts
+        )
         if not self._labelled:
-            low = high = 0
-        return QRectF(low, 0, max(self.width() - low - high, 1), self.height())
+            left_margin = right_margin = 0
+        width = max(self.width() - left_margin - right_margin, 1)
+        return QRectF(left_margin, 0, width, self.height())
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
-        """Draw the range, the stretch up to the position, and the command's mark."""
-        painter, track = QPainter(self), self.track()
+        """Draw the range, the filling up to the position, and the mark at the command."""
+        painter, track = QPainter(self), self.find_track()
         if self._labelled:
             painter.setPen(QColor(self._workbench.theme.quiet))
             sides = Qt.AlignmentFlag.AlignLeft, Qt.AlignmentFlag.AlignRight
-            for end, side in zip(self.ends, sides, strict=True):
-                painter.drawText(self.rect(), int(side | Qt.AlignmentFlag.AlignVCenter), end)
+            for text, side in zip(self.end_texts, sides, strict=True):
+                painter.drawText(self.rect(), int(side | Qt.AlignmentFlag.AlignVCenter), text)
         painter.translate(track.left(), 0)
-        self._draw(painter, track.width(), self.height() / 2)
+        self._draw_range(painter, track.width(), self.height() / 2)
         painter.end()
 
-    def _draw(self, painter: QPainter, width: float, middle: float) -> None:
+    def _draw_range(self, painter: QPainter, width: float, middle: float) -> None:
         theme = self._workbench.theme
         painter.fillRect(QRectF(0, middle - 2, width, 4), QColor(theme.line))
         hatch = QBrush(QColor(theme.danger_text), Qt.BrushStyle.BDiagPattern)
         for start, end in self._forbidden:
-            left, right = (width * self._share(value) for value in (start, end))
+            left, right = (width * self._compute_fraction(value) for value in (start, end))
             painter.fillRect(QRectF(left, middle - 4, right - left, 8), hatch)
         if self._position is not None:
-            share = self._share(self._position)
-            near = min(share, 1.0 - share) < LITTLE
-            role = theme.quiet if self._stale else theme.warning if near else theme.real
-            painter.fillRect(QRectF(0, middle - 2, width * share, 4), QColor(role))
-        for end in (LITTLE, 1.0 - LITTLE):
-            painter.fillRect(QRectF(width * end, middle - 3, 1, 6), QColor(theme.quiet))
+            fraction = self._compute_fraction(self._position)
+            is_near_end = min(fraction, 1.0 - fraction) < NEAR_END_FRACTION
+            colour = theme.quiet if self._stale else theme.warning if is_near_end else theme.real
+            painter.fillRect(QRectF(0, middle - 2, width * fraction, 4), QColor(colour))
+        for tick in (NEAR_END_FRACTION, 1.0 - NEAR_END_FRACTION):
+            painter.fillRect(QRectF(width * tick, middle - 3, 1, 6), QColor(theme.quiet))
         if self._command is not None:
-            at = (width - 2) * self._share(self._command)
-            painter.fillRect(QRectF(at, middle - 4, 2, 9), QColor(theme.text))
+            mark_x = (width - 2) * self._compute_fraction(self._command)
+            painter.fillRect(QRectF(mark_x, middle - 4, 2, 9), QColor(theme.text))
 
-    def _share(self, value: float) -> float:
+    def _compute_fraction(self, value: float) -> float:
         return min(max((value - self._low) / (self._high - self._low), 0.0), 1.0)

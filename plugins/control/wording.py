@@ -1,22 +1,35 @@
-"""Text of the control menu for an axis, and parsing of a typed target."""
+"""Texts of the Control panel, and the parser of typed targets."""
 
 from enum import StrEnum
 
-from rotemina.app.display_units import label, noticeable
-from rotemina.app.motion.backlash import Approach
-from rotemina.app.motion.compensation import NamedInverse
-from rotemina.app.motion.ownership import HOMING, OPERATOR, PLAYBACK
-from rotemina.app.motion.ranges import Range
+from rotemina.app.language import find_noticeable_change, get_axis_label
+from rotemina.app.motion.device import (
+    HOMING,
+    OPERATOR,
+    PLAYBACK,
+)
+from rotemina.app.motion.limits import Range
+from rotemina.app.motion.session import NamedInverse, OneSidedApproach
 from rotemina.app.motion.state import SessionState
-from rotemina.app.motion.teleoperation.teleoperation_state import TeleoperationState
-from rotemina.app.panel import STALE_S
+from rotemina.app.motion.teleoperation import TeleoperationState
+from rotemina.app.panel import STALE_AGE_S
 from rotemina.plugins.control import mark, tr
-from rotemina.sim.kinematics.keep_out import SLOW_HEIGHT, SLOW_SPEED, KeepOutZone
-from rotemina.sim.quantities import Scale, exact, fixed, parsed, rounded
-from rotemina.sim.robot.model import Axis
+from rotemina.sim.kinematics import (
+    MAX_SLOW_ZONE_SPEED_M_PER_S,
+    SLOW_ZONE_HEIGHT_M,
+    KeepOutZone,
+)
+from rotemina.sim.messages import (
+    format_fixed,
+    format_rounded,
+    parse_number,
+)
+from rotemina.sim.robot import Axis
+from rotemina.sim.units import DisplayScale, format_exact
 
-LITTLE = 0.1  # of the range: what is left below it is pointed at
-# Modes and laws of the stick, as the engine names them.
+# An axis is highlighted if less than this fraction of its range is left at one end.
+NEAR_END_FRACTION = 0.1
+# The engine's names of the joystick modes and scaling laws, marked here for translation.
 MODES_AND_LAWS = (
     mark("micro"),
     mark("nano"),
@@ -27,19 +40,16 @@ MODES_AND_LAWS = (
     mark("rate"),
     mark("impedance"),
 )
-_NOT_TAKEN = (OPERATOR, PLAYBACK, HOMING)
-
-
-# --- readouts -------------------------------------------------------------------------------------
+_OWNERS_NOT_TAKEN_OVER = (OPERATOR, PLAYBACK, HOMING)
 
 
 def is_stale(state: SessionState) -> bool:
-    """Whether the readings are too old to act on."""
-    return state.age_s is None or state.age_s > STALE_S
+    """Return whether the readings are too old to act on."""
+    return state.age_s is None or state.age_s > STALE_AGE_S
 
 
-def age_text(age_s: float | None) -> str:
-    """Return how old a reading is that is too old."""
+def describe_age(age_s: float | None) -> str:
+    """Return the age of an outdated reading as text."""
     if age_s is None:
         return tr("no data")
     if age_s < 100.0:
@@ -51,195 +61,222 @@ def age_text(age_s: float | None) -> str:
     )
 
 
-def status_text(axis: str, state: SessionState, scale: Scale) -> str:
-    """Return the one thing that matters most of an axis, beside its reading.
+def describe_status(axis: str, state: SessionState, scale: DisplayScale) -> str:
+    """Return the most important information about an axis, other than its reading.
 
-    Who drives it stands in the header: here there is room for the command alone.
+    This is its command, unless the axis is not homed or its readings are outdated.
     """
     if axis in state.unhomed:
         return tr("not homed")
     if is_stale(state) and state.measured:
-        return age_text(state.age_s)
+        return describe_age(state.age_s)
     if not state.position_known or axis not in state.command:
         return ""
-    return f"→ {scale.number(state.command[axis])}"
+    return f"→ {scale.format_value(state.command[axis])}"
 
 
-class Grade(StrEnum):
-    """How grave it is that a reading is not where its axis was sent."""
+class DeviationGrade(StrEnum):
+    """Severity of a difference between measured and commanded position."""
 
     PLAIN = "plain"
     APART = "apart"
     BEYOND = "beyond"
 
 
-def grade_of(apart: float, axis: Axis) -> Grade:
-    """Return how grave a difference (SI) is.
+def grade_deviation(difference: float, axis: Axis) -> DeviationGrade:
+    """Return the severity of a difference between measured and commanded position, m or rad.
 
-    Plain is what noise makes. Beyond is what the following bound of the robot file does not allow.
+    A ``PLAIN`` difference may be noise. ``BEYOND`` exceeds the following-error limit of the robot
+    file. ``APART`` is in between.
     """
-    if abs(apart) > axis.following:
-        return Grade.BEYOND
-    return Grade.APART if abs(apart) > noticeable(axis) else Grade.PLAIN
+    if abs(difference) > axis.following_limit:
+        return DeviationGrade.BEYOND
+    return (
+        DeviationGrade.APART
+        if abs(difference) > find_noticeable_change(axis)
+        else DeviationGrade.PLAIN
+    )
 
 
-def difference_text(apart: float, scale: Scale) -> str:
-    """Return how far a reading is from the command (SI), with its sign."""
-    text = scale.number(apart)
+def format_difference(difference: float, scale: DisplayScale) -> str:
+    """Return measured minus commanded position, given in m or rad, as text with its sign."""
+    text = scale.format_value(difference)
     return text if text.startswith("-") else f"+{text}"
 
 
-def aids(
-    inverse: NamedInverse | None, approach: Approach | None, *, taken_up: bool
+def describe_compensation(
+    inverse: NamedInverse | None, approach: OneSidedApproach | None, *, taken_up: bool
 ) -> tuple[str, str]:
-    """Return signs of what stands between an axis' command and the machine, and what they mean."""
-    signs, meant = [], []
+    """Return symbols for the compensation that is active on an axis, and their explanation.
+
+    ``taken_up`` says whether the backlash is taken up on the side of the approach.
+    """
+    symbols, explanations = [], []
     if inverse is not None:
-        signs.append("H⁻¹")
-        text = tr("H⁻¹: commands pass the inverse {name}; remove it in the panel Compensation.")
-        meant.append(text.format(name=inverse.name))
+        symbols.append("H⁻¹")
+        text = tr(
+            "H⁻¹: commands pass through the inverse {name}, which you can remove in the "
+            "Compensation panel."
+        )
+        explanations.append(text.format(name=inverse.name))
     if approach is not None:
         arrow = "↑" if approach.rising else "↓"
-        signs.append(arrow if taken_up else f"({arrow})")
-        side = (
-            tr("{sign}: jogs and go-to approach from below.")
+        symbols.append(arrow if taken_up else f"({arrow})")
+        explanation = (
+            tr("{sign}: jogs and go-to moves approach their target from below.")
             if approach.rising
-            else tr("{sign}: jogs and go-to approach from above.")
+            else tr("{sign}: jogs and go-to moves approach their target from above.")
         )
-        meant.append(side.format(sign=arrow))
+        explanations.append(explanation.format(sign=arrow))
         if not taken_up:
-            meant.append(tr("In brackets: the last approach was from the other side."))
-    return " ".join(signs), " ".join(meant)
+            explanations.append(tr("In brackets: the last approach was from the other side."))
+    return " ".join(symbols), " ".join(explanations)
 
 
-def room_left_text(position: float | None, ends: Range, scale: Scale) -> str:
-    """Return how far it is to the nearer end of the range."""
+def format_remaining_travel(position: float | None, ends: Range, scale: DisplayScale) -> str:
+    """Return the distance to the nearer end of the range as text."""
     if position is None:
         return ""
-    return tr("{way} left").format(way=_rough(_left(position, ends), scale))
+    return tr("{way} left").format(
+        way=_format_roughly(_compute_remaining_travel(position, ends), scale)
+    )
 
 
-def is_little(position: float | None, ends: Range) -> bool:
-    """Whether an axis is close to an end of its range."""
-    return position is not None and _left(position, ends) < LITTLE * (ends[1] - ends[0])
+def is_near_end(position: float | None, ends: Range) -> bool:
+    """Return whether an axis is close to an end of its range."""
+    return position is not None and _compute_remaining_travel(
+        position, ends
+    ) < NEAR_END_FRACTION * (ends[1] - ends[0])
 
 
-def range_tip(axis: str, position: float | None, ends: Range, scale: Scale) -> str:
-    """Return the range of an axis, and the travel left on both sides."""
+def make_range_tooltip(axis: str, position: float | None, ends: Range, scale: DisplayScale) -> str:
+    """Return a tooltip with the range of an axis and the remaining travel on both sides."""
     low, high = ends
     text = tr("{label} range: {low} … {high}").format(
-        label=label(axis), low=scale.text(low), high=scale.text(high)
+        label=get_axis_label(axis),
+        low=scale.format_with_unit(low),
+        high=scale.format_with_unit(high),
     )
     if position is None:
         return text
-    down, up = max(position - low, 0.0), max(high - position, 0.0)
+    travel_down, travel_up = max(position - low, 0.0), max(high - position, 0.0)
     return tr("{range}; remaining: {down} down, {up} up").format(
-        range=text, down=scale.text(down), up=scale.text(up)
+        range=text, down=scale.format_with_unit(travel_down), up=scale.format_with_unit(travel_up)
     )
 
 
-def _left(position: float, ends: Range) -> float:
+def _compute_remaining_travel(position: float, ends: Range) -> float:
     low, high = ends
     return max(min(position - low, high - position), 0.0)
 
 
-def _rough(value: float, scale: Scale) -> str:
-    return scale._replace(decimals=1).text(value)
+def _format_roughly(value: float, scale: DisplayScale) -> str:
+    return scale._replace(decimals=1).format_with_unit(value)
 
 
-# --- typed targets --------------------------------------------------------------------------------
+def parse_target(text: str, scale: DisplayScale) -> float | None:
+    """Return the position in a text, m or rad; None if the text is not a plain number.
 
-
-def typed(text: str, scale: Scale) -> float | None:
-    """Return the position (SI) that a text means; None if it is no plain number.
-
-    A comma is refused where it is not the decimal sign: it may be a thousands separator.
+    A comma is accepted only if it is the decimal separator of the language: otherwise it could be
+    a thousands separator.
     """
-    number = parsed(text)
+    number = parse_number(text)
     return None if number is None else number / scale.per_si
 
 
-def echo(text: str, scale: Scale) -> str:
-    """Return what a typed text means, with its unit."""
+def echo_target(text: str, scale: DisplayScale) -> str:
+    """Return the typed target with its unit, or the reason why the text is not a number."""
     if not text.strip():
         return ""
-    target = typed(text, scale)
+    target = parse_target(text, scale)
     if target is None:
         return tr("decimal point, no comma") if "," in text else tr("not a number")
-    return tr("to {target}").format(target=scale.text(target))
+    return tr("to {target}").format(target=scale.format_with_unit(target))
 
 
-def way(text: str, scale: Scale, command: float | None) -> str:
-    """Return how far from here the typed position is; empty where that is not known."""
-    target = typed(text, scale)
+def format_distance(text: str, scale: DisplayScale, command: float | None) -> str:
+    """Return the signed distance from the command to the typed target, or "" if it is unknown."""
+    target = parse_target(text, scale)
     if target is None or command is None:
         return ""
-    distance = scale.text(target - command)
+    distance = scale.format_with_unit(target - command)
     return distance if distance.startswith("-") else f"+{distance}"
 
 
-def no_position(axis: str, text: str, scale: Scale) -> str:
-    """Return why a text moves nothing."""
+def explain_invalid_target(axis: str, text: str, scale: DisplayScale) -> str:
+    """Return why a text is not a valid target."""
     return tr(
         "{label}: {text!r} is not a position; type a number in {symbol} with a decimal point."
-    ).format(label=label(axis), text=text.strip(), symbol=scale.symbol)
+    ).format(label=get_axis_label(axis), text=text.strip(), symbol=scale.symbol)
 
 
-# --- tip ------------------------------------------------------------------------------------------
-
-
-def tip_text(state: SessionState, zone: KeepOutZone | None) -> str:
-    """Return where the tip is, and what is below it."""
+def describe_tip(state: SessionState, zone: KeepOutZone | None) -> str:
+    """Describe the height of the tip, and whether it is in the slow zone, in a sentence."""
     if zone is None:
         return tr("No tip: this robot has no kinematic chain to a tip.")
     if state.tip is None or not state.position_known:
         return tr("Tip: unknown.")
-    above = above_floor(state, zone)
-    if above is None:
-        return tr("Tip at {height}; no floor is taught.").format(height=_millimetres(state.tip[2]))
-    if above < 0.0:
-        return tr("Tip {height} below its floor.").format(height=_millimetres(-above))
-    slow = tr("; slow zone") if above < SLOW_HEIGHT else ""
-    return tr("Tip {height} above its floor{slow}.").format(height=_millimetres(above), slow=slow)
+    height_above_floor = compute_height_above_floor(state, zone)
+    if height_above_floor is None:
+        return tr("Tip at {height}; no floor is taught.").format(
+            height=_format_millimetres(state.tip[2])
+        )
+    if height_above_floor < 0.0:
+        return tr("Tip {height} below its floor.").format(
+            height=_format_millimetres(-height_above_floor)
+        )
+    slow = tr("; slow zone") if height_above_floor < SLOW_ZONE_HEIGHT_M else ""
+    return tr("Tip {height} above its floor{slow}.").format(
+        height=_format_millimetres(height_above_floor), slow=slow
+    )
 
 
-def tip_short(state: SessionState, zone: KeepOutZone | None) -> str:
-    """Return the tip's height in few letters."""
+def describe_tip_briefly(state: SessionState, zone: KeepOutZone | None) -> str:
+    """Return the height of the tip as a short text."""
     if zone is None:
         return ""
-    above = above_floor(state, zone)
-    if above is not None:
-        return tr("Tip over floor {height}").format(height=_millimetres(above))
-    known = state.tip is not None and state.position_known
-    return tr("No floor taught") if known else tr("Tip unknown")
+    height_above_floor = compute_height_above_floor(state, zone)
+    if height_above_floor is not None:
+        return tr("Tip {height} above floor").format(height=_format_millimetres(height_above_floor))
+    is_known = state.tip is not None and state.position_known
+    return tr("No floor taught") if is_known else tr("Tip unknown")
 
 
-def above_floor(state: SessionState, zone: KeepOutZone | None) -> float | None:
-    """Return the height of the tip above its floor, m; None where one of them is not known."""
+def compute_height_above_floor(state: SessionState, zone: KeepOutZone | None) -> float | None:
+    """Return the height of the tip above the floor, m.
+
+    Return None if the tip position or the floor is unknown.
+    """
     if zone is None or state.tip is None or not state.position_known:
         return None
     height = state.tip[2] - zone.low
     return height if abs(height) < float("inf") else None
 
 
-def bounds_text(zone: KeepOutZone | None) -> str:
-    """Return what bounds the tip, and what the slow zone means."""
+def describe_bounds(zone: KeepOutZone | None) -> str:
+    """Describe the limits on the position of the tip, and the slow zone."""
     if zone is None:
         return tr("Only the axis ranges limit this robot.")
     bounds = []
     if abs(zone.low) < float("inf"):
-        bounds.append(tr("floor at {height}").format(height=_millimetres(zone.low)))
+        bounds.append(tr("floor at {height}").format(height=_format_millimetres(zone.low)))
     if abs(zone.high) < float("inf"):
-        bounds.append(tr("objective at {height}").format(height=_millimetres(zone.high)))
+        bounds.append(tr("objective at {height}").format(height=_format_millimetres(zone.high)))
     if zone.radius < float("inf"):
         bounds.append(
-            tr("at most {height} from the middle").format(height=_millimetres(zone.radius))
+            tr("at most {height} from the middle of the workspace").format(
+                height=_format_millimetres(zone.radius)
+            )
         )
     if not bounds:
-        return tr("Only the axis ranges limit the tip. Teach a floor in Connection, Tip.")
+        return tr(
+            "Only the axis ranges limit the tip. To teach a floor, use the Tip section of "
+            "the Connection panel."
+        )
     slow = (
-        tr(" Within {height} above the floor it descends at {speed} at most.").format(
-            height=exact(SLOW_HEIGHT, "m"), speed=exact(SLOW_SPEED, "m/s")
+        tr(" Within {height} of the floor, the tip descends at {speed} at most.").format(
+            height=format_exact(SLOW_ZONE_HEIGHT_M, "m"),
+            speed=format_exact(MAX_SLOW_ZONE_SPEED_M_PER_S, "m/s"),
         )
         if abs(zone.low) < float("inf")
         else ""
@@ -248,19 +285,18 @@ def bounds_text(zone: KeepOutZone | None) -> str:
     return f"{text[:1].upper()}{text[1:]}.{slow}"
 
 
-def _millimetres(metres: float) -> str:
-    return f"{fixed(1e3 * metres, 4)} mm"
+def _format_millimetres(metres: float) -> str:
+    return f"{format_fixed(1e3 * metres, 4)} mm"
 
 
-# --- owners ---------------------------------------------------------------------------------------
+def find_takeable_axes(state: SessionState) -> tuple[str, ...]:
+    """Return the axes that the operator may take over from another owner."""
+    return tuple(
+        axis for axis, owner in state.owners.items() if owner not in _OWNERS_NOT_TAKEN_OVER
+    )
 
 
-def taken(state: SessionState) -> tuple[str, ...]:
-    """Return the axes that someone else drives from whom they may be taken over."""
-    return tuple(axis for axis, owner in state.owners.items() if owner not in _NOT_TAKEN)
-
-
-def steering_text(state: TeleoperationState, device: str) -> str:
-    """Return what drives, and how."""
+def describe_steering(state: TeleoperationState, device: str) -> str:
+    """Describe the input device that moves the axes, its mode and its scaling."""
     mode, law = tr(state.mode), tr(state.law)
-    return f"{device} · {mode} · {law} × {rounded(state.factor, 6)}"
+    return f"{device} · {mode} · {law} × {format_rounded(state.factor, 6)}"

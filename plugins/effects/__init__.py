@@ -1,8 +1,9 @@
-"""Effects of the running simulator.
+"""The Effects panel: switch, adjust, load and save the effects of the running simulator.
 
-Switch, tune, load and save them.
+``chosen_effects`` and ``live_changes`` do the work without widgets; the other modules show it. The
+effects themselves are in ``sim/effects``.
 """
 
-from rotemina.app.shell.language import texts_of
+from rotemina.app.language import make_text_functions
 
-tr, mark = texts_of("effects")
+tr, mark = make_text_functions("effects")

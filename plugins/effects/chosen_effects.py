@@ -1,119 +1,137 @@
-"""The effects chosen by an operator, in signal order. Free of Qt."""
+"""Effects chosen by the operator, in signal-flow order. Does not use Qt."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Self
 
-from rotemina.sim.effects.attachment import Attached
-from rotemina.sim.effects.errors import EffectError
-from rotemina.sim.effects.formulation import Effect, Stage
-from rotemina.sim.robot.model import AxisEffect, Robot
+from rotemina.sim.effects import AttachedEffect, Effect, EffectStage
+from rotemina.sim.errors import EffectError
+from rotemina.sim.robot import AxisEffect, Robot
 
-_STAGES = list(Stage)
+_STAGE_ORDER = list(EffectStage)
 
 
 @dataclass(frozen=True, slots=True)
-class Chain:
-    """Checked effects of a robot: axis by axis, stage by stage, then in the operator's order."""
+class ChosenEffects:
+    """Valid effects of a robot, sorted by axis and stage.
+
+    Within a stage, the operator chooses the order.
+    """
 
     robot: Robot
-    effects: tuple[Attached, ...] = ()
+    effects: tuple[AttachedEffect, ...] = ()
 
     @classmethod
-    def of(cls, robot: Robot, asked: Iterable[AxisEffect]) -> Self:
-        """Look effects up and put them in order.
+    def from_effects(cls, robot: Robot, requests: Iterable[AxisEffect]) -> Self:
+        """Check the requested effects and sort them.
 
         Raises
         ------
         EffectError
-            With axis, effect, parameter, value and bound.
+            If an effect is invalid; it names axis, effect, parameter, value and bound.
         """
         axes = list(robot.axes)
-        effects = [Attached.of(robot, one) for one in asked]
-        effects.sort(key=lambda one: (axes.index(one.asked.axis), _STAGES.index(one.effect.stage)))
+        effects = [AttachedEffect.of(robot, request) for request in requests]
+        effects.sort(
+            key=lambda attached: (
+                axes.index(attached.entry.axis),
+                _STAGE_ORDER.index(attached.effect.stage),
+            )
+        )
         return cls(robot, tuple(effects))
 
     def __len__(self) -> int:
         return len(self.effects)
 
     @property
-    def asked(self) -> tuple[AxisEffect, ...]:
-        """The effects for robot files and simulators."""
-        return tuple(one.asked for one in self.effects)
+    def requests(self) -> tuple[AxisEffect, ...]:
+        """The effects in the form that robot files and simulators use."""
+        return tuple(attached.entry for attached in self.effects)
 
     @property
-    def silent(self) -> tuple[AxisEffect, ...]:
-        """The same, every one switched off."""
-        return tuple(replace(one, enabled=False) for one in self.asked)
+    def disabled_requests(self) -> tuple[AxisEffect, ...]:
+        """The same effects, all switched off."""
+        return tuple(replace(request, enabled=False) for request in self.requests)
 
-    def added(self, asked: AxisEffect) -> tuple[Self, int]:
-        """Return the chain with one more effect, the last of its stage, and its place."""
-        chain = type(self).of(self.robot, (*self.asked, asked))
-        places = [i for i, one in enumerate(chain.asked) if one is asked]
-        return chain, places[-1]
+    def with_effect(self, request: AxisEffect) -> tuple[Self, int]:
+        """Return a copy with one more effect, the last one of its stage, and its index."""
+        chain = type(self).from_effects(self.robot, (*self.requests, request))
+        indices = [index for index, other in enumerate(chain.requests) if other is request]
+        return chain, indices[-1]
 
-    def removed(self, place: int) -> Self:
-        """Return the chain without one of its effects."""
-        return replace(self, effects=self.effects[:place] + self.effects[place + 1 :])
+    def without_effect(self, index: int) -> Self:
+        """Return a copy without one of the effects."""
+        return replace(self, effects=self.effects[:index] + self.effects[index + 1 :])
 
-    def changed(self, place: int, asked: AxisEffect) -> Self:
-        """Return the chain with one effect of the same axis and stage in place of another.
+    def with_replacement(self, index: int, request: AxisEffect) -> Self:
+        """Return a copy in which one effect is replaced by another of the same axis and stage.
 
         Raises
         ------
         EffectError
-            With axis, effect, parameter, value and bound.
+            If the effect is invalid; it names axis, effect, parameter, value and bound.
         """
-        one = Attached.of(self.robot, asked)
-        return replace(self, effects=(*self.effects[:place], one, *self.effects[place + 1 :]))
+        replacement = AttachedEffect.of(self.robot, request)
+        return replace(
+            self, effects=(*self.effects[:index], replacement, *self.effects[index + 1 :])
+        )
 
-    def neighbour(self, place: int, step: int) -> int | None:
-        """Return the place of the effect before (−1) or after (+1) on the same axis and stage."""
-        other = place + step
-        if not 0 <= other < len(self.effects):
+    def find_neighbour(self, index: int, step: int) -> int | None:
+        """Return the index of the previous (−1) or next (+1) effect of the same axis and stage.
+
+        Return None if there is no such effect.
+        """
+        neighbour_index = index + step
+        if not 0 <= neighbour_index < len(self.effects):
             return None
-        one, next_one = self.effects[place], self.effects[other]
-        same = one.asked.axis == next_one.asked.axis and one.effect.stage is next_one.effect.stage
-        return other if same else None
+        attached, neighbour = self.effects[index], self.effects[neighbour_index]
+        is_same_stage = (
+            attached.entry.axis == neighbour.entry.axis
+            and attached.effect.stage is neighbour.effect.stage
+        )
+        return neighbour_index if is_same_stage else None
 
-    def swapped(self, place: int, other: int) -> Self:
-        """Return the chain with two of its effects in each other's place."""
+    def with_swap(self, index: int, other: int) -> Self:
+        """Return a copy with two effects swapped."""
         effects = list(self.effects)
-        effects[place], effects[other] = effects[other], effects[place]
+        effects[index], effects[other] = effects[other], effects[index]
         return replace(self, effects=tuple(effects))
 
 
-def with_value(one: Attached, name: str, value: float) -> AxisEffect:
+def with_value(effect: AttachedEffect, name: str, value: float) -> AxisEffect:
     """Return the effect with another value (SI) of one parameter."""
-    return replace(one.asked, parameters={**one.asked.parameters, name: value})
+    return replace(effect.entry, parameters={**effect.entry.parameters, name: value})
 
 
-def with_formulation(one: Attached, name: str) -> AxisEffect:
-    """Return the effect with another formulation; common parameters keep their values."""
-    formulation = one.effect.formulation(name)
-    assert formulation is not None, "chosen from those that there are"
-    kept: dict[str, float] = {}
-    for key, value in one.asked.parameters.items():
-        parameter = formulation.parameter(key)
+def with_formulation(effect: AttachedEffect, name: str) -> AxisEffect:
+    """Return the effect with another formulation.
+
+    Parameters that both formulations have keep their values, clipped to the new bounds.
+    """
+    formulation = effect.effect.find_formulation(name)
+    assert formulation is not None, "chosen from the formulations of the effect"
+    parameters: dict[str, float] = {}
+    for key, value in effect.entry.parameters.items():
+        parameter = formulation.find_parameter(key)
         if parameter is not None:
-            low, high = parameter.bounds(one.facts)
-            kept[key] = min(max(value, low), high)
-    return replace(one.asked, formulation=name, parameters=kept)
+            low, high = parameter.bounds(effect.facts)
+            parameters[key] = min(max(value, low), high)
+    return replace(effect.entry, formulation=name, parameters=parameters)
 
 
-def candidates(robot: Robot, axis: str, effects: Mapping[str, Effect]) -> dict[str, list[str]]:
-    """Return the effects that may sit on an axis, id -> names of the formulations that may."""
+def find_candidates(robot: Robot, axis: str, effects: Mapping[str, Effect]) -> dict[str, list[str]]:
+    """Return the effects that an axis can have, as effect id -> names of possible formulations."""
     others = [name for name in robot.axes if name != axis]
-    found: dict[str, list[str]] = {}
+    formulation_names: dict[str, list[str]] = {}
     for effect in effects.values():
         source = others[0] if effect.coupled and others else None
         for formulation in effect.formulations:
-            asked = AxisEffect(
+            request = AxisEffect(
                 axis=axis, id=effect.id, formulation=formulation.name, from_axis=source
             )
             try:
-                Attached.of(robot, asked)
+                AttachedEffect.of(robot, request)
             except EffectError:
                 continue
-            found.setdefault(effect.id, []).append(formulation.name)
-    return found
+            formulation_names.setdefault(effect.id, []).append(formulation.name)
+    return formulation_names

@@ -1,25 +1,35 @@
-"""Changes of effects on the running simulator: one at a time, with the outcome."""
+"""Applies changes of effects to the running simulator, one at a time, and reports the outcome."""
 
 from enum import Enum, auto
 
 from PySide6.QtCore import QElapsedTimer, QObject, QTimer, Signal
 
+from rotemina.app.language import describe_error, translate_message
 from rotemina.app.motion.session import MotionSession
-from rotemina.app.motion.state import CommandRefused, Connection, Event, SessionState
-from rotemina.app.shell.engine_words import error_text, spoken
+from rotemina.app.motion.state import (
+    CommandRefused,
+    ConnectionState,
+    SessionEvent,
+    SessionState,
+)
 from rotemina.plugins.effects import tr
 from rotemina.sim.errors import InputError
-from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.robot import AxisEffect
 
-PAUSE_MS = 120  # a slider that is dragged changes the simulator this often at most
-LONG_MS = 300  # from here on the operator is told that something is being prepared
-_CYCLES = 2  # of the worker, after which a command that was taken has been done
+# While a slider is dragged, changes are sent at most once in this time.
+MIN_CHANGE_INTERVAL_MS = 120
+
+# If a change takes longer than this, the operator is shown that it is being prepared.
+PREPARING_AFTER_MS = 300
+
+# A command has been executed this many cycles after the worker has taken it from the queue.
+_COMPLETION_CYCLES = 2
 
 Effects = tuple[AxisEffect, ...]
 
 
 class ApplyState(Enum):
-    """The state of a request relative to the simulator."""
+    """State of the latest requested change."""
 
     APPLIED = auto()
     UNDER_WAY = auto()
@@ -28,118 +38,125 @@ class ApplyState(Enum):
 
 
 class LiveEffects(QObject):
-    """Sends effects to a session, and follows the outcome; never waits.
+    """Sends effects to a session and tracks whether they are applied, without blocking.
 
-    The session checks at once and its worker does the rest, on its own thread: a first use compiles
-    there. While a change is on its way the next one waits, and only the newest.
+    The session checks a change at once. Its worker thread applies the change later, and compiles
+    an effect when it is first used. Of the changes requested in the meantime, only the newest is
+    kept.
 
     Signals
     -------
-    changed() : ``apply_state`` or ``reason`` did.
-    refused(str) : at once, by the session. What its worker refuses, the workbench tells.
-    replaced(tuple) : someone else put other effects in place.
+    changed() : ``apply_state`` or ``reason`` changed.
+    refused(str) : the session refused a change at once. The workbench shows later refusals.
+    replaced(tuple or None) : something else replaced the effects, or the device has none.
     """
 
     changed = Signal()
     refused = Signal(str)
     replaced = Signal(object)
-    _happened = Signal(object)
+    _event_received = Signal(object)
 
     def __init__(self, session: MotionSession, parent: QObject) -> None:
         super().__init__(parent)
         self._session = session
         self.apply_state = ApplyState.APPLIED
         self.reason = ""
-        self._seen = session.service.effects
-        self._wanted: Effects | None = None
-        self._sent: Effects | None = None
-        self._told = ""
-        self._tries = 0
-        self._cycles: list[float | None] = []
+        self._last_effects = session.service.effects
+        self._waiting_effects: Effects | None = None
+        self._sent_effects: Effects | None = None
+        self._refusal = ""
+        self._attempts = 0
+        self._cycle_times_s: list[float | None] = []
         self._clock = QElapsedTimer()
-        self._pause = QTimer(self, interval=PAUSE_MS, singleShot=True)
+        self._pause = QTimer(self, interval=MIN_CHANGE_INTERVAL_MS, singleShot=True)
         self._pause.timeout.connect(self._send)
-        self._happened.connect(self._on_event)
-        self.destroyed.connect(session.subscribe(self._happened.emit))
+        self._event_received.connect(self._on_event)
+        self.destroyed.connect(session.subscribe(self._event_received.emit))
 
-    def ask(self, effects: Effects) -> None:
-        """Have effects put in place soon; of several that are asked in a row the last."""
-        self._wanted, self._tries = effects, 0
-        self._stand(ApplyState.UNDER_WAY)
+    def request(self, effects: Effects) -> None:
+        """Apply effects soon. Of requests in quick succession, only the last one is applied."""
+        self._waiting_effects, self._attempts = effects, 0
+        self._set_state(ApplyState.UNDER_WAY)
         if not self._pause.isActive():
             self._pause.start()
 
     def refresh(self, state: SessionState) -> None:
-        """Check the outcome of the running change; once a frame."""
-        now = self._session.service.effects
-        if self._sent is None:
-            self._notice_others(now)
-        elif now == self._sent:
-            self._end(ApplyState.APPLIED)
-        elif state.connection is not Connection.CONNECTED:
-            why = spoken(state.locked) if state.locked else tr("not connected")
-            self._end(ApplyState.REFUSED, why)
-        elif self._was_done(state):
-            self._not_taken()
-        elif self._clock.elapsed() >= LONG_MS:
-            self._stand(ApplyState.PREPARING)
+        """Check the outcome of the running change. Call this in every frame."""
+        current_effects = self._session.service.effects
+        if self._sent_effects is None:
+            self._report_replacement(current_effects)
+        elif current_effects == self._sent_effects:
+            self._finish(ApplyState.APPLIED)
+        elif state.connection is not ConnectionState.CONNECTED:
+            reason = (
+                translate_message(state.lock_reason) if state.lock_reason else tr("not connected")
+            )
+            self._finish(ApplyState.REFUSED, reason)
+        elif self._is_done(state):
+            self._retry_or_refuse()
+        elif self._clock.elapsed() >= PREPARING_AFTER_MS:
+            self._set_state(ApplyState.PREPARING)
 
     def _send(self) -> None:
-        if self._wanted is None or self._sent is not None:
-            return  # what is under way comes first; its end sends the rest
-        effects, self._wanted = self._wanted, None
-        self._tries += 1
-        self._told, self._cycles = "", []
+        # While a change is running, the next one waits: `_finish` sends it.
+        if self._waiting_effects is None or self._sent_effects is not None:
+            return
+        effects, self._waiting_effects = self._waiting_effects, None
+        self._attempts += 1
+        self._refusal, self._cycle_times_s = "", []
         try:
             self._session.service.set_effects(effects)
         except InputError as error:
-            self._stand(ApplyState.REFUSED, error_text(error))
-            self.refused.emit(error_text(error))
+            self._set_state(ApplyState.REFUSED, describe_error(error))
+            self.refused.emit(describe_error(error))
             return
-        self._sent = effects
+        self._sent_effects = effects
         self._clock.start()
 
-    def _notice_others(self, now: Effects | None) -> None:
-        changed, self._seen = now != self._seen, now
-        if changed and self._wanted is None:
-            self.replaced.emit(now)
+    def _report_replacement(self, current_effects: Effects | None) -> None:
+        """Emit ``replaced`` if the effects have changed without a request of this object."""
+        is_replaced = current_effects != self._last_effects
+        self._last_effects = current_effects
+        if is_replaced and self._waiting_effects is None:
+            self.replaced.emit(current_effects)
 
-    def _was_done(self, state: SessionState) -> bool:
-        """Whether the worker took the command and has done whole cycles since.
+    def _is_done(self, state: SessionState) -> bool:
+        """Return whether the worker has taken the command and has finished enough cycles since.
 
-        Cycles are told by the device's time, which stands still in a fault.
+        Each new device time counts as a cycle. During a fault the device time stands still, so the
+        elapsed time decides instead.
         """
         if state.queued:
             return False
         if state.fault is not None:
-            return bool(self._told) or self._clock.elapsed() >= LONG_MS
-        if state.device_time_s not in self._cycles:
-            self._cycles.append(state.device_time_s)
-        return len(self._cycles) > _CYCLES
+            return bool(self._refusal) or self._clock.elapsed() >= PREPARING_AFTER_MS
+        if state.device_time_s not in self._cycle_times_s:
+            self._cycle_times_s.append(state.device_time_s)
+        return len(self._cycle_times_s) > _COMPLETION_CYCLES
 
-    def _not_taken(self) -> None:
-        """Send again what a stop swept out of the queue; tell of what was refused."""
-        if self._told or self._tries > 1:
-            self._end(
-                ApplyState.REFUSED, self._told or tr("the simulator did not accept the change")
+    def _retry_or_refuse(self) -> None:
+        """Report a refused change, or send one again that a stop has removed from the queue."""
+        if self._refusal or self._attempts > 1:
+            self._finish(
+                ApplyState.REFUSED, self._refusal or tr("the simulator did not accept the change")
             )
             return
-        self._wanted = self._wanted or self._sent
-        self._sent = None
+        self._waiting_effects = self._waiting_effects or self._sent_effects
+        self._sent_effects = None
         self._send()
 
-    def _end(self, standing: ApplyState, reason: str = "") -> None:
-        self._sent, self._seen = None, self._session.service.effects
-        if self._wanted is None:
-            self._stand(standing, reason)
+    def _finish(self, state: ApplyState, reason: str = "") -> None:
+        self._sent_effects, self._last_effects = None, self._session.service.effects
+        if self._waiting_effects is None:
+            self._set_state(state, reason)
         elif not self._pause.isActive():
             self._send()
 
-    def _stand(self, standing: ApplyState, reason: str = "") -> None:
-        if (standing, reason) != (self.apply_state, self.reason):
-            self.apply_state, self.reason = standing, reason
+    def _set_state(self, state: ApplyState, reason: str = "") -> None:
+        if (state, reason) != (self.apply_state, self.reason):
+            self.apply_state, self.reason = state, reason
             self.changed.emit()
 
-    def _on_event(self, event: Event) -> None:
-        if self._sent is not None and isinstance(event, CommandRefused):
-            self._told = event.message
+    def _on_event(self, event: SessionEvent) -> None:
+        if self._sent_effects is not None and isinstance(event, CommandRefused):
+            self._refusal = event.message

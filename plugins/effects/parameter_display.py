@@ -1,37 +1,41 @@
-"""Display of effect parameters: units, digits, slider positions; no widgets."""
+"""Display of effect parameters: units, digits and slider positions. Does not use Qt."""
 
 import math
 from dataclasses import dataclass
 
 from rotemina.plugins.effects import tr
-from rotemina.sim.effects.facts import Facts
-from rotemina.sim.effects.formulation import Parameter
-from rotemina.sim.quantities import parsed, rounded, scale_of
+from rotemina.sim.effects import AxisProperties, EffectParameter
+from rotemina.sim.messages import format_rounded, parse_number
+from rotemina.sim.units import choose_scale
 
 SLIDER_STEPS = 1000
 
-_RATES = ("", "/s", "/s²", "/√s")  # behind a unit of position, these leave it free to be chosen
-_DIGITS = 6
+# A unit of position may get a prefix, such as µ, if one of these follows it.
+_SCALABLE_SUFFIXES = ("", "/s", "/s²", "/√s")
+
+_TEXT_DIGITS = 6
 _SLIDER_DIGITS = 4
-_BEND_WITHOUT_PRESET = 2.0  # where the preset is nothing
+
+# Exponent of the slider's power law if the preset is at the zero of the slider.
+_DEFAULT_EXPONENT = 2.0
 
 
 class ValueRefusedError(ValueError):
-    """A typed value that is no number, or out of bounds; the text says which."""
+    """The typed text is not a number, or the value is out of bounds. The message says which."""
 
 
 @dataclass(frozen=True, slots=True)
-class Quantity:
-    """One parameter on one axis, as screens show it.
+class DisplayedParameter:
+    """Parameter of an effect on one axis, as shown to the operator.
 
     Attributes
     ----------
     meaning, unit : str
-        ``unit`` is what is shown, such as ``µrad``.
+        Meaning of the parameter, and the unit that is shown, such as ``µrad``.
     per_si : float
-        How many of it make one SI unit.
+        Number of shown units per SI unit.
     low, high, preset : float
-        SI; ``low`` and ``high`` may be infinite.
+        Bounds and preset, in SI units. The bounds may be infinite.
     """
 
     meaning: str
@@ -42,114 +46,125 @@ class Quantity:
     preset: float
 
     @classmethod
-    def of(cls, parameter: Parameter, facts: Facts, source_unit: str = "") -> "Quantity":
-        """Choose the unit of a parameter by its preset; ``source_unit`` is that of `from_axis`."""
+    def from_parameter(
+        cls, parameter: EffectParameter, facts: AxisProperties, source_unit: str = ""
+    ) -> "DisplayedParameter":
+        """Choose a unit that suits the preset of a parameter.
+
+        ``source_unit`` is the unit of the axis in which a coupled effect originates.
+        """
         low, high = parameter.bounds(facts)
         preset = parameter.preset(facts)
-        size = abs(preset) or _largest(low, high)
-        unit, factor = _shown_unit(parameter.unit_on(facts), size, source_unit)
-        return cls(parameter.meaning, unit, factor, low, high, preset)
+        magnitude = abs(preset) or _find_largest_magnitude(low, high)
+        unit, per_si = _choose_unit(parameter.unit_on(facts), magnitude, source_unit)
+        return cls(parameter.meaning, unit, per_si, low, high, preset)
 
     @property
     def bounded(self) -> bool:
-        """Whether a slider can show it."""
+        """Whether both bounds are finite, so that a slider can show the value."""
         return math.isfinite(self.low) and math.isfinite(self.high) and self.low < self.high
 
-    def number(self, value: float) -> str:
-        """Return a value (SI) as digits, without its unit."""
-        return rounded(value * self.per_si, _DIGITS)
+    def format_number(self, value: float) -> str:
+        """Return a value (SI) as text without unit."""
+        return format_rounded(value * self.per_si, _TEXT_DIGITS)
 
-    def text(self, value: float) -> str:
-        """Return a value (SI) with its unit."""
-        return f"{self.number(value)} {self.unit}".rstrip()
+    def format_value(self, value: float) -> str:
+        """Return a value (SI) as text with unit."""
+        return f"{self.format_number(value)} {self.unit}".rstrip()
 
     @property
     def range_text(self) -> str:
-        """Bounds as a sentence has them."""
+        """The bounds as a phrase, such as "at least 0 µm"."""
         if math.isinf(self.high):
-            return tr("at least {low}").format(low=self.text(self.low))
+            return tr("at least {low}").format(low=self.format_value(self.low))
         text = tr("between {low} and {high}")
-        return text.format(low=self.number(self.low), high=self.text(self.high))
+        return text.format(low=self.format_number(self.low), high=self.format_value(self.high))
 
-    def value(self, text: str) -> float:
-        """Return the value (SI) that a text with the shown unit means.
+    def parse_value(self, text: str) -> float:
+        """Return the value (SI) of a text that gives it in the shown unit.
 
         Raises
         ------
         ValueRefusedError
-            If it is no plain number, or out of bounds.
+            If the text is not a number, or the value is out of bounds.
         """
-        number = parsed(text)
+        number = parse_number(text)
         if number is None:
-            told = tr("{text} is not a number; enter one with a decimal point")
+            text_of_error = tr("{text} is not a number; enter one with a decimal point")
             if self.unit:
-                told = tr("{text} is not a number; enter one in {unit} with a decimal point")
-            raise ValueRefusedError(told.format(text=repr(text), unit=self.unit))
-        value = self._snapped(number / self.per_si)
+                text_of_error = tr(
+                    "{text} is not a number; enter one in {unit} with a decimal point"
+                )
+            raise ValueRefusedError(text_of_error.format(text=repr(text), unit=self.unit))
+        value = self._snap_to_bound(number / self.per_si)
         if not self.low <= value <= self.high or math.isinf(value):
             typed = f"{text.strip()} {self.unit}".rstrip()
-            told = tr("{value} must be {range}")
-            raise ValueRefusedError(told.format(value=typed, range=self.range_text))
+            text_of_error = tr("{value} must be {range}")
+            raise ValueRefusedError(text_of_error.format(value=typed, range=self.range_text))
         return value
 
-    # --- slider -----------------------------------------------------------------------------------
+    # The value follows a power law of the slider position. The preset is half-way between zero and
+    # the end, so that values near it can be adjusted finely. If the range includes negative and
+    # positive values, zero is in the middle of the slider.
 
-    # A slider bends so that the preset is half way to its end, where it can be tuned finely. One
-    # that passes zero has zero in its middle.
-
-    def place(self, value: float) -> int:
-        """Return where a value (SI) is on a slider of ``SLIDER_STEPS``."""
-        zero, end = self._reach(value >= self._zero)
-        share = min(max((value - zero) / (end - zero), 0.0), 1.0) ** (1.0 / self._bend)
+    def to_slider(self, value: float) -> int:
+        """Return the position of a value (SI) on a slider of ``SLIDER_STEPS``."""
+        zero, end = self._find_side(value >= self._zero)
+        fraction = min(max((value - zero) / (end - zero), 0.0), 1.0) ** (1.0 / self._exponent)
         if zero == self.low:
-            return round(SLIDER_STEPS * share)
-        return round(SLIDER_STEPS * 0.5 * (1.0 + math.copysign(share, end)))
+            return round(SLIDER_STEPS * fraction)
+        return round(SLIDER_STEPS * 0.5 * (1.0 + math.copysign(fraction, end)))
 
-    def at(self, place: int) -> float:
-        """Return the value (SI) at a place of the slider, in few digits."""
-        way = place / SLIDER_STEPS
+    def from_slider(self, slider_value: int) -> float:
+        """Return the value (SI) at a position of the slider, rounded to a few digits."""
+        position = slider_value / SLIDER_STEPS
         if self._zero != self.low:
-            way = 2.0 * way - 1.0
-        zero, end = self._reach(way >= 0.0)
-        value = zero + (end - zero) * abs(way) ** self._bend
+            position = 2.0 * position - 1.0
+        zero, end = self._find_side(position >= 0.0)
+        value = zero + (end - zero) * abs(position) ** self._exponent
         rounded = float(f"{value * self.per_si:.{_SLIDER_DIGITS}g}") / self.per_si
         return min(max(rounded, self.low), self.high)
 
     @property
     def _zero(self) -> float:
+        """The value from which the power law starts: 0, or the low bound if 0 is not inside."""
         return 0.0 if self.low < 0.0 < self.high else self.low
 
-    def _reach(self, upward: bool) -> tuple[float, float]:
-        """Return where a side of the slider begins, and its end."""
+    def _find_side(self, upward: bool) -> tuple[float, float]:
+        """Return the values (SI) at the zero and at the end of one side of the slider."""
         return self._zero, self.high if upward else self.low
 
     @property
-    def _bend(self) -> float:
-        zero, end = self._reach(self.preset >= self._zero)
-        share = (self.preset - zero) / (end - zero)
-        if share == 0.0:
-            return _BEND_WITHOUT_PRESET
-        return max(math.log(share) / math.log(0.5), 1.0) if share < 1.0 else 1.0
+    def _exponent(self) -> float:
+        """The exponent of the power law, at least 1."""
+        zero, end = self._find_side(self.preset >= self._zero)
+        fraction = (self.preset - zero) / (end - zero)
+        if fraction == 0.0:
+            return _DEFAULT_EXPONENT
+        return max(math.log(fraction) / math.log(0.5), 1.0) if fraction < 1.0 else 1.0
 
-    def _snapped(self, value: float) -> float:
-        """Return the bound itself where a value was typed as the bound is shown."""
+    def _snap_to_bound(self, value: float) -> float:
+        """Return the exact bound if the value and the bound are displayed alike."""
         for bound in (self.low, self.high):
-            if math.isfinite(bound) and self.number(value) == self.number(bound):
+            if math.isfinite(bound) and self.format_number(value) == self.format_number(bound):
                 return bound
         return value
 
 
-def _largest(low: float, high: float) -> float:
+def _find_largest_magnitude(low: float, high: float) -> float:
     return max((abs(bound) for bound in (low, high) if math.isfinite(bound)), default=0.0)
 
 
-def _shown_unit(unit: str, size: float, source_unit: str) -> tuple[str, float]:
-    """Return the unit in which a value of this size reads well, and how many make one SI unit."""
-    head, slash, rest = unit.partition("/")
-    if unit == "s" or (head in ("m", "rad") and slash + rest in _RATES):
-        shown = scale_of(unit, size)
-        return shown.symbol, shown.per_si
+def _choose_unit(unit: str, magnitude: float, source_unit: str) -> tuple[str, float]:
+    """Return a unit that suits a value of this magnitude (SI), and its number per SI unit.
+
+    A ``unit`` such as ``m/…`` stands for a quotient with the unit of the source axis.
+    """
+    base_unit, slash, rest = unit.partition("/")
+    if unit == "s" or (base_unit in ("m", "rad") and slash + rest in _SCALABLE_SUFFIXES):
+        scale = choose_scale(unit, magnitude)
+        return scale.symbol, scale.per_si
     if unit.endswith("/…"):
-        head = unit.removesuffix("/…")
-        return ("" if head == source_unit else f"{head}/{source_unit}"), 1.0
+        base_unit = unit.removesuffix("/…")
+        return ("" if base_unit == source_unit else f"{base_unit}/{source_unit}"), 1.0
     return unit, 1.0

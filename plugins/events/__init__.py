@@ -1,8 +1,8 @@
-"""The operator's log: moves, stops, refusals.
+"""The Events panel: the operator's log of moves, stops, locks, refusals and runs.
 
-It also lists locks and runs.
+``journal`` keeps the entries without Qt, and ``panel`` shows them, newest first.
 """
 
-from rotemina.app.shell.language import texts_of
+from rotemina.app.language import make_text_functions
 
-tr, _ = texts_of("events")
+tr, _ = make_text_functions("events")

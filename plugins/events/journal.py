@@ -1,4 +1,4 @@
-"""Events at the machine in the operator's words: moves, stops, locks, runs. Free of Qt."""
+"""Journal of the events at the machine: moves, stops, locks and runs. Does not use Qt."""
 
 import logging
 from collections import deque
@@ -6,40 +6,57 @@ from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass
 from datetime import datetime
 
-from rotemina.app.display_units import axis_scale, label
-from rotemina.app.motion.ownership import HOMING, OPERATOR, PLAYBACK
-from rotemina.app.motion.penetration.status import PenetrationStatus, Phase
+from rotemina.app.language import choose_axis_scale, get_axis_label, translate_message
+from rotemina.app.motion.device import (
+    HOMING,
+    OPERATOR,
+    PLAYBACK,
+)
+from rotemina.app.motion.penetration import PenetrationPhase, PenetrationStatus
 from rotemina.app.motion.playback import PlaybackPhase, PlaybackState
-from rotemina.app.motion.state import Connection, SessionState
-from rotemina.app.motion.stop import LOCKED
-from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.help_topics import Explained
-from rotemina.app.shell.workbench import Level
-from rotemina.drivers.samples import DeviceState
+from rotemina.app.motion.state import STOP_AND_LOCK_REASON, ConnectionState, SessionState
+from rotemina.app.workbench import Level, NoticeMessage
+from rotemina.drivers.contract import DeviceState
 from rotemina.plugins.events import tr
-from rotemina.sim.robot.model import Robot
+from rotemina.sim.robot import Robot
 
 logger = logging.getLogger(__name__)
 
-MOST = 500  # entries that are kept
-_LASTING_S = 0.5  # a lock that ends sooner is a step on the way, as while connecting
-_SAME = 1e-9  # of an axis' range
+# Older entries are dropped.
+MAX_ENTRIES = 500
+# A shorter lock is not recorded, because it is only a step of a procedure such as connecting.
+_MIN_LOCK_DURATION_S = 0.5
+# An axis has moved if its command has changed by more than this fraction of its range.
+_MIN_MOVE_FRACTION = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
-    """One thing that happened, in local time."""
+class JournalEntry:
+    """Entry of the journal.
+
+    Attributes
+    ----------
+    time : datetime
+        Local time; for a repeated notice, the time of the latest repeat.
+    level : Level
+    text : str
+    count : int
+        Number of times that the notice was given.
+    key : hashable or None
+        Identifies the notice: successive notices with equal keys are counted in one entry. None
+        for an entry that is not a notice.
+    """
 
     time: datetime
     level: Level
     text: str
-    count: int = 1  # how often, at last then
-    key: Hashable | None = None  # what it has in common with its repeats; a move has none
+    count: int = 1
+    key: Hashable | None = None
 
 
 @dataclass(frozen=True, slots=True)
-class Moment:
-    """All that the journal looks at, together.
+class MachineSnapshot:
+    """Everything that the journal watches, at one instant.
 
     Attributes
     ----------
@@ -47,9 +64,10 @@ class Moment:
     playback : PlaybackState
     penetration : PenetrationStatus
     plan, driver, recording, model : str
-        What is played, connected, recorded (empty: nothing) and predicted with, by name.
+        Names of the loaded trajectory, the driver, the recording (empty if there is none) and the
+        model in use.
     at_s : float
-        On any clock.
+        Time of a monotonic clock, s.
     """
 
     state: SessionState
@@ -62,11 +80,12 @@ class Moment:
     at_s: float = 0.0
 
 
-class Journal:
-    """Compares each moment with the one before, and keeps what is different.
+class EventJournal:
+    """Journal that compares each snapshot with the previous one and records the differences.
 
-    A move is told when the machine rests again, from where it rested before: every jog, whoever
-    asked for it, and no more entries than there were rests.
+    A move is recorded when the machine has come to rest, as the displacement from the previous rest
+    position. So every jog is recorded, whether by the operator or by a device, and there is at most
+    one entry each time the machine comes to rest.
 
     Parameters
     ----------
@@ -77,100 +96,109 @@ class Journal:
 
     def __init__(self, robot: Robot, clock: Callable[[], datetime] = datetime.now) -> None:
         self._robot, self._clock = robot, clock
-        self.entries: deque[Entry] = deque(maxlen=MOST)
-        # How many there were; another number means that there is something new.
+        self.entries: deque[JournalEntry] = deque(maxlen=MAX_ENTRIES)
+        # The number of entries added so far. The panel looks for new entries when it changes.
         self.count = 0
-        # Repeats of the latest entry, which make no new one.
+        # The number of repeated notices, which were counted in an existing entry.
         self.repeats = 0
-        self._before: Moment | None = None
-        self._rested: Mapping[str, float] | None = None  # commands
+        self._previous: MachineSnapshot | None = None
+        # The commands when the machine was last at rest, or None if they are unknown.
+        self._rest_position: Mapping[str, float] | None = None
         self._mover = ""
-        self._locked: tuple[str | None, float] = (None, 0.0)  # why, since when
-        self._told_lock: str | None = None
+        # The reason for the current lock, and the time since which it has not changed, s.
+        self._observed_lock: tuple[str | None, float] = (None, 0.0)
+        self._recorded_lock: str | None = None
 
-    def tell(self, level: Level, text: str) -> None:
-        """Add an entry for an already logged message."""
-        self.entries.append(Entry(self._clock(), level, text))
+    def add_entry(self, level: Level, text: str) -> None:
+        """Add an entry for a message that is already in the program's log."""
+        self.entries.append(JournalEntry(self._clock(), level, text))
         self.count += 1
 
-    def tell_notice(self, level: Level, notice: Explained) -> None:
-        """Add what the window has told; a repeat of the latest entry is counted there."""
+    def add_notice(self, level: Level, notice: NoticeMessage) -> None:
+        """Add a notice of the window. If it repeats the latest entry, only increase the count."""
         latest = self.entries[-1] if self.entries else None
         if latest is None or latest.key != notice.key:
-            self.tell(level, notice)
+            self.add_entry(level, notice)
             count = 1
         else:
             self.repeats += 1
             count = latest.count + 1
-        self.entries[-1] = Entry(self._clock(), level, notice, count, notice.key)
+        self.entries[-1] = JournalEntry(self._clock(), level, notice, count, notice.key)
 
-    def _note(self, level: Level, text: str) -> None:
-        """Add an entry, and log it: so it is in recordings and the support bundle too."""
+    def _add_and_log(self, level: Level, text: str) -> None:
         logger.info("%s", text)
-        self.tell(level, text)
+        self.add_entry(level, text)
 
-    def look(self, now: Moment) -> None:
-        """Take the next moment."""
-        before, self._before = self._before, now
-        self._look_at_moves(now.state)
-        self._look_at_lock(now.state, now.at_s)
-        if before is None:
+    def record_changes(self, snapshot: MachineSnapshot) -> None:
+        """Record what has changed since the previous snapshot."""
+        previous, self._previous = self._previous, snapshot
+        self._record_move(snapshot.state)
+        self._record_lock(snapshot.state, snapshot.at_s)
+        if previous is None:
             return
-        self._look_at_session(before, now)
-        self._look_at_playback(before.playback, now.playback, now.plan)
-        if now.penetration.phase is not before.penetration.phase:
-            self._tell_penetration(now.penetration)
-        if now.recording != before.recording:
+        self._record_session(previous, snapshot)
+        self._record_playback(previous.playback, snapshot.playback, snapshot.plan)
+        if snapshot.penetration.phase is not previous.penetration.phase:
+            self._record_penetration(snapshot.penetration)
+        if snapshot.recording != previous.recording:
             text = (
-                tr("Recording {name} started").format(name=now.recording)
-                if now.recording
-                else tr("Recording {name} ended").format(name=before.recording)
+                tr("Recording {name} started").format(name=snapshot.recording)
+                if snapshot.recording
+                else tr("Recording {name} ended").format(name=previous.recording)
             )
-            self._note(Level.INFO, text)
-        if now.model != before.model:
-            self.tell(Level.INFO, tr("Model in use: {name}").format(name=now.model))
+            self._add_and_log(Level.INFO, text)
+        if snapshot.model != previous.model:
+            self.add_entry(Level.INFO, tr("Model in use: {name}").format(name=snapshot.model))
 
-    def _look_at_session(self, before: Moment, now: Moment) -> None:
-        old, new = before.state, now.state
-        if new.connection is not old.connection and new.connection is Connection.CONNECTED:
-            self._note(Level.GOOD, tr("Connected: {name}").format(name=now.driver))
-        if new.connection is not old.connection and new.connection is Connection.DISCONNECTED:
-            self._note(Level.WARNING, tr("Disconnected"))
+    def _record_session(self, previous: MachineSnapshot, snapshot: MachineSnapshot) -> None:
+        old, new = previous.state, snapshot.state
+        if new.connection is not old.connection and new.connection is ConnectionState.CONNECTED:
+            self._add_and_log(Level.GOOD, tr("Connected: {name}").format(name=snapshot.driver))
+        if new.connection is not old.connection and new.connection is ConnectionState.DISCONNECTED:
+            self._add_and_log(Level.WARNING, tr("Disconnected"))
         if new.stop is not None and new.stop != old.stop:
-            self._tell_stop(new)
-        if old.latched is not None and new.latched is None:
-            self._note(Level.INFO, tr("Lock released"))
+            self._record_stop(new)
+        if old.latch_reason is not None and new.latch_reason is None:
+            self._add_and_log(Level.INFO, tr("Lock released"))
 
-    def _tell_stop(self, state: SessionState) -> None:
+    def _record_stop(self, state: SessionState) -> None:
         request = state.stop
         assert request is not None
-        by_operator = request.by == OPERATOR
-        if request.why == LOCKED and by_operator:
+        is_by_operator = request.by == OPERATOR
+        if request.why == STOP_AND_LOCK_REASON and is_by_operator:
             text = tr("Stopped and locked by the operator")
-        elif by_operator:
+        elif is_by_operator:
             text = tr("Stopped by the operator")
         else:
             text = tr("Stopped by the program")
-        if request.why and request.why != LOCKED:
-            text = f"{text}: {spoken(request.why)}"
-        self.tell(Level.WARNING, text)
+        if request.why and request.why != STOP_AND_LOCK_REASON:
+            text = f"{text}: {translate_message(request.why)}"
+        self.add_entry(Level.WARNING, text)
 
-    def _look_at_lock(self, state: SessionState, at_s: float) -> None:
-        """Tell a lock that lasts, and its end; that by the operator is told with the stop."""
-        mine = state.latched is not None or state.connection is not Connection.CONNECTED
-        why = None if mine else state.locked
-        if why != self._locked[0]:
-            self._locked = why, at_s
-        if why == self._told_lock or at_s - self._locked[1] < _LASTING_S:
+    def _record_lock(self, state: SessionState, at_s: float) -> None:
+        """Record a lock that persists, and its end.
+
+        A lock by the operator is recorded as a stop, and a lost connection as such.
+        """
+        is_recorded_elsewhere = (
+            state.latch_reason is not None or state.connection is not ConnectionState.CONNECTED
+        )
+        lock_reason = None if is_recorded_elsewhere else state.lock_reason
+        if lock_reason != self._observed_lock[0]:
+            self._observed_lock = lock_reason, at_s
+        if (
+            lock_reason == self._recorded_lock
+            or at_s - self._observed_lock[1] < _MIN_LOCK_DURATION_S
+        ):
             return
-        self._told_lock = why
-        if why is not None:
-            text = tr("Locked: {why}").format(why=spoken(why))
-            self._note(Level.WARNING, text)
-        elif not mine:
-            self._note(Level.GOOD, tr("Motion is possible"))
+        self._recorded_lock = lock_reason
+        if lock_reason is not None:
+            text = tr("Locked: {why}").format(why=translate_message(lock_reason))
+            self._add_and_log(Level.WARNING, text)
+        elif not is_recorded_elsewhere:
+            self._add_and_log(Level.GOOD, tr("Motion is possible"))
 
-    def _look_at_playback(self, old: PlaybackState, new: PlaybackState, plan: str) -> None:
+    def _record_playback(self, old: PlaybackState, new: PlaybackState, plan: str) -> None:
         if new.phase is old.phase:
             return
         name, row = plan or tr("a trajectory"), max(new.row, 0) + 1
@@ -181,43 +209,55 @@ class Journal:
         }[new.phase]
         if (old.phase, new.phase) == (PlaybackPhase.PAUSED, PlaybackPhase.PLAYING):
             text = tr("{name} resumed at row {row}")
-        self._note(Level.INFO, text.format(name=name, row=row))
+        self._add_and_log(Level.INFO, text.format(name=name, row=row))
 
-    def _tell_penetration(self, status: PenetrationStatus) -> None:
-        text = tr("Penetration: {phase}").format(phase=spoken(status.phase))
+    def _record_penetration(self, status: PenetrationStatus) -> None:
+        text = tr("Penetration: {phase}").format(phase=translate_message(status.phase))
         if status.reason:
-            text = f"{text}: {spoken(status.reason)}"
-        grave = status.phase in (Phase.ABORTED, Phase.FAILED, Phase.HELD)
-        self._note(Level.WARNING if grave else Level.INFO, text)
+            text = f"{text}: {translate_message(status.reason)}"
+        is_failure = status.phase in (
+            PenetrationPhase.ABORTED,
+            PenetrationPhase.FAILED,
+            PenetrationPhase.HELD,
+        )
+        self._add_and_log(Level.WARNING if is_failure else Level.INFO, text)
 
-    # --- moves ------------------------------------------------------------------------------------
-
-    def _look_at_moves(self, state: SessionState) -> None:
-        if state.connection is not Connection.CONNECTED or not state.command:
-            self._rested = None  # what happens meanwhile is nobody's move
+    def _record_move(self, state: SessionState) -> None:
+        if state.connection is not ConnectionState.CONNECTED or not state.command:
+            # If the position changes while there is no connection, this program did not move it.
+            self._rest_position = None
             return
         if state.activity is not DeviceState.IDLE or state.queued or state.stopping:
             self._mover = next(iter(state.owners.values()), self._mover)
             return
-        rested, self._rested = self._rested, state.command
+        old_position, self._rest_position = self._rest_position, state.command
         mover, self._mover = self._mover, ""
-        if rested is None or mover == PLAYBACK:  # which has entries of its own
+        # The start, pauses and end of a playback are recorded instead.
+        if old_position is None or mover == PLAYBACK:
             return
-        moved = [axis for axis in state.command if self._differs(axis, rested, state.command)]
-        if moved:
-            self._note(Level.INFO, self._way(moved, rested, state.command, mover))
+        axes = [
+            axis for axis in state.command if self._has_moved(axis, old_position, state.command)
+        ]
+        if axes:
+            self._add_and_log(
+                Level.INFO, self._describe_move(axes, old_position, state.command, mover)
+            )
 
-    def _differs(self, axis: str, old: Mapping[str, float], new: Mapping[str, float]) -> bool:
-        return abs(new[axis] - old.get(axis, new[axis])) > _SAME * self._robot.axes[axis].span
+    def _has_moved(self, axis: str, old: Mapping[str, float], new: Mapping[str, float]) -> bool:
+        return (
+            abs(new[axis] - old.get(axis, new[axis]))
+            > _MIN_MOVE_FRACTION * self._robot.axes[axis].span
+        )
 
-    def _way(
+    def _describe_move(
         self, axes: list[str], old: Mapping[str, float], new: Mapping[str, float], mover: str
     ) -> str:
-        parts = []
+        moves = []
         for axis in axes:
-            scale = axis_scale(self._robot.axes[axis])
-            parts.append(f"{label(axis)} {scale.number(old[axis])} → {scale.text(new[axis])}")
-        text = ", ".join(parts)
+            scale = choose_axis_scale(self._robot.axes[axis])
+            start, end = scale.format_value(old[axis]), scale.format_with_unit(new[axis])
+            moves.append(f"{get_axis_label(axis)} {start} → {end}")
+        text = ", ".join(moves)
         if mover == HOMING:
             return tr("Homed: {moved}").format(moved=text)
-        return text if mover in ("", OPERATOR) else f"{spoken(mover)}: {text}"
+        return text if mover in ("", OPERATOR) else f"{translate_message(mover)}: {text}"

@@ -1,5 +1,9 @@
-"""Past faults, and fault injection for training."""
+"""The Faults panel: the fault history, and fault injection for training.
 
-from rotemina.app.shell.language import texts_of
+``fault_history`` keeps the history, ``fault_catalogue`` lists what a virtual board can simulate,
+and ``board_process`` runs such a board next to the window.
+"""
 
-tr, mark = texts_of("faults")
+from rotemina.app.language import make_text_functions
+
+tr, mark = make_text_functions("faults")

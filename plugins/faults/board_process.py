@@ -1,4 +1,4 @@
-"""A virtual board as a separate process that ends with the window."""
+"""A virtual board in a separate process, which ends with the window."""
 
 import os
 import re
@@ -9,128 +9,147 @@ from pathlib import Path
 from PySide6.QtCore import QObject, QProcess, Signal
 
 from rotemina.plugins.faults import mark
-from rotemina.sim.robot.model import Robot
-from rotemina.sim.robot.writing import write_robot
+from rotemina.sim.robot import Robot
+from rotemina.sim.robot_files import write_robot
 
-_LISTENING = re.compile(r"listening on (?P<port>.+): (?P<who>board .+)")
-_COMPLAINT = "rotemina: "  # begins each line of what the command refuses
-_END_MS = 1500
-# Where nothing but sockets can be waited for, a process has no commands either.
+_LISTENING_PATTERN = re.compile(r"listening on (?P<port>.+): (?P<who>board .+)")
+# The command begins each line of an error message with this.
+_ERROR_PREFIX = "rotemina: "
+_END_TIMEOUT_MS = 1500
+# The board waits for its ports and its standard input at once. Systems other than POSIX can wait
+# for sockets only, so the board cannot read commands there.
 TAKES_COMMANDS = os.name == "posix"
 
 
 class BoardProcess(QObject):
-    """Starts ``rotemina board``, reports its ports, and sends it fault commands.
+    """Process that runs the command ``rotemina board`` and takes fault commands.
 
     Signals
     -------
-    listening(list of (port, who)) : all its ports are there.
-    said(str) : a line of what it tells.
-    complained(str) : a line of what it refuses.
-    ended(str) : why, or "" where that was requested.
+    listening(list of (port, board))
+        Emitted when all ports are open.
+    line_printed(str)
+        Emitted for each line of output.
+    error_printed(str)
+        Emitted for each error message.
+    ended(str)
+        Emitted when the process ends, with the reason, or with "" if the end was requested.
     """
 
     listening = Signal(object)
-    said = Signal(str)
-    complained = Signal(str)
+    line_printed = Signal(str)
+    error_printed = Signal(str)
     ended = Signal(str)
 
     def __init__(self, robot: Robot, parent: QObject) -> None:
         super().__init__(parent)
         self._robot = robot
-        self._asked_to_end = False
-        self._expected = 0
-        self._ports: list[tuple[str, str]] = []
-        self._complaint = ""
+        self._end_requested = False
+        self._expected_port_count = 0
+        self._listening_ports: list[tuple[str, str]] = []
+        self._last_error = ""
         self._folder: tempfile.TemporaryDirectory[str] | None = None
         self._process = QProcess(self)
-        self._process.readyReadStandardOutput.connect(self._read)
-        self._process.readyReadStandardError.connect(self._read_complaints)
-        self._process.finished.connect(lambda *_: self._finish())
-        self._process.errorOccurred.connect(self._fail)
+        self._process.readyReadStandardOutput.connect(self._read_output)
+        self._process.readyReadStandardError.connect(self._read_errors)
+        self._process.finished.connect(lambda *_: self._on_finished())
+        self._process.errorOccurred.connect(self._on_error)
 
     @property
-    def running(self) -> bool:
-        """Whether there is a process."""
+    def is_running(self) -> bool:
+        """Whether the process is running."""
         return self._process.state() is not QProcess.ProcessState.NotRunning
 
     @property
     def ports(self) -> tuple[tuple[str, str], ...]:
-        """The ports that it listens on, and who is there."""
-        return tuple(self._ports)
+        """The ports on which the process listens, as pairs of port and board name."""
+        return tuple(self._listening_ports)
 
     def start(self, lines: int, *, homed: bool) -> None:
-        """Start it with so many lines, 1 or 2; where the steppers are is known if ``homed``.
+        """Start the process unless it is running.
+
+        Parameters
+        ----------
+        lines : int
+            Number of serial lines, 1 or 2.
+        homed : bool
+            Whether the positions of the steppers are known from the start.
 
         Raises
         ------
         InputError
-            If the robot cannot be written for it.
+            If the robot file for the process cannot be written.
         """
-        if self.running:
+        if self.is_running:
             return
         self._folder = tempfile.TemporaryDirectory(prefix="rotemina-")
-        described = Path(self._folder.name) / "robot.toml"
-        write_robot(self._robot, described)
-        self._asked_to_end, self._expected, self._ports, self._complaint = False, lines, [], ""
-        words = ["-m", "rotemina.app.cli.main", "board", "--robot", str(described)]
+        robot_file = Path(self._folder.name) / "robot.toml"
+        write_robot(self._robot, robot_file)
+        self._end_requested, self._expected_port_count, self._listening_ports, self._last_error = (
+            False,
+            lines,
+            [],
+            "",
+        )
+        arguments = ["-m", "rotemina.app.cli.main", "board", "--robot", str(robot_file)]
         if TAKES_COMMANDS:
-            words += ["--until-stdin-closes"]
-            words += ["--bus"] if lines == 1 and len(self._robot.axes) > 3 else []
+            arguments += ["--until-stdin-closes"]
+            arguments += ["--bus"] if lines == 1 and len(self._robot.axes) > 3 else []
         else:
-            words += ["--tcp", "127.0.0.1:0"] * lines
-        words += ["--position-known"] if homed else []
-        self._process.start(sys.executable, words)
+            arguments += ["--tcp", "127.0.0.1:0"] * lines
+        arguments += ["--position-known"] if homed else []
+        self._process.start(sys.executable, arguments)
 
     def inject(self, command: str) -> None:
-        """Send a fault command; the process reports errors."""
+        """Send a fault command. The process prints a message if it is invalid."""
         self._process.write(f"{command}\n".encode())
 
     def end(self) -> None:
-        """Ask it to end; this waits for nothing."""
-        self._asked_to_end = True
+        """Request the end of the process without waiting for it."""
+        self._end_requested = True
         self._process.closeWriteChannel()
         self._process.terminate()
 
     def close(self) -> None:
-        """End it, and wait until it has: the window goes."""
-        if self.running:
+        """End the process and wait for its end. Call this when the window closes."""
+        if self.is_running:
             self.end()
-            if not self._process.waitForFinished(_END_MS):
+            if not self._process.waitForFinished(_END_TIMEOUT_MS):
                 self._process.kill()
-                self._process.waitForFinished(_END_MS)
+                self._process.waitForFinished(_END_TIMEOUT_MS)
 
-    def _read(self) -> None:
+    def _read_output(self) -> None:
         while self._process.canReadLine():
             line = bytes(self._process.readLine().data()).decode("utf-8", "replace").strip()
-            found = _LISTENING.fullmatch(line)
-            if found is None:
-                self.said.emit(line)
+            match = _LISTENING_PATTERN.fullmatch(line)
+            if match is None:
+                self.line_printed.emit(line)
                 continue
-            self._ports.append((found["port"], found["who"]))
-            if len(self._ports) == self._expected:
+            self._listening_ports.append((match["port"], match["who"]))
+            if len(self._listening_ports) == self._expected_port_count:
                 self.listening.emit(self.ports)
 
-    def _read_complaints(self) -> None:
+    def _read_errors(self) -> None:
         text = bytes(self._process.readAllStandardError().data()).decode("utf-8", "replace")
         for line in filter(None, map(str.strip, text.splitlines())):
-            if line.startswith(_COMPLAINT):
-                self._complaint = line.removeprefix(_COMPLAINT)
-                self.complained.emit(self._complaint)
-            else:  # what the command tells besides, such as the robot file it uses
-                self.said.emit(line)
+            if line.startswith(_ERROR_PREFIX):
+                self._last_error = line.removeprefix(_ERROR_PREFIX)
+                self.error_printed.emit(self._last_error)
+            else:
+                # The command also prints notes to this stream, such as the robot file it uses.
+                self.line_printed.emit(line)
 
-    def _fail(self, error: QProcess.ProcessError) -> None:
+    def _on_error(self, error: QProcess.ProcessError) -> None:
         if error is QProcess.ProcessError.FailedToStart:
-            self._complaint = self._process.errorString()
-            self._finish()
+            self._last_error = self._process.errorString()
+            self._on_finished()
 
-    def _finish(self) -> None:
-        self._ports = []
+    def _on_finished(self) -> None:
+        self._listening_ports = []
         if self._folder is not None:
             self._folder.cleanup()
             self._folder = None
-        if self._asked_to_end:
+        if self._end_requested:
             self.ended.emit("")
         else:
-            self.ended.emit(self._complaint or mark("the virtual board ended by itself"))
+            self.ended.emit(self._last_error or mark("the virtual board ended by itself"))

@@ -1,4 +1,4 @@
-"""Faults of a virtual board, as commands with parameters. Free of widgets."""
+"""Faults that a virtual board can simulate, as commands with parameters. Does not use Qt."""
 
 from dataclasses import dataclass
 
@@ -6,115 +6,156 @@ from rotemina.plugins.faults import tr
 
 
 @dataclass(frozen=True, slots=True)
-class Pick:
-    """A parameter that is one of some words; each is (what is shown, what is sent)."""
+class ChoiceParameter:
+    """Parameter of a fault that is one of several words.
+
+    Attributes
+    ----------
+    name : str
+    options : tuple of (str, str)
+        For each option, the text on the screen and the word in the command.
+    """
 
     name: str
-    words: tuple[tuple[str, str], ...]
+    options: tuple[tuple[str, str], ...]
 
 
 @dataclass(frozen=True, slots=True)
-class Number:
-    """A parameter that is a number with a unit."""
+class NumberParameter:
+    """Parameter of a fault that is a number with a unit.
+
+    Attributes
+    ----------
+    name : str
+    default, low, high : float
+        Default value and bounds, in ``unit``.
+    unit, sent_unit : str
+        The unit on the screen, and the unit in the command.
+    decimals : int
+    """
 
     name: str
-    preset: float
+    default: float
     low: float
     high: float
     unit: str = ""
-    sent_unit: str = ""  # as the command wants it
+    sent_unit: str = ""
     decimals: int = 0
 
-    def word(self, value: float) -> str:
-        """Return a value as the command has it."""
+    def format_for_command(self, value: float) -> str:
+        """Return a value as text for the command."""
         number = f"{value:.{self.decimals}f}"
         return f"{number} {self.sent_unit}".rstrip()
 
 
 @dataclass(frozen=True, slots=True)
-class Fault:
-    """One kind of fault; its parameters come in the order in which they are sent."""
+class InjectableFault:
+    """Kind of fault that can be injected. Its parameters are in the order of the command."""
 
     title: str
     meaning: str
-    parameters: tuple[Pick | Number, ...]
+    parameters: tuple[ChoiceParameter | NumberParameter, ...]
 
-    def command(self, words: tuple[str, ...]) -> str:
-        """Return the line that a virtual board understands."""
+    def make_command(self, words: tuple[str, ...]) -> str:
+        """Return the command for a virtual board, given one word for each parameter."""
         return " ".join(word for word in words if word)
 
 
-def faults(axes: tuple[str, ...], steppers: tuple[str, ...], lines: int) -> tuple[Fault, ...]:
-    """Return the faults of a robot with these axes, behind so many lines; words as shown now."""
-    every = (
+def list_injectable_faults(
+    axes: tuple[str, ...], steppers: tuple[str, ...], lines: int
+) -> tuple[InjectableFault, ...]:
+    """Return the faults of the virtual boards of a robot.
+
+    Parameters
+    ----------
+    axes, steppers : tuple of str
+        The names of all axes, and of the stepper axes.
+    lines : int
+        Number of serial lines to the boards.
+    """
+    line_options = (
         (tr("all lines"), ""),
         *((tr("line {n}").format(n=n), f"line {n}") for n in range(1, lines + 1)),
     )
-    line = Pick(tr("Line"), every if lines > 1 else every[:1])
-    boards = tuple(
+    line_parameter = ChoiceParameter(tr("Line"), line_options if lines > 1 else line_options[:1])
+    board_options = tuple(
         (tr("board {n}").format(n=n), f"{n}") for n in range(1, (len(axes) + 2) // 3 + 1)
     )
-    damage = (
+    damage_options = (
         (tr("lose"), "drop"),
         (tr("double"), "double"),
         (tr("corrupt"), "corrupt"),
         (tr("add"), "garbage"),
     )
-    towards = Pick(tr("Direction"), ((tr("to board"), "board"), (tr("to program"), "host")))
-    made = [
-        Fault(
+    direction_parameter = ChoiceParameter(
+        tr("Direction"), ((tr("to board"), "board"), (tr("to program"), "host"))
+    )
+    faults = [
+        InjectableFault(
             tr("Bytes"),
             tr("The next bytes are lost, doubled or corrupted by one bit, or extra bytes arrive"),
-            (Pick(tr("Fault"), damage), Number(tr("Bytes"), 3, 1, 10_000), towards, line),
+            (
+                ChoiceParameter(tr("Fault"), damage_options),
+                NumberParameter(tr("Bytes"), 3, 1, 10_000),
+                direction_parameter,
+                line_parameter,
+            ),
         ),
-        Fault(
+        InjectableFault(
             tr("Delay"),
             tr("Delay all bytes by this time; 0 ends the delay"),
             (
-                Pick(tr("Fault"), ((tr("delay"), "delay"),)),
-                Number(tr("Delay"), 5.0, 0.0, 1000.0, "ms", "ms", 1),
-                towards,
-                line,
+                ChoiceParameter(tr("Fault"), ((tr("delay"), "delay"),)),
+                NumberParameter(tr("Delay"), 5.0, 0.0, 1000.0, "ms", "ms", 1),
+                direction_parameter,
+                line_parameter,
             ),
         ),
-        Fault(
+        InjectableFault(
             tr("Cable"),
             tr(
                 "The line transmits nothing in either direction; held at space, the boards "
                 "receive a stop first"
             ),
             (
-                Pick(tr("Fault"), ((tr("silent"), "silence"), (tr("held at space"), "space"))),
-                Number(tr("Duration"), 2.0, 0.0, 3600.0, "s", "s", 1),
-                line,
+                ChoiceParameter(
+                    tr("Fault"), ((tr("silent"), "silence"), (tr("held at space"), "space"))
+                ),
+                NumberParameter(tr("Duration"), 2.0, 0.0, 3600.0, "s", "s", 1),
+                line_parameter,
             ),
         ),
-        Fault(
+        InjectableFault(
             tr("Board"),
             tr("A board restarts and loses the positions of its steppers"),
             (
-                Pick(tr("Fault"), ((tr("reset"), "reset"), (tr("brown-out"), "brown-out"))),
-                Pick(tr("Board"), boards),
+                ChoiceParameter(
+                    tr("Fault"), ((tr("reset"), "reset"), (tr("brown-out"), "brown-out"))
+                ),
+                ChoiceParameter(tr("Board"), board_options),
             ),
         ),
-        Fault(
+        InjectableFault(
             tr("Sensor"),
             tr("A sensor repeats one reading until released"),
-            (Pick(tr("Fault"), ((tr("freeze"), "freeze"), (tr("release"), "thaw"))), _axes(axes)),
+            (
+                ChoiceParameter(tr("Fault"), ((tr("freeze"), "freeze"), (tr("release"), "thaw"))),
+                _make_axis_parameter(axes),
+            ),
         ),
     ]
     if steppers:
-        lost = Number(tr("Microsteps"), 40, 1, 1_000_000)
-        what = Pick(tr("Fault"), ((tr("lose steps"), "lose"),))
-        made.append(
-            Fault(
+        lost_steps = NumberParameter(tr("Microsteps"), 40, 1, 1_000_000)
+        step_loss = ChoiceParameter(tr("Fault"), ((tr("lose steps"), "lose"),))
+        faults.append(
+            InjectableFault(
                 tr("Stepper"),
                 tr("The stepper falls behind its command"),
-                (what, _axes(steppers), lost),
+                (step_loss, _make_axis_parameter(steppers), lost_steps),
             )
         )
-    return tuple(made)
+    return tuple(faults)
 
 
-def _axes(names: tuple[str, ...]) -> Pick:
-    return Pick(tr("Axis"), tuple((name, name) for name in names))
+def _make_axis_parameter(names: tuple[str, ...]) -> ChoiceParameter:
+    return ChoiceParameter(tr("Axis"), tuple((name, name) for name in names))

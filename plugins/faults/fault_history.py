@@ -1,6 +1,6 @@
-"""Faults, lost links, refusals and recoveries, with their times.
+"""History of faults, lost links, refusals and recoveries, with their times.
 
-Entries are kept and written in English, and shown in the language of the window.
+Entries are stored and saved in English, and shown in the UI language.
 """
 
 from collections.abc import Iterable
@@ -8,29 +8,32 @@ from dataclasses import dataclass
 from datetime import datetime
 from enum import StrEnum
 
+from rotemina.app.language import translate_message
 from rotemina.app.motion.state import (
-    Alarmed,
+    AlarmRaised,
     CommandRefused,
-    Connection,
-    Event,
-    Faulted,
-    Phase,
+    ConnectionState,
+    FaultRaised,
+    SessionEvent,
+    SessionPhase,
     SessionState,
     StateChanged,
 )
-from rotemina.app.shell.engine_words import spoken
 from rotemina.plugins.faults import mark, tr
 
-MOST = 500  # entries; the oldest give way
-_TURNS = 2  # a link that is lost and found again and again takes no more than two rows
+# Older entries are dropped.
+MAX_ENTRIES = 500
+# A new entry is merged with an equal one among this many latest entries. With 2, a link that is
+# lost and recovered many times takes up only two rows.
+_REPEAT_SEARCH_DEPTH = 2
 
 
-class Kind(StrEnum):
-    """The kind of an entry, as stored in files."""
+class FaultKind(StrEnum):
+    """Kind of an entry. The value is written to files."""
 
     FAULT = mark("fault")
     LOST = mark("lost")
-    FAILED = mark("not connected")
+    CONNECTION_FAILED = mark("not connected")
     REFUSED = mark("refused")
     RECOVERED = mark("recovered")
     STOP = mark("stop and lock")
@@ -39,131 +42,160 @@ class Kind(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
-    """One thing that happened; ``count`` times in a row, ``at`` the latest time.
+class FaultEntry:
+    """Entry of the fault history.
 
-    Later entries have greater numbers. ``about`` stands in the text where it says ``{about}``.
+    Attributes
+    ----------
+    number : int
+        Serial number, which increases from entry to entry.
+    at : datetime
+        Time of the latest occurrence.
+    kind : FaultKind
+    text : str
+        What happened, in English.
+    about : str
+        The subject of the text, such as the fault that was cleared. It replaces ``{about}`` in
+        ``text``.
+    count : int
+        Number of occurrences.
     """
 
     number: int
     at: datetime
-    kind: Kind
+    kind: FaultKind
     text: str
     about: str = ""
     count: int = 1
 
     @property
     def time(self) -> str:
-        """The host's clock as local time."""
+        """The local time of the entry as text."""
         return f"{self.at:%Y-%m-%d %H:%M:%S}.{self.at.microsecond // 1000:03d}"
 
     @property
-    def told(self) -> str:
-        """The text, with how many times it came."""
-        text = _filled(self.text, self.about)
+    def english_text(self) -> str:
+        """The English text with the number of occurrences."""
+        text = _fill_text(self.text, self.about)
         return text if self.count == 1 else f"{text} ({self.count} times)"
 
     @property
-    def shown(self) -> str:
-        """The same in the language of the window."""
-        text = _filled(_said(self.text), _said(self.about))
+    def shown_text(self) -> str:
+        """The text with the number of occurrences, in the UI language."""
+        text = _fill_text(_translate_text(self.text), _translate_text(self.about))
         if self.count == 1:
             return text
         return tr("{text} ({n} times)").format(text=text, n=self.count)
 
     def __str__(self) -> str:
-        return f"{self.time}{self.at:%z}\t{self.kind}\t{' '.join(self.told.split())}"
+        return f"{self.time}{self.at:%z}\t{self.kind}\t{' '.join(self.english_text.split())}"
 
 
-class History:
-    """The latest entries, oldest first."""
+class FaultHistory:
+    """History of the latest entries, oldest first."""
 
-    def __init__(self, most: int = MOST) -> None:
-        self._most = most
+    def __init__(self, max_entries: int = MAX_ENTRIES) -> None:
+        self._max_entries = max_entries
         self._number = 0
-        self._entries: list[Entry] = []
+        self._entries: list[FaultEntry] = []
         self._state = SessionState()
-        self._was_connected = False
-        self._latched: str | None = None
+        # Whether the device was connected before the latest change of the state. The session
+        # reports a changed state first, and the fault that caused it afterwards.
+        self._was_connected_before_change = False
+        self._latch_reason: str | None = None
 
     @property
-    def entries(self) -> tuple[Entry, ...]:
-        """The kept entries."""
+    def entries(self) -> tuple[FaultEntry, ...]:
+        """The entries, oldest first."""
         return tuple(self._entries)
 
     def clear(self) -> None:
-        """Forget all entries."""
+        """Remove all entries."""
         self._entries.clear()
 
-    def add(self, at: datetime, kind: Kind, text: str, about: str = "") -> None:
-        """Add an entry; what comes again, or comes and goes again, is counted instead."""
+    def add(self, at: datetime, kind: FaultKind, text: str, about: str = "") -> None:
+        """Add an entry. If it repeats a recent entry, replace that entry and increase the count."""
         count = 1
-        for place in range(len(self._entries) - 1, max(len(self._entries) - _TURNS, 0) - 1, -1):
-            old = self._entries[place]
+        for index in range(
+            len(self._entries) - 1, max(len(self._entries) - _REPEAT_SEARCH_DEPTH, 0) - 1, -1
+        ):
+            old = self._entries[index]
             if (old.kind, old.text, old.about) == (kind, text, about):
-                count += self._entries.pop(place).count
+                count += self._entries.pop(index).count
                 break
         self._number += 1
-        self._entries.append(Entry(self._number, at, kind, text, about, count))
-        del self._entries[: -self._most]
+        self._entries.append(FaultEntry(self._number, at, kind, text, about, count))
+        del self._entries[: -self._max_entries]
 
-    def note_event(self, at: datetime, event: Event) -> None:
-        """Add what a session's event tells of, if it is worth an entry."""
+    def record_event(self, at: datetime, event: SessionEvent) -> None:
+        """Add an entry for an event of the session if it belongs in the history."""
         if isinstance(event, StateChanged):
-            self._note_state(at, event.state)
+            self._record_state(at, event.state)
         elif isinstance(event, CommandRefused):
-            self.add(at, Kind.REFUSED, event.message)
-        elif isinstance(event, Alarmed):
-            self.add(at, Kind.NOTE, event.message)
-        elif isinstance(event, Faulted):
-            failed = self._state.connection is Connection.FAILED
-            kind = Kind.FAULT
-            if failed:
-                kind = Kind.LOST if self._was_connected else Kind.FAILED
+            self.add(at, FaultKind.REFUSED, event.message)
+        elif isinstance(event, AlarmRaised):
+            self.add(at, FaultKind.NOTE, event.message)
+        elif isinstance(event, FaultRaised):
+            kind = FaultKind.FAULT
+            if self._state.connection is ConnectionState.FAILED:
+                kind = (
+                    FaultKind.LOST
+                    if self._was_connected_before_change
+                    else FaultKind.CONNECTION_FAILED
+                )
             self.add(at, kind, event.message)
 
-    def note_latch(self, at: datetime, latched: str | None) -> None:
-        """Add that the emergency stop was latched or released, if it was."""
-        if latched != self._latched:
-            self._latched = latched
+    def record_latch(self, at: datetime, latch_reason: str | None) -> None:
+        """Add an entry if the emergency stop has been latched or released.
+
+        ``latch_reason`` is the reason for the latched stop; None if it is released.
+        """
+        if latch_reason != self._latch_reason:
+            self._latch_reason = latch_reason
             text = mark("released")
-            if latched is not None:
+            if latch_reason is not None:
                 text = mark("{about} locked")
-            self.add(at, Kind.STOP, text, latched or "")
+            self.add(at, FaultKind.STOP, text, latch_reason or "")
 
-    def _note_state(self, at: datetime, state: SessionState) -> None:
-        before, self._state = self._state, state
-        connected = state.connection is Connection.CONNECTED
-        was = before.connection is Connection.CONNECTED
-        if connected and not was:
-            self.add(at, Kind.RECOVERED, mark("connected"))
-        elif was and state.connection is Connection.DISCONNECTED:
-            self.add(at, Kind.NOTE, mark("disconnected"))
-        elif connected:
-            self._note_soundness(at, before, state)
-        self._was_connected = was
+    def _record_state(self, at: datetime, state: SessionState) -> None:
+        previous, self._state = self._state, state
+        is_connected = state.connection is ConnectionState.CONNECTED
+        was_connected = previous.connection is ConnectionState.CONNECTED
+        if is_connected and not was_connected:
+            self.add(at, FaultKind.RECOVERED, mark("connected"))
+        elif was_connected and state.connection is ConnectionState.DISCONNECTED:
+            self.add(at, FaultKind.NOTE, mark("disconnected"))
+        elif is_connected:
+            self._record_link_and_fault(at, previous, state)
+        self._was_connected_before_change = was_connected
 
-    def _note_soundness(self, at: datetime, before: SessionState, state: SessionState) -> None:
-        lost, was_lost = state.phase is Phase.SHORT_LOSS, before.phase is Phase.SHORT_LOSS
-        if lost and not was_lost:
-            self.add(at, Kind.LOST, mark("the device is silent for a short time"))
-        elif was_lost and not lost:
-            self.add(at, Kind.RECOVERED, mark("the device answers again"))
-        if before.fault is not None and state.fault is None:
-            self.add(at, Kind.RECOVERED, mark("cleared: {about}"), before.fault)
-
-
-def _said(text: str) -> str:
-    """Return what is kept, or the engine says, in the language of the window."""
-    told = tr(text) if text else ""
-    return told if told != text else spoken(text)
+    def _record_link_and_fault(
+        self, at: datetime, previous: SessionState, state: SessionState
+    ) -> None:
+        is_link_lost = state.phase is SessionPhase.SHORT_LOSS
+        was_link_lost = previous.phase is SessionPhase.SHORT_LOSS
+        if is_link_lost and not was_link_lost:
+            self.add(at, FaultKind.LOST, mark("the device has briefly stopped responding"))
+        elif was_link_lost and not is_link_lost:
+            self.add(at, FaultKind.RECOVERED, mark("the device answers again"))
+        if previous.fault is not None and state.fault is None:
+            self.add(at, FaultKind.RECOVERED, mark("cleared: {about}"), previous.fault)
 
 
-def _filled(text: str, about: str) -> str:
-    """Return a text about something; what a device says may hold braces, and stays."""
+def _translate_text(text: str) -> str:
+    """Translate a text of this plugin, or otherwise of the engine."""
+    translation = tr(text) if text else ""
+    return translation if translation != text else translate_message(text)
+
+
+def _fill_text(text: str, about: str) -> str:
+    """Insert ``about`` in a text.
+
+    ``str.format`` is not used, because texts from a device may contain other braces.
+    """
     return text.replace("{about}", about) if about else text
 
 
-def as_text(entries: Iterable[Entry]) -> str:
-    """Return entries as lines of time, kind and text, with tabs between."""
+def format_entries(entries: Iterable[FaultEntry]) -> str:
+    """Return entries as lines of time, kind and text, separated by tabs."""
     return "".join(f"{entry}\n" for entry in entries)

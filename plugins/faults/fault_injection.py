@@ -1,202 +1,228 @@
-"""Fault injection: a virtual board, and a row of controls for each fault."""
+"""Controls for fault injection: the virtual board, and a row for each kind of fault."""
 
 from collections.abc import Callable
 
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QCheckBox, QGridLayout, QLabel, QPushButton, QWidget
 
-from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.controls import allow, named, plain_tip
-from rotemina.app.widgets.labels import ElidedLabel, plain_text
-from rotemina.app.widgets.layouts import in_column, in_grid, in_row
-from rotemina.app.widgets.wheel_safe import SteadyChoice, SteadyNumber
+from rotemina.app.widgets.controls import (
+    WheelSafeComboBox,
+    WheelSafeSpinBox,
+    enable_unless,
+    make_tooltip,
+    name_widget,
+)
+from rotemina.app.widgets.layout import (
+    make_column,
+    make_grid,
+    make_row,
+)
+from rotemina.app.widgets.text import ElidedLabel, make_plain_label
+from rotemina.app.workbench import Workbench
 from rotemina.plugins.faults import mark, tr
 from rotemina.plugins.faults.board_process import TAKES_COMMANDS, BoardProcess
-from rotemina.plugins.faults.fault_catalogue import Fault, Number, Pick, faults
-from rotemina.sim.robot.model import StepperAxis
+from rotemina.plugins.faults.fault_catalogue import (
+    ChoiceParameter,
+    InjectableFault,
+    NumberParameter,
+    list_injectable_faults,
+)
+from rotemina.sim.robot import StepperAxis
 
-_ABOUT = mark(
+_INTRODUCTION = mark(
     "For training: start a virtual board, connect to its ports, and inject "
-    "faults. The virtual board is a process of its own. The built-in simulator "
-    "has neither lines nor boards that could fail; the panel Effects sets the "
-    "effects of its machine."
+    "faults. The virtual board runs as a separate process. The built-in simulator "
+    "has neither lines nor boards that could fail; set the effects of its machine "
+    "in the Effects panel."
 )
 _NOT_RUNNING = mark("no virtual board is running; start it first")
 _NO_COMMANDS = mark("on this system a virtual board accepts no commands")
-_BOARD_AXES = 3
+_AXES_PER_BOARD = 3
 
 
-class Choice(SteadyChoice):
-    """A parameter that is one of some words."""
+class FaultChoiceField(WheelSafeComboBox):
+    """Field for a parameter that is one of several words."""
 
-    def __init__(self, pick: Pick) -> None:
+    def __init__(self, parameter: ChoiceParameter) -> None:
         super().__init__()
-        for shown, word in pick.words:
-            self.addItem(shown, word)
-        self.setEnabled(len(pick.words) > 1)
-        self.setVisible(len(pick.words) > 1)
+        for text, word in parameter.options:
+            self.addItem(text, word)
+        self.setEnabled(len(parameter.options) > 1)
+        self.setVisible(len(parameter.options) > 1)
 
-    def word(self) -> str:
-        """Return what is sent."""
+    def read_word(self) -> str:
+        """Return the chosen word of the command."""
         return str(self.currentData())
 
 
-class Amount(SteadyNumber):
-    """A parameter that is a number."""
+class FaultNumberField(WheelSafeSpinBox):
+    """Field for a parameter that is a number."""
 
-    def __init__(self, number: Number) -> None:
+    def __init__(self, parameter: NumberParameter) -> None:
         super().__init__()
-        self._number = number
-        self.setDecimals(number.decimals)
-        self.setRange(number.low, number.high)
-        self.setValue(number.preset)
-        if number.unit:
-            self.setSuffix(f" {number.unit}")
+        self._parameter = parameter
+        self.setDecimals(parameter.decimals)
+        self.setRange(parameter.low, parameter.high)
+        self.setValue(parameter.default)
+        if parameter.unit:
+            self.setSuffix(f" {parameter.unit}")
 
-    def word(self) -> str:
-        """Return what is sent."""
-        return self._number.word(self.value())
+    def read_word(self) -> str:
+        """Return the number as text for the command."""
+        return self._parameter.format_for_command(self.value())
 
 
 class FaultRow:
-    """The controls of one kind of fault in a row of a grid."""
+    """Controls for one kind of fault: a field for each parameter, and a button."""
 
-    def __init__(self, fault: Fault, inject: Callable[[str], None]) -> None:
+    def __init__(self, fault: InjectableFault, inject: Callable[[str], None]) -> None:
         self.fault = fault
         self.fields = [
-            Choice(each) if isinstance(each, Pick) else Amount(each) for each in fault.parameters
+            FaultChoiceField(parameter)
+            if isinstance(parameter, ChoiceParameter)
+            else FaultNumberField(parameter)
+            for parameter in fault.parameters
         ]
         for field, parameter in zip(self.fields, fault.parameters, strict=True):
             field.setAccessibleName(f"{fault.title}: {parameter.name}")
-            field.setToolTip(plain_tip(f"{parameter.name}. {fault.meaning}", _bounds(parameter)))
+            field.setToolTip(
+                make_tooltip(f"{parameter.name}. {fault.meaning}", _format_bounds(parameter))
+            )
         self.button = QPushButton(tr("Inject"))
         self.button.setAccessibleName(tr("Inject {fault}").format(fault=fault.title))
-        self.button.clicked.connect(lambda _: inject(self.command()))
+        self.button.clicked.connect(lambda _: inject(self.read_command()))
 
-    def command(self) -> str:
-        """Return the command as the fields have it."""
-        return self.fault.command(tuple(field.word() for field in self.fields))
+    def read_command(self) -> str:
+        """Return the command with the values of the fields."""
+        return self.fault.make_command(tuple(field.read_word() for field in self.fields))
 
-    def place(self, grid: QGridLayout, row: int) -> None:
-        """Put the controls into a row of a grid."""
+    def add_to_grid(self, grid: QGridLayout, row: int) -> None:
+        """Add the controls to a row of a grid."""
         title = QLabel(self.fault.title)
-        title.setToolTip(plain_tip(self.fault.meaning))
+        title.setToolTip(make_tooltip(self.fault.meaning))
         grid.addWidget(title, row, 0)
-        grid.addLayout(in_row(*((field, 1) for field in self.fields), spacing=6), row, 1)
+        grid.addLayout(make_row(*((field, 1) for field in self.fields), spacing=6), row, 1)
         grid.addWidget(self.button, row, 2)
 
 
-def _bounds(parameter: Pick | Number) -> str:
-    if isinstance(parameter, Pick):
+def _format_bounds(parameter: ChoiceParameter | NumberParameter) -> str:
+    if isinstance(parameter, ChoiceParameter):
         return ""
     text = tr("{low:g} to {high:.7g} {unit}")
     return text.format(low=parameter.low, high=parameter.high, unit=parameter.unit).rstrip()
 
 
-class Injection(QWidget):
-    """The virtual board, and what can be done to it.
+class FaultInjectionView(QWidget):
+    """Controls that start and end the virtual board and inject faults.
 
     Signals
     -------
-    told(str, str, bool) : something about it worth keeping, what stands in it for ``{about}``, and
-        whether it is a complaint.
+    reported(text, about, is_error)
+        Emitted for each event that belongs in the history. ``about`` is the subject that replaces
+        ``{about}`` in the text.
     """
 
-    told = Signal(str, str, bool)
+    reported = Signal(str, str, bool)
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__()
         self._workbench = workbench
         self.board = BoardProcess(workbench.robot, self)
-        self.lines = SteadyChoice(
+        self.lines = WheelSafeComboBox(
             tr("Lines of the virtual board"), tr("Whether the virtual boards share one serial line")
         )
-        most = 2 if len(workbench.robot.axes) > _BOARD_AXES else 1
-        self._lines = most
-        if most > 1:
+        max_lines = 2 if len(workbench.robot.axes) > _AXES_PER_BOARD else 1
+        self._max_lines = max_lines
+        if max_lines > 1:
             self.lines.addItem(tr("a line for each board"), 2)
-        self.lines.addItem(tr("one line") if most == 1 else tr("one shared line"), 1)
+        self.lines.addItem(tr("one line") if max_lines == 1 else tr("one shared line"), 1)
         self.homed = QCheckBox(tr("Position known"))
         self.homed.setToolTip(tr("Start homed and without a fault, unlike a real board"))
-        self.start = QPushButton(tr("Start virtual board"))
-        self.start.setProperty("primary", True)
-        self.start.clicked.connect(lambda _: self._start())
-        self.end = named(QPushButton(tr("End")), tr("End the virtual board"))
-        self.end.clicked.connect(lambda _: self.board.end())
+        self.start_button = QPushButton(tr("Start virtual board"))
+        self.start_button.setProperty("primary", True)
+        self.start_button.clicked.connect(lambda _: self._start_board())
+        self.end_button = name_widget(QPushButton(tr("End")), tr("End the virtual board"))
+        self.end_button.clicked.connect(lambda _: self.board.end())
         self.state = ElidedLabel()
         self.rows: list[FaultRow] = []
         self._lay_out()
-        self._connect()
-        self._show()
+        self._connect_signals()
+        self._show_state()
 
     def _lay_out(self) -> None:
-        about = plain_text(tr(_ABOUT), wrap=True)
+        introduction = make_plain_label(tr(_INTRODUCTION), wrap=True)
         self.state.setProperty("quiet", True)
-        buttons = in_row(self.start, self.end, (self.state, 1))
-        options = in_row(self.lines, self.homed, 1)
-        grid = in_grid(spacing=(8, 5), stretched=1)
+        buttons = make_row(self.start_button, self.end_button, (self.state, 1))
+        options = make_row(self.lines, self.homed, 1)
+        grid = make_grid(spacing=(8, 5), stretched=1)
         axes = self._workbench.robot.axes
         steppers = tuple(name for name, axis in axes.items() if isinstance(axis, StepperAxis))
-        for row, fault in enumerate(faults(tuple(axes), steppers, self._lines)):
-            made = FaultRow(fault, self._inject)
-            made.place(grid, row)
-            self.rows.append(made)
-        in_column(buttons, options, grid, about, 1, on=self, margins=(2, 0, 8, 4), spacing=6)
+        for row, fault in enumerate(list_injectable_faults(tuple(axes), steppers, self._max_lines)):
+            fault_row = FaultRow(fault, self._inject_fault)
+            fault_row.add_to_grid(grid, row)
+            self.rows.append(fault_row)
+        make_column(
+            buttons, options, grid, introduction, 1, on=self, margins=(2, 0, 8, 4), spacing=6
+        )
 
-    def _connect(self) -> None:
-        self.board.listening.connect(self._offer)
-        self.board.said.connect(self._note)
-        self.board.complained.connect(lambda line: self.told.emit(line, "", True))
-        self.board.ended.connect(self._ended)
+    def _connect_signals(self) -> None:
+        self.board.listening.connect(self._offer_ports)
+        self.board.line_printed.connect(self._report_line)
+        self.board.error_printed.connect(lambda line: self.reported.emit(line, "", True))
+        self.board.ended.connect(self._on_board_ended)
         self._workbench.closing.connect(self.board.close)
 
-    def _start(self) -> None:
+    def _start_board(self) -> None:
         lines, homed = int(self.lines.currentData()), self.homed.isChecked()
-        if self._workbench.ask(lambda: self.board.start(lines, homed=homed)):
-            self._show()
+        if self._workbench.run_request(lambda: self.board.start(lines, homed=homed)):
+            self._show_state()
 
-    def _inject(self, command: str) -> None:
+    def _inject_fault(self, command: str) -> None:
         self.board.inject(command)
 
-    def _offer(self, ports: tuple[tuple[str, str], ...]) -> None:
+    def _offer_ports(self, ports: tuple[tuple[str, str], ...]) -> None:
         self._workbench.offer_ports(
-            (port, tr("virtual {board}").format(board=who)) for port, who in ports
+            (port, tr("virtual {board}").format(board=board)) for port, board in ports
         )
-        where = ", ".join(port for port, _ in ports)
-        self.told.emit(mark("virtual board on {about}"), where, False)
-        self._show()
+        port_names = ", ".join(port for port, _ in ports)
+        self.reported.emit(mark("virtual board on {about}"), port_names, False)
+        self._show_state()
 
-    def _note(self, line: str) -> None:
+    def _report_line(self, line: str) -> None:
+        # The board prints an event as "TIME s: TEXT". Other lines do not belong in the history.
         _, _, text = line.partition(" s: ")
         if text:
-            self.told.emit(text, "", False)
+            self.reported.emit(text, "", False)
 
-    def _ended(self, why: str) -> None:
+    def _on_board_ended(self, reason: str) -> None:
         self._workbench.offer_ports(())
-        ended = mark("virtual board ended")
-        self.told.emit(mark("virtual board ended: {about}") if why else ended, why, bool(why))
-        self._show()
+        ended_text = mark("virtual board ended")
+        self.reported.emit(
+            mark("virtual board ended: {about}") if reason else ended_text, reason, bool(reason)
+        )
+        self._show_state()
 
-    def _show(self) -> None:
-        """Show how the board stands, and lock what cannot be done."""
-        running, ports = self.board.running, self.board.ports
+    def _show_state(self) -> None:
+        is_running, ports = self.board.is_running, self.board.ports
         if ports:
-            where = ", ".join(port for port, _ in ports)
-            text = tr("Listening on {ports}; connect to it.").format(ports=where)
+            port_names = ", ".join(port for port, _ in ports)
+            text = tr("Listening on {ports}; connect to it.").format(ports=port_names)
         else:
-            text = tr("Starting …") if running else tr("No virtual board is running.")
+            text = tr("Starting …") if is_running else tr("No virtual board is running.")
         self.state.show_text(text)
-        allow(
-            self.start,
-            tr("it is already running") if running else None,
+        enable_unless(
+            self.start_button,
+            tr("it is already running") if is_running else None,
             tr("Start boards of this robot"),
         )
-        none = None if running else tr(_NOT_RUNNING)
-        allow(self.end, none, tr("End the virtual board; its lines fall silent"))
+        end_objection = None if is_running else tr(_NOT_RUNNING)
+        enable_unless(
+            self.end_button, end_objection, tr("End the virtual board; its lines fall silent")
+        )
         for widget in (self.lines, self.homed):
-            widget.setEnabled(not running)
-        why = None if ports else tr(_NOT_RUNNING)
+            widget.setEnabled(not is_running)
+        inject_objection = None if ports else tr(_NOT_RUNNING)
         if not TAKES_COMMANDS:
-            why = tr(_NO_COMMANDS)
+            inject_objection = tr(_NO_COMMANDS)
         for row in self.rows:
-            allow(row.button, why, row.fault.meaning)
+            enable_unless(row.button, inject_objection, row.fault.meaning)

@@ -1,8 +1,10 @@
-"""Gap diagnosis and correction.
+"""The Gap diagnosis panel.
 
-Where the gap is, which effects cause it, and how far it shrinks.
+It shows where the recorded machine deviates from its model (the gap), which effects cause this, and
+how much of the gap a corrected model closes. ``diagnosing`` starts a diagnosis, ``answer`` shows
+its result, and ``blind`` tests it. The diagnosis itself is in ``sim/gap``.
 """
 
-from rotemina.app.shell.language import texts_of
+from rotemina.app.language import make_text_functions
 
-tr, mark = texts_of("gap")
+tr, mark = make_text_functions("gap")

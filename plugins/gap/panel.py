@@ -1,4 +1,4 @@
-"""The gap page: choose a model and records, diagnose, see where, which and how far, act on it."""
+"""The Gap diagnosis panel: choose a model and records, diagnose them, and use the result."""
 
 from pathlib import Path
 
@@ -6,58 +6,74 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QBoxLayout
 
-from rotemina.app.motion.model_in_use import ModelInUse
+from rotemina.app.language import marked
+from rotemina.app.motion.model import ModelInUse
 from rotemina.app.motion.state import SessionState
-from rotemina.app.panel import Area, Panel, offer_in_palette
-from rotemina.app.shell.language import marked
-from rotemina.app.shell.workbench import Level, Run, Workbench
-from rotemina.app.widgets.controls import allow
-from rotemina.app.widgets.scroll_areas import scrolled
-from rotemina.drivers.samples import DeviceState
+from rotemina.app.panel import (
+    Panel,
+    PanelArea,
+    offer_in_palette,
+)
+from rotemina.app.widgets.controls import enable_unless
+from rotemina.app.widgets.layout import make_scroll_area
+from rotemina.app.workbench import (
+    ComparedRun,
+    Level,
+    Workbench,
+)
+from rotemina.drivers.contract import DeviceState
 from rotemina.plugins.gap import mark, tr
-from rotemina.plugins.gap.answer_exports import Actions
-from rotemina.plugins.gap.blind_page import BlindPage
-from rotemina.plugins.gap.diagnosing import Diagnosing
-from rotemina.plugins.gap.diagnosis_answer import Answer
-from rotemina.plugins.gap.headline_view import HEIGHT, LITTLE
-from rotemina.plugins.gap.hidden_machine import HiddenMachineTrial
-from rotemina.plugins.gap.model_switch import ModelSwitch, against, candidate
-from rotemina.plugins.gap.records import Records
-from rotemina.plugins.gap.result_section import ResultSection, unfound
-from rotemina.plugins.gap.start_section import StartSection
-from rotemina.plugins.gap.unseen_motion import UnseenMotion
-from rotemina.plugins.gap.unseen_motion_reduction import Proof
-from rotemina.plugins.gap.words import stage_name
+from rotemina.plugins.gap.answer import (
+    LARGE_HEIGHT_PX,
+    SMALL_HEIGHT_PX,
+    AnswerExports,
+    DiagnosisAnswer,
+    ModelSwitch,
+    ResultSection,
+    UnseenMotion,
+    UnseenMotionResult,
+    describe_worse_axes,
+    explain_no_cause,
+    find_candidate_model,
+    stage_name,
+)
+from rotemina.plugins.gap.blind import BlindPage, HiddenMachineTrial
+from rotemina.plugins.gap.diagnosing import BackgroundDiagnosis, RecordSelection, StartSection
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
-from rotemina.sim.trajectory.axis_limits import check_commands_of_model
+from rotemina.sim.trajectory import check_commands_fit_model
 
-_HEIGHT = 240
-_UPRIGHT_FROM = (1400, 420)  # px of width and height, from which the rail stands at the side
-_NOT_FORETOLD = mark("commands cannot predict any of the causes")
+_MIN_HEIGHT_PX = 240
+
+# If the page has at least this width and height, the rail is at its side, and otherwise above it.
+_MIN_SIZE_FOR_SIDE_RAIL_PX = (1400, 420)
+_NOT_PREDICTABLE = mark("commands cannot predict any of the causes")
 
 
 class GapPanel(Panel):
-    """A diagnosis from the choice of records to a corrected model."""
+    """Panel that leads from the choice of records through a diagnosis to a corrected model."""
 
     title = marked("panels", "Gap diagnosis")
-    area = Area.BOTTOM
+    area = PanelArea.BOTTOM
     order = 50
     help_page = "gap-diagnosis.md#in-the-window"
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)
-        self.answer: Answer | None = None
-        self._source: str | Path | None = None  # of the robot that the answer is about
-        self._candidate: ModelInUse | None = None  # what the answer leads to
-        self._resting = True
-        self._goes_on = False  # to diagnose the records that are being read
-        self.diagnosing = Diagnosing(self)
+        self.answer: DiagnosisAnswer | None = None
+        # The name or file from which the robot of the answer was read; None for the robot in use.
+        self._source: str | Path | None = None
+        # The corrected model of the answer.
+        self._candidate: ModelInUse | None = None
+        self._is_at_rest = True
+        # Whether a diagnosis starts as soon as the requested records are read.
+        self._diagnose_when_read = False
+        self.diagnosing = BackgroundDiagnosis(self)
         self.unseen = UnseenMotion(workbench, self)
-        self.actions_of = Actions(workbench, self)
+        self.exports = AnswerExports(workbench, self)
         self.model_switch = ModelSwitch(workbench, self)
         self.hidden_trial = HiddenMachineTrial(workbench, self)
-        self.records = Records(workbench, self)
+        self.records = RecordSelection(workbench, self)
         self.rail = StartSection(workbench, self.records)
         self.robots, self.start, self.stop = self.rail.robots, self.rail.start, self.rail.stop
         self.progress, self.doing = self.rail.progress, self.rail.doing
@@ -69,86 +85,87 @@ class GapPanel(Panel):
         offer_in_palette(self.start, self.stop, self.result.report, safe_while_hidden=True)
         self._show_state()
 
-    # --- parts ------------------------------------------------------------------------------------
-
     def _lay_out(self) -> None:
         self._outer = QBoxLayout(QBoxLayout.Direction.TopToBottom, self)
         self._outer.setContentsMargins(10, 6, 10, 6)
         self._outer.setSpacing(8)
         self._outer.addWidget(self.rail)
-        self._outer.addWidget(scrolled(self.result, sideways=True), 1)
-        self.setMinimumHeight(_HEIGHT)
+        self._outer.addWidget(make_scroll_area(self.result, sideways=True), 1)
+        self.setMinimumHeight(_MIN_HEIGHT_PX)
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
-        """Put the rail at the side where there is room, else above."""
+        """Put the rail at the side of a large page, and above a small one."""
         super().resizeEvent(event)
-        width, height = _UPRIGHT_FROM
-        upright = self.width() >= width and self.height() >= height
-        self.rail.stand(upright=upright)
-        way = QBoxLayout.Direction
-        self._outer.setDirection(way.LeftToRight if upright else way.TopToBottom)
-        self.result.headline.setMinimumHeight(HEIGHT if upright else LITTLE)
+        width, height = _MIN_SIZE_FOR_SIDE_RAIL_PX
+        is_upright = self.width() >= width and self.height() >= height
+        self.rail.set_upright(upright=is_upright)
+        direction = QBoxLayout.Direction
+        self._outer.setDirection(direction.LeftToRight if is_upright else direction.TopToBottom)
+        self.result.headline.setMinimumHeight(LARGE_HEIGHT_PX if is_upright else SMALL_HEIGHT_PX)
 
     def _connect(self) -> None:
         self.start.clicked.connect(self._start)
-        self.stop.clicked.connect(self.end)
+        self.stop.clicked.connect(self.stop_diagnosis)
         result = self.result
         result.use.clicked.connect(
-            lambda: self.model_switch.ask(self._known, against(self._known, result.proof.proof))
+            lambda: self.model_switch.ask(
+                self._current_answer,
+                describe_worse_axes(self._current_answer, result.unseen_motion.latest),
+            )
         )
-        result.twin.clicked.connect(lambda: self.actions_of.ask_twin(self._known, self._source))
-        result.motion.clicked.connect(self.check)
-        result.report.clicked.connect(lambda: self.actions_of.ask_report(self._known))
-        result.save.triggered.connect(lambda: self.actions_of.ask_json(self._known))
+        result.twin.clicked.connect(
+            lambda: self.exports.ask_twin(self._current_answer, self._source)
+        )
+        result.motion.clicked.connect(self.play_new_motion)
+        result.report.clicked.connect(lambda: self.exports.ask_report(self._current_answer))
+        result.save.triggered.connect(lambda: self.exports.ask_json(self._current_answer))
         result.test.triggered.connect(self.show_blind_test)
         result.hide_machine.triggered.connect(lambda: self.hidden_trial.begin())
         result.reveal.triggered.connect(lambda: self.hidden_trial.reveal(self.answer))
-        result.menu.aboutToShow.connect(self._offer_hidden)
+        result.menu.aboutToShow.connect(self._update_hidden_actions)
         result.plan.clicked.connect(self.play_experiment)
         result.tabs.currentChanged.connect(lambda _: self._show_state())
-        self.actions_of.twin_saved.connect(self.robots.load)
+        self.exports.twin_saved.connect(self.robots.load)
         self.robots.changed.connect(self.records.use_robot)
         self.records.changed.connect(self._show_state)
-        self.records.complete.connect(self._go_on)
+        self.records.reading_finished.connect(self._diagnose_after_reading)
         self.diagnosing.progressed.connect(self._show_progress)
         self.diagnosing.stepped.connect(result.running.show_step)
         self.diagnosing.finished.connect(self.take_answer)
         self.diagnosing.failed.connect(self._fail)
-        self.unseen.experiment_played.connect(self._use_played)
-        self.unseen.check_begun.connect(self.result.turn_to_proof)
-        self.unseen.proved.connect(self._take_proof)
-        self.workbench.run_changed.connect(self.unseen.prove)
+        self.unseen.experiment_played.connect(self._diagnose_with_run)
+        self.unseen.check_started.connect(self.result.open_unseen_motion_tab)
+        self.unseen.reduction_measured.connect(self._take_result)
+        self.workbench.run_changed.connect(self.unseen.measure_reduction)
         self.follow_frames(self._follow_motion)
-        self.workbench.diagnosis_asked.connect(self._start_asked)
+        self.workbench.diagnosis_asked.connect(self._start_if_idle)
         self.workbench.closing.connect(self.diagnosing.close)
         self.workbench.theme_changed.connect(result.set_theme)
 
     @property
-    def _known(self) -> Answer:
-        assert self.answer is not None, "what needs an answer is not allowed without"
+    def _current_answer(self) -> DiagnosisAnswer:
+        assert self.answer is not None, "actions that need an answer are disabled without one"
         return self.answer
 
-    # --- the diagnosis ----------------------------------------------------------------------------
-
     def _start(self) -> None:
-        """Diagnose; where no records are chosen, ask for them first."""
+        """Diagnose the chosen records; if there are none, ask for them first."""
         if self.records.chosen:
             self.diagnose()
         else:
-            self._goes_on = True
+            self._diagnose_when_read = True
             self.rail.menu.ask()
 
-    def _start_asked(self) -> None:
+    def _start_if_idle(self) -> None:
         if not self.diagnosing.running:
             self._start()
 
-    def _go_on(self) -> None:
-        goes_on, self._goes_on = self._goes_on, False
-        if goes_on and self.records.chosen and not self.diagnosing.running:
+    def _diagnose_after_reading(self) -> None:
+        is_requested, self._diagnose_when_read = self._diagnose_when_read, False
+        if is_requested and self.records.chosen and not self.diagnosing.running:
             self.diagnose()
 
     def diagnose(self) -> None:
-        """Diagnose the chosen records; what was answered before stays until there is another."""
+        """Diagnose the chosen records. The last answer is kept until there is a new one."""
         chosen = self.records.chosen
         if not chosen:
             self.workbench.notify(
@@ -158,36 +175,36 @@ class GapPanel(Panel):
                 until=lambda _: bool(self.records.chosen),
             )
             return
-        names = [each.full for each in chosen]
+        names = [listed.full_name for listed in chosen]
         try:
-            for name, each in zip(names, chosen, strict=True):
-                if each.record is not None:
+            for name, listed in zip(names, chosen, strict=True):
+                if listed.record is not None:
                     remedy = message("gap", "choose its model under Model")
-                    check_commands_of_model(self.robots.robot, each.record, name, remedy)
+                    check_commands_fit_model(self.robots.robot, listed.record, name, remedy)
         except InputError as error:
             self.workbench.notify(Level.ERROR, str(error), about=error)
             return
-        doing = (
+        step_text = (
             tr("waiting for the stopped work to end")
             if self.diagnosing.busy
             else stage_name("reading")
         )
         self.result.running.begin()
-        self.diagnosing.start(self.robots.robot, names, [each.record for each in chosen])
-        self._show_progress(doing, 0.0)
+        self.diagnosing.start(self.robots.robot, names, [listed.record for listed in chosen])
+        self._show_progress(step_text, 0.0)
         self._show_state()
 
-    def end(self) -> None:
-        """Stop the diagnosis that runs."""
+    def stop_diagnosis(self) -> None:
+        """Stop the running diagnosis."""
         self.diagnosing.stop()
         self.doing.setText(tr("The diagnosis was stopped."))
         self._show_state()
 
-    def take_answer(self, answer: Answer) -> None:
+    def take_answer(self, answer: DiagnosisAnswer) -> None:
         """Show a diagnosis."""
         self.workbench.settled.emit(self)
         self.answer, self._source = answer, self.robots.source
-        self._candidate = candidate(answer)
+        self._candidate = find_candidate_model(answer)
         self.unseen.use_answer(answer, self._candidate)
         self.result.show_answer(answer)
         self.doing.setText("")
@@ -198,89 +215,99 @@ class GapPanel(Panel):
         self.workbench.notify(Level.ERROR, message, about=self, subject=self)
         self._show_state()
 
-    # --- what is shown ----------------------------------------------------------------------------
-
     def _show_state(self) -> None:
-        running, answer = self.diagnosing.running, self.answer
-        chosen = len(self.records.chosen)
-        self.start.setText(tr("Diagnose") if chosen else tr("Diagnose …"))
-        tip_of_start = (
+        is_running, answer = self.diagnosing.running, self.answer
+        chosen_count = len(self.records.chosen)
+        self.start.setText(tr("Diagnose") if chosen_count else tr("Diagnose …"))
+        start_tooltip = (
             tr("Find the effects that the model lacks")
-            if chosen
+            if chosen_count
             else tr("Choose records and diagnose them")
         )
-        allow(self.start, tr("a diagnosis is running") if running else None, tip_of_start)
-        allow(
+        enable_unless(
+            self.start, tr("a diagnosis is running") if is_running else None, start_tooltip
+        )
+        enable_unless(
             self.stop,
-            None if running else tr("nothing is running"),
+            None if is_running else tr("nothing is running"),
             tr("Stop the diagnosis; motion continues"),
         )
-        self.robots.setEnabled(not running)
-        self.rail.menu.setEnabled(not running)
-        self.rail.list.setEnabled(not running)
-        self.progress.setVisible(running)
-        done = answer is not None and not running
-        self.doing.setVisible(not done)
-        self._show_use()
-        self.result.show_state(answer, chosen, running=running)
+        self.robots.setEnabled(not is_running)
+        self.rail.menu.setEnabled(not is_running)
+        self.rail.list.setEnabled(not is_running)
+        self.progress.setVisible(is_running)
+        has_result = answer is not None and not is_running
+        self.doing.setVisible(not has_result)
+        self._offer_model()
+        self.result.show_state(answer, chosen_count, running=is_running)
 
-    def _show_use(self) -> None:
-        """Offer the corrected model: by itself where it is better, else after a question."""
+    def _offer_model(self) -> None:
+        """Offer the corrected model, but only after a confirmation if there is an objection."""
         answer = self.answer
-        why_not = unfound(answer) or (None if self._candidate else tr(_NOT_FORETOLD))
-        doubt = against(answer, self.result.proof.proof) if answer and not why_not else None
-        if why_not is None and not self._resting:
-            why_not = tr("the machine is still moving")
-        self.result.offer_use(why_not, doubt)
+        unavailable_reason = explain_no_cause(answer) or (
+            None if self._candidate else tr(_NOT_PREDICTABLE)
+        )
+        objection = (
+            describe_worse_axes(answer, self.result.unseen_motion.latest)
+            if answer and not unavailable_reason
+            else None
+        )
+        if unavailable_reason is None and not self._is_at_rest:
+            unavailable_reason = tr("the machine is still moving")
+        self.result.offer_use(unavailable_reason, objection)
 
     def _follow_motion(self, state: SessionState) -> None:
-        """Offer the switch of the model at rest only; let a machine that moves have the cores."""
-        resting = state.activity is DeviceState.IDLE and not state.queued
-        if not resting:
-            self.diagnosing.stand_back()
-        if resting is not self._resting:
-            self._resting = resting
-            self._show_use()
+        """Offer the corrected model only at rest. During motion, lower the diagnosis's priority."""
+        is_at_rest = state.activity is DeviceState.IDLE and not state.queued
+        if not is_at_rest:
+            self.diagnosing.lower_priority()
+        if is_at_rest is not self._is_at_rest:
+            self._is_at_rest = is_at_rest
+            self._offer_model()
 
-    def _show_progress(self, doing: str, share: float) -> None:
-        self.progress.setValue(round(1000 * share))
-        self.progress.setToolTip(tr("{share:.0f} % done").format(share=100.0 * share))
-        self.doing.setText(doing)
-
-    # --- what is played ---------------------------------------------------------------------------
+    def _show_progress(self, step_text: str, fraction: float) -> None:
+        self.progress.setValue(round(1000 * fraction))
+        self.progress.setToolTip(tr("{share:.0f} % done").format(share=100.0 * fraction))
+        self.doing.setText(step_text)
 
     def play_experiment(self) -> None:
-        """Ask whether to play the suggested experiment: of the axis in sight, or the first."""
-        self.unseen.ask_experiment(self._known, self.result.cells.current, self.main_window)
+        """Ask whether to play the suggested experiment of the chosen axis, else the first one."""
+        self.unseen.ask_experiment(
+            self._current_answer, self.result.cells.current, self.main_window
+        )
 
-    def check(self) -> None:
-        """Ask whether to play a motion of the diagnosed axes that no record holds."""
-        self.unseen.ask_check(self._known, self.main_window)
+    def play_new_motion(self) -> None:
+        """Ask whether to play a motion of the diagnosed axes that no record contains."""
+        self.unseen.ask_check(self._current_answer, self.main_window)
 
-    def _use_played(self, run: Run) -> None:
-        self.records.join(self._known.names, self._known.records, run)
+    def _diagnose_with_run(self, run: ComparedRun) -> None:
+        self.records.tick_with_run(self._current_answer.names, self._current_answer.records, run)
         self.diagnose()
 
-    def _take_proof(self, proof: Proof, asked: bool) -> None:
-        self.result.show_proof(self._known, proof)
+    def _take_result(self, proof: UnseenMotionResult, is_requested: bool) -> None:
+        self.result.show_unseen_motion(self._current_answer, proof)
         self._show_state()
-        self.result.mark_proof()
-        if asked:  # this is what is awaited
+        self.result.mark_unseen_motion_tab()
+        # The operator is waiting for the result of a motion that was requested here.
+        if is_requested:
             self.workbench.arrived.emit("gap", proof)
 
-    def _offer_hidden(self) -> None:
-        """Offer a hidden machine in the simulator's place, or to reveal the one that is there."""
-        simulated = self.workbench.session.service.effects is not None
-        secret = self.hidden_trial.secret
-        why = None if simulated else tr("only the simulator can hide a machine")
-        hidden = None if secret is None else tr("a machine is hidden already; reveal it first")
-        allow(self.result.hide_machine, why or hidden, "")
-        allow(self.result.reveal, None if secret is not None else tr("no machine is hidden"), "")
-
-    # --- the test of the diagnosis itself ---------------------------------------------------------
+    def _update_hidden_actions(self) -> None:
+        is_simulated = self.workbench.session.service.effects is not None
+        hidden_effects = self.hidden_trial.hidden_effects
+        not_simulated_reason = None if is_simulated else tr("only the simulator can hide a machine")
+        already_hidden_reason = (
+            None if hidden_effects is None else tr("a machine is hidden already; reveal it first")
+        )
+        enable_unless(self.result.hide_machine, not_simulated_reason or already_hidden_reason, "")
+        enable_unless(
+            self.result.reveal,
+            None if hidden_effects is not None else tr("no machine is hidden"),
+            "",
+        )
 
     def show_blind_test(self) -> None:
-        """Open the page of the blind test."""
+        """Open the dialog of the blind test."""
         if self.blind is None:
             self.blind = BlindPage(self.workbench, self.robots, self)
             self.blind.setWindowFlag(Qt.WindowType.Window)

@@ -1,8 +1,10 @@
-"""Identification from a record.
+"""The Identification panel: what a record tells about an axis.
 
-Frequency response, loop, steps, fitted model and health card.
+It shows the frequency response, the hysteresis loop, the step responses, a fitted model, and the
+health card, whose figures show wear. Each analysis is one module; its method is in
+``sim/identification``.
 """
 
-from rotemina.app.shell.language import texts_of
+from rotemina.app.language import make_text_functions
 
-tr, mark = texts_of("identification")
+tr, mark = make_text_functions("identification")

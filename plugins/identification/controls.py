@@ -1,36 +1,40 @@
-"""The row of choices: axis, input, output, view, and the settings of the visible view."""
+"""Row of controls for the axis, the input, the output, the view, and the view's settings."""
 
 from pathlib import Path
 
 from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import QComboBox, QPushButton, QWidget
 
-from rotemina.app.display_units import label
-from rotemina.app.widgets.controls import named
-from rotemina.app.widgets.layouts import in_row
-from rotemina.app.widgets.when_dressed import grow_with_text
+from rotemina.app.language import get_axis_label
+from rotemina.app.widgets.controls import name_widget
+from rotemina.app.widgets.layout import make_row
+from rotemina.app.widgets.style import grow_with_text
 from rotemina.plugins.identification import mark, tr
-from rotemina.plugins.identification.filled_template import localized
-from rotemina.plugins.identification.record_query import Question, first_axis, taps_of
-from rotemina.plugins.identification.views import View
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.model import Robot
+from rotemina.plugins.identification.findings import translate_text
+from rotemina.plugins.identification.record_query import (
+    AnalysisQuestion,
+    AnalysisView,
+    find_first_axis,
+    find_taps,
+)
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot import Robot
 
-AVERAGES = (4, 8, 16, 32, 64)
-METHODS = ((mark("output error"), "oe"), ("ARX", "arx"))
-POLES = (1, 2, 3, 4, 6)
+AVERAGE_COUNTS = (4, 8, 16, 32, 64)
+METHOD_ITEMS = ((mark("output error"), "oe"), ("ARX", "arx"))
+POLE_COUNTS = (1, 2, 3, 4, 6)
 
 
-class Controls(QWidget):
+class IdentificationControls(QWidget):
     """Choices and buttons of the panel.
 
     Signals
     -------
-    asked() : the pair or a setting was changed; the question is another.
-    view_changed() : another view of the same question.
+    question_changed() : the operator has changed the axis, a signal or a setting.
+    view_changed() : the operator has chosen another view of the same question.
     """
 
-    asked = Signal()
+    question_changed = Signal()
     view_changed = Signal()
 
     def __init__(self) -> None:
@@ -42,64 +46,73 @@ class Controls(QWidget):
         self.excite.setToolTip(
             tr("Choose a motion that excites an axis, play it and analyse the record")
         )
-        self.axis = _choice(tr("Axis"))
-        self.drive, self.answer = _choice(tr("Input")), _choice(tr("Output"))
-        self.view = _choice(tr("Analysis"), [(localized(view.value), view) for view in View])
-        averages = tr("{n} averages")
-        self.averages = _choice(tr("Averages"), [(averages.format(n=n), n) for n in AVERAGES])
-        self.averages.setCurrentIndex(AVERAGES.index(8))
+        self.axis = _make_choice(tr("Axis"))
+        self.drive, self.answer = _make_choice(tr("Input")), _make_choice(tr("Output"))
+        self.view = _make_choice(
+            tr("Analysis"), [(translate_text(view.value), view) for view in AnalysisView]
+        )
+        averages_text = tr("{n} averages")
+        self.averages = _make_choice(
+            tr("Averages"),
+            [(averages_text.format(n=count), count) for count in AVERAGE_COUNTS],
+        )
+        self.averages.setCurrentIndex(AVERAGE_COUNTS.index(8))
         self.averages.setToolTip(
             tr(
                 "Segments of Welch's method: more segments smooth the curve, fewer resolve "
                 "narrower peaks. A periodic record is averaged over its periods instead."
             )
         )
-        self.method = _choice(tr("Method"), [(localized(name), method) for name, method in METHODS])
-        pole = tr("1 pole")
-        poles = tr("{n} poles")
-        self.poles = _choice(
-            tr("Poles"), [((poles if n > 1 else pole).format(n=n), n) for n in POLES]
+        self.method = _make_choice(
+            tr("Method"), [(translate_text(name), method) for name, method in METHOD_ITEMS]
         )
-        self.poles.setCurrentIndex(POLES.index(2))
+        singular, plural = tr("1 pole"), tr("{n} poles")
+        self.poles = _make_choice(
+            tr("Poles"),
+            [((plural if count > 1 else singular).format(n=count), count) for count in POLE_COUNTS],
+        )
+        self.poles.setCurrentIndex(POLE_COUNTS.index(2))
         self.copy, self.save = QPushButton(tr("Copy")), QPushButton(tr("Save …"))
         self.keep = QPushButton(tr("Store card"))
         self._lay_out()
         self.axis.activated.connect(self._change_axis)
         for choice in (self.drive, self.answer, self.averages, self.method, self.poles):
-            choice.activated.connect(lambda _: self.asked.emit())
+            choice.activated.connect(lambda _: self.question_changed.emit())
         self.view.currentIndexChanged.connect(self._change_view)
         self._show_settings()
         self._record: Record | None = None
 
     @property
-    def shown(self) -> View:
-        """The view that is chosen."""
-        return View(self.view.currentData())
+    def current_view(self) -> AnalysisView:
+        """The chosen view."""
+        return AnalysisView(self.view.currentData())
 
-    def offer(self, record: Record) -> None:
-        """Offer the axes and taps of a record; the choice stays where the record has it."""
+    def offer_record(self, record: Record) -> None:
+        """Offer the axes and taps of a record, and keep the current choices if possible."""
         self._record = record
-        kept = self.axis.currentData()
+        last_axis = self.axis.currentData()
         self.axis.clear()
         for name in record.axes:
-            self.axis.addItem(label(name), name)
-        chosen = kept if kept in record.axes else first_axis(record)
-        self.axis.setCurrentIndex(record.axes.index(chosen))
+            self.axis.addItem(get_axis_label(name), name)
+        chosen_axis = last_axis if last_axis in record.axes else find_first_axis(record)
+        self.axis.setCurrentIndex(record.axes.index(chosen_axis))
         self._offer_taps()
 
-    def look_at(self, axis: str, view: View) -> None:
-        """Choose an axis of the record offered, and a view of it."""
+    def choose_view(self, axis: str, view: AnalysisView) -> None:
+        """Choose an axis of the offered record, and a view."""
         self.axis.setCurrentIndex(self.axis.findData(axis))
         self._offer_taps()
         with QSignalBlocker(self.view):
             self.view.setCurrentIndex(self.view.findData(view))
         self._show_settings()
 
-    def question(self, name: str, robot: Robot, folder: Path | None = None) -> Question | None:
-        """Return the query, or None if the axis has no pair of signals."""
+    def make_question(
+        self, name: str, robot: Robot, folder: Path | None = None
+    ) -> AnalysisQuestion | None:
+        """Return the question about the record, or None if the axis lacks an input or an output."""
         if self._record is None or not (self.drive.count() and self.answer.count()):
             return None
-        return Question(
+        return AnalysisQuestion(
             name,
             self._record,
             robot,
@@ -119,40 +132,40 @@ class Controls(QWidget):
             (self.keep, self.copy, self.save),
         )
         parts = self.excite, self.open, *choices, *settings, 1, *results
-        in_row(*parts, on=self, margins=0, spacing=6)
+        make_row(*parts, on=self, margins=0, spacing=6)
 
     def _change_axis(self) -> None:
         self._offer_taps()
-        self.asked.emit()
+        self.question_changed.emit()
 
     def _offer_taps(self) -> None:
         assert self._record is not None
-        inputs, outputs = taps_of(self._record, self.axis.currentData())
-        for choice, taps, word in (
+        inputs, outputs = find_taps(self._record, self.axis.currentData())
+        for choice, taps, text in (
             (self.drive, inputs, tr("from {tap}")),
             (self.answer, outputs, tr("to {tap}")),
         ):
-            kept = choice.currentData()
+            last_tap = choice.currentData()
             choice.clear()
             for tap in taps:
-                choice.addItem(word.format(tap=tap), str(tap))
-            choice.setCurrentIndex(max(choice.findData(kept), 0))
+                choice.addItem(text.format(tap=tap), str(tap))
+            choice.setCurrentIndex(max(choice.findData(last_tap), 0))
 
     def _change_view(self) -> None:
         self._show_settings()
         self.view_changed.emit()
 
     def _show_settings(self) -> None:
-        self.averages.setVisible(self.shown is View.FREQUENCY)
+        self.averages.setVisible(self.current_view is AnalysisView.FREQUENCY)
         for choice in (self.method, self.poles):
-            choice.setVisible(self.shown is View.MODEL)
-        self.keep.setVisible(self.shown is View.HEALTH)
+            choice.setVisible(self.current_view is AnalysisView.MODEL)
+        self.keep.setVisible(self.current_view is AnalysisView.HEALTH)
 
 
-def _choice(name: str, items: list[tuple[str, object]] | None = None) -> QComboBox:
-    choice = named(QComboBox(), name, name)
+def _make_choice(name: str, items: list[tuple[str, object]] | None = None) -> QComboBox:
+    choice = name_widget(QComboBox(), name, name)
     choice.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
-    # Where the window is narrow, a text is cut rather than the row.
+    # In a narrow window the texts are elided, so that the whole row stays visible.
     grow_with_text(choice, choice.setMinimumWidth, 64)
     for text, data in items or []:
         choice.addItem(text, data)

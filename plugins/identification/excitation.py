@@ -1,4 +1,4 @@
-"""The excitation of an axis requested by the operator, its motion, and its checks."""
+"""Excitation of an axis: the requested motion, and the check of it on the model."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -6,27 +6,34 @@ from enum import StrEnum
 
 import numpy as np
 
-from rotemina.app.display_units import duration_text, label
-from rotemina.app.shell.engine_words import error_text, spoken
+from rotemina.app.language import describe_error, format_duration, get_axis_label, translate_message
 from rotemina.plugins.identification import mark, tr
-from rotemina.plugins.identification.views import View
-from rotemina.sim.errors import InputError
-from rotemina.sim.excitation.generator import Excitation, Kind, excite
-from rotemina.sim.excitation.quantity import Amount, ExcitationError, amount_of
-from rotemina.sim.excitation.sines_and_chirps import Multisine, Sine
-from rotemina.sim.excitation.staircase_steps_prbs import Staircase
-from rotemina.sim.excitation.triangles_and_sweeps import Triangle
-from rotemina.sim.kinematics.keep_out import KeepOutZone
-from rotemina.sim.quantities import exact, parsed, rounded
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.model import Robot
-from rotemina.sim.trajectory.dry_run import DryRun, dry_run
+from rotemina.plugins.identification.record_query import AnalysisView
+from rotemina.sim.errors import ExcitationRequestError, InputError
+from rotemina.sim.excitation import (
+    Amount,
+    Excitation,
+    ExcitationKind,
+    MultisineExcitation,
+    SineExcitation,
+    StaircaseExcitation,
+    TriangleExcitation,
+    excite,
+    parse_axis_amount,
+)
+from rotemina.sim.kinematics import KeepOutZone
+from rotemina.sim.messages import format_rounded, parse_number
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot import Robot
+from rotemina.sim.trajectory import DryRun, dry_run
+from rotemina.sim.units import format_exact
 
-_SAME = 1e-9  # of the swing: commands that differ by less are the same
+# The commands of two periods are equal if they differ by at most this fraction of the swing.
+_MAX_PERIOD_DEVIATION_RATIO = 1e-9
 
 
-class Wave(StrEnum):
-    """The motions that are offered, as trajectories are named."""
+class ExcitationWave(StrEnum):
+    """Kind of motion. The value is part of the name of the trajectory."""
 
     MULTISINE = mark("Multisine")
     SINE = mark("Sine")
@@ -34,179 +41,204 @@ class Wave(StrEnum):
     STAIRCASE = mark("Staircase")
 
 
-VIEWS: Mapping[Wave, View] = {
-    Wave.MULTISINE: View.FREQUENCY,
-    Wave.SINE: View.LOOP,
-    Wave.TRIANGLE: View.LOOP,
-    Wave.STAIRCASE: View.STEPS,
+# The view in which the record of a motion opens.
+WAVE_VIEWS: Mapping[ExcitationWave, AnalysisView] = {
+    ExcitationWave.MULTISINE: AnalysisView.FREQUENCY,
+    ExcitationWave.SINE: AnalysisView.LOOP,
+    ExcitationWave.TRIANGLE: AnalysisView.LOOP,
+    ExcitationWave.STAIRCASE: AnalysisView.STEPS,
 }
 
 
 @dataclass(frozen=True, slots=True)
 class ExcitationRequest:
-    """What was typed, each text empty where the default is to hold.
+    """Request as typed by the operator. An empty text means the default.
 
     Attributes
     ----------
-    axis, wave : which axis, and how it moves.
-    amplitude : to each side of the middle, as ``5um`` or ``30%`` of the range.
-    frequency : Hz; of a multisine the highest.
-    time : s; the duration, and of a staircase the rest on each level.
-    about : middle of the motion, m or rad; None for that of the range.
+    axis, wave : the axis, and its kind of motion.
+    amplitude : to each side of the middle, such as ``5um``, or ``30%`` of the range.
+    frequency : in Hz; for a multisine, the highest frequency.
+    time : in s; the duration, or for a staircase, the rest on each level.
+    middle : middle of the motion, m or rad, or None for the middle of the range.
     """
 
     axis: str
-    wave: Wave
+    wave: ExcitationWave
     amplitude: str = ""
     frequency: str = ""
     time: str = ""
-    about: float | None = None
+    middle: float | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Prepared:
-    """A motion that was made and tried on the model.
+class PreparedExcitation:
+    """Motion that was computed, and checked on the model.
 
     Attributes
     ----------
-    request : what it was made from.
-    made : the trajectory, and what was changed to keep limits.
-    dry_run : what the model says of it.
-    objection : why it must not be played, "" where it may.
+    request : the request for this motion.
+    excitation : the trajectory, and the changes that keep it within the limits.
+    dry_run : result of the check on the model.
+    objection : why the motion must not be played, or "" if it may be played.
     """
 
     request: ExcitationRequest
-    made: Excitation
+    excitation: Excitation
     dry_run: DryRun
     objection: str
 
     @property
     def name(self) -> str:
-        """What the motion is called."""
-        return f"{self.request.wave} of {label(self.request.axis)}"
+        """Name of the motion."""
+        return f"{self.request.wave} of {get_axis_label(self.request.axis)}"
 
     @property
     def digest(self) -> str | None:
-        """By which a record tells that this was played; None where it must not be."""
+        """Digest in the records of this motion, or None if the motion must not be played."""
         checked = self.dry_run.checked
         return None if checked is None or self.objection else checked.digest
 
     @property
-    def words(self) -> str:
-        """What it asks of the axis, what was changed, and what the dry run says, as shown."""
+    def description(self) -> str:
+        """Text for the screen: range, speed, reductions to the limits, and dry-run result."""
         axis = self.dry_run.axes[self.request.axis]
-        low, high = (exact(end, axis.unit, size=axis.highest) for end in _ends(self.dry_run))
+        low, high = (
+            format_exact(end, axis.unit, size=axis.highest) for end in _find_ends(self.dry_run)
+        )
         unit = f"{axis.unit}/s"
-        asks = tr("{low} to {high}, at most {speed}, {time}")
+        motion_text = tr("{low} to {high}, at most {speed}, {time}")
         if axis.bounds.max_speed is not None:
-            asks = tr("{low} to {high}, at most {speed} of {bound}, {time}")
-        asks = asks.format(
+            motion_text = tr("{low} to {high}, at most {speed} of {bound}, {time}")
+        motion_text = motion_text.format(
             low=low,
             high=high,
-            speed=exact(axis.peak_speed, unit),
-            bound=exact(axis.bounds.max_speed or 0.0, unit),
-            time=_lasting(self.dry_run.duration_s),
+            speed=format_exact(axis.peak_speed, unit),
+            bound=format_exact(axis.bounds.max_speed or 0.0, unit),
+            time=_format_duration(self.dry_run.duration_s),
         )
-        change = tr("Reduced to the limits: {change}.")
-        changed = (change.format(change=spoken(each.message)) for each in self.made.adjustments)
+        reduction_text = tr("Reduced to the limits: {change}.")
+        reductions = (
+            reduction_text.format(change=translate_message(adjustment.message))
+            for adjustment in self.excitation.adjustments
+        )
         verdict = tr("Dry run: within all limits and the bounds of the tip.")
         if self.objection:
             verdict = tr("Not playable: {reason}")
-        return "\n".join([asks, *changed, verdict.format(reason=self.objection)])
+        return "\n".join([motion_text, *reductions, verdict.format(reason=self.objection)])
 
 
-def prepared(
+def prepare_excitation(
     robot: Robot,
     request: ExcitationRequest,
     setpoint_period_s: float,
     zone: KeepOutZone | None = None,
     command: Mapping[str, float] | None = None,
-) -> Prepared:
-    """Make the motion that is wished for, and try it on the model.
+) -> PreparedExcitation:
+    """Compute the requested motion, and check it on the model.
 
     Parameters
     ----------
     robot : Robot
     request : ExcitationRequest
-    setpoint_period_s : of the device that shall play it.
-    zone : the tip's bounds now, as the session has them.
-    command : axis -> where it stands, m or rad; the other axes stay there.
+    setpoint_period_s : set-point period of the device that will play it.
+    zone : current limits of the tip.
+    command : axis -> current command, m or rad, at which the other axes stay.
 
     Raises
     ------
     InputError
-        If a text is no amount, frequency or time, or the motion is impossible.
+        If a text is not a valid amplitude, frequency or time, or the motion is impossible.
     """
     unit = robot.unit(request.axis) or "m"
-    size = amount_of(request.amplitude, request.axis, unit) if request.amplitude.strip() else None
-    hz, time_s = (
-        _number(mark("frequency"), request.frequency, "Hz"),
-        _number(mark("time"), request.time, "s"),
+    amplitude = (
+        parse_axis_amount(request.amplitude, request.axis, unit)
+        if request.amplitude.strip()
+        else None
     )
-    made = excite(robot, {request.axis: _kind(request, size, hz, time_s)})
-    tried = dry_run(robot, made.record, setpoint_period_s=setpoint_period_s)
-    objection = next(iter(tried.objections), "")
+    frequency_hz, time_s = (
+        _parse_number(mark("frequency"), request.frequency, "Hz"),
+        _parse_number(mark("time"), request.time, "s"),
+    )
+    excitation = excite(robot, {request.axis: _make_kind(request, amplitude, frequency_hz, time_s)})
+    result = dry_run(robot, excitation.record, setpoint_period_s=setpoint_period_s)
+    objection = next(iter(result.objections), "")
     if not objection:
-        objection = _out_of_bounds(robot, made.record, zone, command or {})
-    return Prepared(request, made, tried, objection)
+        objection = _explain_tip_bounds(robot, excitation.record, zone, command or {})
+    return PreparedExcitation(request, excitation, result, objection)
 
 
-def steady(record: Record, motion: Prepared) -> Record:
-    """Return a played record with what is known of the time before its first row.
+def trim_to_steady_state(record: Record, motion: PreparedExcitation) -> Record:
+    """Return a played record without its transient, and with its history in the metadata.
 
-    A periodic motion is left without its first period, in which the axis comes from rest, and
-    marked as in its steady state; where it is too short for that, or was not sampled in step with
-    its period, it began at rest as any other one: a playback waits on the first row.
+    The first period of a periodic motion is cut off, because the axis starts from rest in it. The
+    history of the remaining periods is "periodic". A record is not cut if it is too short, or if
+    its rows are not synchronous with the period. Its history is then the default, a start from
+    rest, because a playback waits at the first row.
     """
-    rest = {name: text for name, text in record.metadata.items() if name != "history"}
-    period = _period(record, motion)
+    metadata = {name: text for name, text in record.metadata.items() if name != "history"}
+    period = _find_period(record, motion)
     if period is None:
-        return replace(record, metadata=rest)
-    whole = len(record.time_s) // period
-    marks = {"history": "periodic", "period_samples": str(period)}
-    kept = record.part(slice(period, whole * period))
-    return replace(kept, metadata={**rest, **marks})
+        return replace(record, metadata=metadata)
+    period_count = len(record.time_s) // period
+    history_metadata = {"history": "periodic", "period_samples": str(period)}
+    whole_periods = record.select_rows(slice(period, period_count * period))
+    return replace(whole_periods, metadata={**metadata, **history_metadata})
 
 
-def _period(record: Record, motion: Prepared) -> int | None:
-    """Return the rows after which a played record repeats itself, three times or more."""
-    asked = motion.made.record
-    if asked.period_samples is None or len(record.time_s) < 2:
+def _find_period(record: Record, motion: PreparedExcitation) -> int | None:
+    """Return the period of a played record in rows.
+
+    Return None if the record has fewer than three periods, or if their commands differ.
+    """
+    trajectory = motion.excitation.record
+    if trajectory.period_samples is None or len(record.time_s) < 2:
         return None
-    period_s = asked.period_samples / float(asked.metadata["rate_hz"])
+    period_s = trajectory.period_samples / float(trajectory.metadata["rate_hz"])
     period = round(period_s * (len(record.time_s) - 1) / record.duration_s)
-    whole = len(record.time_s) // period if period else 0
-    if whole < 3:
+    period_count = len(record.time_s) // period if period else 0
+    if period_count < 3:
         return None
-    command = record.signal(motion.request.axis, Tap.CMD)[: whole * period].reshape(whole, period)
-    apart = float(np.ptp(command, axis=0).max())
-    return period if apart <= _SAME * float(np.ptp(command)) else None
+    command = record.signal(motion.request.axis, Tap.CMD)[: period_count * period].reshape(
+        period_count, period
+    )
+    deviation = float(np.ptp(command, axis=0).max())
+    return period if deviation <= _MAX_PERIOD_DEVIATION_RATIO * float(np.ptp(command)) else None
 
 
-def _kind(
-    request: ExcitationRequest, size: Amount | None, hz: float | None, time_s: float | None
-) -> Kind:
-    about = request.about
+def _make_kind(
+    request: ExcitationRequest,
+    amplitude: Amount | None,
+    frequency_hz: float | None,
+    time_s: float | None,
+) -> ExcitationKind:
+    middle = request.middle
     match request.wave:
-        case Wave.SINE:
-            return Sine(amplitude=size, offset=about, frequency_hz=hz, duration_s=time_s)
-        case Wave.TRIANGLE:
-            return Triangle(amplitude=size, offset=about, frequency_hz=hz, duration_s=time_s)
-        case Wave.MULTISINE:
-            return Multisine(amplitude=size, offset=about, high_hz=hz, duration_s=time_s)
-        case Wave.STAIRCASE:
-            rest_s = 1.0 if time_s is None else time_s
-            return Staircase(amplitude=size, offset=about, hold_s=rest_s)
+        case ExcitationWave.SINE:
+            return SineExcitation(
+                amplitude=amplitude, offset=middle, frequency_hz=frequency_hz, duration_s=time_s
+            )
+        case ExcitationWave.TRIANGLE:
+            return TriangleExcitation(
+                amplitude=amplitude, offset=middle, frequency_hz=frequency_hz, duration_s=time_s
+            )
+        case ExcitationWave.MULTISINE:
+            return MultisineExcitation(
+                amplitude=amplitude, offset=middle, high_hz=frequency_hz, duration_s=time_s
+            )
+        case ExcitationWave.STAIRCASE:
+            hold_s = 1.0 if time_s is None else time_s
+            return StaircaseExcitation(amplitude=amplitude, offset=middle, hold_s=hold_s)
 
 
-def _number(name: str, text: str, unit: str) -> float | None:
-    """Read a number with or without its unit; None for no text."""
+def _parse_number(name: str, text: str, unit: str) -> float | None:
+    """Return a number that was typed with or without its unit, or None for an empty text."""
     digits = text.strip().removesuffix(unit).strip()
     if not text.strip():
         return None
-    number = parsed(digits)
+    number = parse_number(digits)
     if number is None:
-        raise ExcitationError(
+        raise ExcitationRequestError(
             tr(
                 "{name}: {text} is not a number in {unit}; enter a value such as 2.5 "
                 "{unit}, or leave the field empty"
@@ -215,20 +247,23 @@ def _number(name: str, text: str, unit: str) -> float | None:
     return number
 
 
-def _lasting(seconds: float) -> str:
-    return f"{rounded(seconds, 3)} s" if seconds < 60.0 else f"{duration_text(seconds)} min"
+def _format_duration(seconds: float) -> str:
+    return (
+        f"{format_rounded(seconds, 3)} s" if seconds < 60.0 else f"{format_duration(seconds)} min"
+    )
 
 
-def _ends(run: DryRun) -> tuple[float, float]:
+def _find_ends(run: DryRun) -> tuple[float, float]:
+    """Return the lowest and the highest position of the only axis of a dry run, m or rad."""
     (axis,) = run.axes.values()
     return axis.lowest, axis.highest
 
 
-def _out_of_bounds(
+def _explain_tip_bounds(
     robot: Robot, trajectory: Record, zone: KeepOutZone | None, command: Mapping[str, float]
 ) -> str:
-    """Return why the tip would leave its bounds while the other axes stay, "" where it does not."""
-    if zone is None or not zone.bounded or set(command) != set(robot.axes):
+    """Return why the tip would leave its limits if the other axes stay at rest, or ""."""
+    if zone is None or not zone.is_bounded or set(command) != set(robot.axes):
         return ""
     positions = np.tile([command[axis] for axis in robot.axes], (len(trajectory.time_s), 1))
     for axis in trajectory.axes:
@@ -236,5 +271,5 @@ def _out_of_bounds(
     try:
         zone.check_path(positions, trajectory.time_s)
     except InputError as error:
-        return error_text(error)
+        return describe_error(error)
     return ""

@@ -1,127 +1,163 @@
-"""Output over input: the loop, its width and area."""
+"""Hysteresis loop of output against input, with its width and area."""
 
 from collections.abc import Callable
 
 import numpy as np
 
 from rotemina.plugins.identification import mark
-from rotemina.plugins.identification.filled_template import FilledTemplate
-from rotemina.plugins.identification.findings import Column, Curve, Findings, Picture
-from rotemina.plugins.identification.nominal_response import ABSENT, nominal_signals
-from rotemina.plugins.identification.record_query import Question
-from rotemina.plugins.identification.step_statistics import HEAD, Figure, largest
+from rotemina.plugins.identification.findings import (
+    AnalysisCurve,
+    AnalysisFindings,
+    AnalysisPicture,
+    ExportColumn,
+    FilledTemplate,
+)
+from rotemina.plugins.identification.nominal_response import (
+    NO_NOMINAL_MODEL,
+    simulate_nominal_signals,
+)
+from rotemina.plugins.identification.record_query import AnalysisQuestion
+from rotemina.plugins.identification.step_statistics import (
+    STATISTIC_HEADINGS,
+    FigureStatistics,
+    find_largest,
+)
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.errors import InputError
-from rotemina.sim.identification.errors import ExcitationError
-from rotemina.sim.identification.experiment_signals import Signals
-from rotemina.sim.identification.loop_figures import Loop, amplitude_exponent, loops
-from rotemina.sim.quantities import Scale, rounded, scale_of
+from rotemina.sim.errors import InputError, InsufficientExcitationError
+from rotemina.sim.identification import (
+    ExperimentSignals,
+    HysteresisLoop,
+    fit_amplitude_exponent,
+    measure_loops,
+)
+from rotemina.sim.messages import format_rounded
+from rotemina.sim.units import DisplayScale, choose_scale
 
-_MOST_DRAWN = 20_000  # rows; more of a loop is a blot, and slow
-_MOST_CYCLES = 1000
-_LEAST_SWING = 0.02  # of the peak-to-peak: smaller reversals are noise
-_SLOW = 50  # rows a cycle
-_PERCENT = Scale("%", 1.0)
+# At most this many rows of a loop are drawn. More rows would fill the plot, and draw slowly.
+_MAX_DRAWN_ROWS = 20_000
+
+_MAX_CYCLES = 1000
+
+# Reversals smaller than this fraction of the peak-to-peak value are noise.
+_MIN_SWING_RATIO = 0.02
+
+# If a cycle has fewer rows, lag and resonance widen the loop.
+_MIN_ROWS_PER_CYCLE = 50
+_PERCENT = DisplayScale("%", 1.0)
 
 
-def loop_findings(question: Question) -> Findings:
-    """Measure every whole cycle of the input; the drawing is there even without one."""
+def analyse_loop(question: AnalysisQuestion) -> AnalysisFindings:
+    """Measure every whole cycle of the input, and draw the loop even without such a cycle."""
     signals = question.signals()
-    driven, answer = signals.single()
+    driven, answer = signals.require_single_pair()
     lag = question.lag_samples
     x, y = driven[: len(driven) - lag], answer[lag:]
     notices: list[str] = []
-    found: tuple[Loop, ...] = ()
-    rows = _rows_measured(driven)
-    if rows < len(driven):
+    cycles: tuple[HysteresisLoop, ...] = ()
+    measured_rows = _count_measured_rows(driven)
+    if measured_rows < len(driven):
         notices.append(
             FilledTemplate(
                 mark(
                     "The figures use the first {n} of {rows} rows, with {turns} reversals: the "
                     "input is noise, or very long."
                 ),
-                n=rows,
+                n=measured_rows,
                 rows=len(driven),
-                turns=_MOST_CYCLES,
+                turns=_MAX_CYCLES,
             )
         )
     try:
-        found = loops(driven[:rows], answer[:rows], lag_samples=lag, least_swing=_LEAST_SWING)
+        cycles = measure_loops(
+            driven[:measured_rows],
+            answer[:measured_rows],
+            lag_samples=lag,
+            min_swing=_MIN_SWING_RATIO,
+        )
     except InputError as error:
         notices.append(str(error))
-    nominal: Signals | None = None
+    nominal: ExperimentSignals | None = None
     try:
-        nominal = nominal_signals(question)
+        nominal = simulate_nominal_signals(question)
     except (InputError, KeyError) as error:
-        notices.append(FilledTemplate(ABSENT, reason=error))
-    if len(x) > _MOST_DRAWN:
+        notices.append(FilledTemplate(NO_NOMINAL_MODEL, reason=error))
+    if len(x) > _MAX_DRAWN_ROWS:
         notices.append(
             FilledTemplate(
                 mark("The plot shows the first {n} of {rows} rows; the figures use all rows."),
-                n=_MOST_DRAWN,
+                n=_MAX_DRAWN_ROWS,
                 rows=len(x),
             )
         )
-    beside = _modelled(nominal, rows, lag) if nominal is not None and found else ()
-    figures, columns = _sheet(question, found, beside) if found else ((), ())
-    notices += _doubts(question, found)
-    return Findings(
+    model_cycles = (
+        _measure_model_cycles(nominal, measured_rows, lag) if nominal is not None and cycles else ()
+    )
+    figures, columns = _make_sheet(question, cycles, model_cycles) if cycles else ((), ())
+    notices += _find_loop_notices(question, cycles)
+    return AnalysisFindings(
         question,
-        _pictures(question, x, y, nominal),
-        HEAD if found else (),
+        _make_pictures(question, x, y, nominal),
+        STATISTIC_HEADINGS if cycles else (),
         figures,
         columns,
         tuple(notices),
     )
 
 
-def _rows_measured(driven: FloatArray) -> int:
-    """Return how many rows hold no more cycles than can be measured within a second."""
-    from scipy.signal import find_peaks  # takes its time to import
+def _count_measured_rows(driven: FloatArray) -> int:
+    """Return how many of the first rows to measure, so that this takes less than a second."""
+    # The package is imported only here, because that is slow.
+    from scipy.signal import find_peaks
 
-    highs, _ = find_peaks(driven, prominence=_LEAST_SWING * float(np.ptp(driven)))
-    return int(highs[_MOST_CYCLES]) if len(highs) > _MOST_CYCLES else len(driven)
+    peak_rows, _ = find_peaks(driven, prominence=_MIN_SWING_RATIO * float(np.ptp(driven)))
+    return int(peak_rows[_MAX_CYCLES]) if len(peak_rows) > _MAX_CYCLES else len(driven)
 
 
-def _modelled(nominal: Signals, rows: int, lag: int) -> tuple[Loop, ...]:
-    """Return the model's cycles; none where it makes none of a measured input."""
-    driven, answer = nominal.single()
+def _measure_model_cycles(
+    nominal: ExperimentSignals, rows: int, lag: int
+) -> tuple[HysteresisLoop, ...]:
+    """Return the cycles of the model, which are none if its input has no whole cycle."""
+    driven, answer = nominal.require_single_pair()
     try:
-        return loops(driven[:rows], answer[:rows], lag_samples=lag, least_swing=_LEAST_SWING)
+        return measure_loops(
+            driven[:rows], answer[:rows], lag_samples=lag, min_swing=_MIN_SWING_RATIO
+        )
     except InputError:
         return ()
 
 
-def _pictures(
-    question: Question, x: FloatArray, y: FloatArray, nominal: Signals | None
-) -> tuple[Picture, ...]:
-    """Return the loop, and how far it is off a straight line: there a narrow one can be seen.
+def _make_pictures(
+    question: AnalysisQuestion, x: FloatArray, y: FloatArray, nominal: ExperimentSignals | None
+) -> tuple[AnalysisPicture, ...]:
+    """Return pictures of the loop, and of its deviation from a straight line.
 
-    Each is off its own line, so that loops are compared and not gains.
+    The deviation makes a narrow loop visible. The lines for measurement and model are fitted
+    separately, so that the picture compares their loops, and not their gains.
     """
-    drawn = [(mark("measured"), "real", x, y, 1)]
+    loops = [AnalysisCurve(mark("measured"), "real", x, y)]
     if nominal is not None:
-        driven, answer = nominal.single()
-        drawn.insert(
-            0, (mark("model"), mark("model"), driven[: len(x)], answer[len(answer) - len(x) :], 3)
-        )
-    drawn = [(name, role, u[:_MOST_DRAWN], v[:_MOST_DRAWN], w) for name, role, u, v, w in drawn]
-    off = [(name, role, u, _off_line(u, v), w) for name, role, u, v, w in drawn]
-    across = scale_of(question.unit(question.drive), float(np.abs(x).max(initial=0.0)))
+        driven, answer = nominal.require_single_pair()
+        model_x, model_y = driven[: len(x)], answer[len(answer) - len(x) :]
+        loops.insert(0, AnalysisCurve(mark("model"), "model", model_x, model_y, width=3))
+    loops = [
+        curve._replace(x=curve.x[:_MAX_DRAWN_ROWS], y=curve.y[:_MAX_DRAWN_ROWS]) for curve in loops
+    ]
+    deviations = [curve._replace(y=_subtract_line(curve.x, curve.y)) for curve in loops]
+    x_scale = choose_scale(question.unit(question.input_tap), float(np.abs(x).max(initial=0.0)))
     pictures = []
     for title, curves in (
-        (str(question.answer), drawn),
-        (mark("deviation from a straight line"), off),
+        (str(question.output_tap), loops),
+        (mark("deviation from a straight line"), deviations),
     ):
-        size = max(float(np.abs(v).max(initial=0.0)) for _, _, _, v, _ in curves)
-        up = scale_of(question.unit(question.answer), size)
+        largest = max(float(np.abs(curve.y).max(initial=0.0)) for curve in curves)
+        y_scale = choose_scale(question.unit(question.output_tap), largest)
         pictures.append(
-            Picture(
-                FilledTemplate(mark("{title} [{unit}]"), title=title, unit=up.symbol),
-                f"{question.drive} [{across.symbol}]",
+            AnalysisPicture(
+                FilledTemplate(mark("{title} [{unit}]"), title=title, unit=y_scale.symbol),
+                f"{question.input_tap} [{x_scale.symbol}]",
                 tuple(
-                    Curve(name, role, across.per_si * u, up.per_si * v, width)
-                    for name, role, u, v, width in curves
+                    curve._replace(x=x_scale.per_si * curve.x, y=y_scale.per_si * curve.y)
+                    for curve in curves
                 ),
                 in_time=False,
             )
@@ -129,79 +165,98 @@ def _pictures(
     return tuple(pictures)
 
 
-def _off_line(x: FloatArray, y: FloatArray) -> FloatArray:
-    """Return y (n,) without its least-squares line over x (n,)."""
+def _subtract_line(x: FloatArray, y: FloatArray) -> FloatArray:
     columns = np.column_stack([x, np.ones_like(x)])
     line, *_ = np.linalg.lstsq(columns, y, rcond=None)
     return np.asarray(y - columns @ line)
 
 
-def _sheet(
-    question: Question, found: tuple[Loop, ...], beside: tuple[Loop, ...]
-) -> tuple[tuple[tuple[str, ...], ...], tuple[Column, ...]]:
-    over, under = question.unit(question.answer), question.unit(question.drive)
+def _make_sheet(
+    question: AnalysisQuestion,
+    cycles: tuple[HysteresisLoop, ...],
+    model_cycles: tuple[HysteresisLoop, ...],
+) -> tuple[tuple[tuple[str, ...], ...], tuple[ExportColumn, ...]]:
+    output_unit, input_unit = question.unit(question.output_tap), question.unit(question.input_tap)
 
-    def figure(name: str, unit: str, read: Callable[[Loop], float]) -> Figure:
-        values = [read(each) for each in found]
-        return Figure(name, scale_of(unit, largest(values)), values, [read(e) for e in beside])
+    def make_statistics(
+        name: str, unit: str, read: Callable[[HysteresisLoop], float]
+    ) -> FigureStatistics:
+        values = [read(cycle) for cycle in cycles]
+        return FigureStatistics(
+            name,
+            choose_scale(unit, find_largest(values)),
+            values,
+            [read(cycle) for cycle in model_cycles],
+        )
 
-    span = figure(mark("input span"), under, lambda each: each.input_high - each.input_low)
-    stroke = figure(mark("stroke"), over, lambda each: each.stroke)
-    width = figure(mark("largest width"), over, lambda each: each.width_max)
-    middle = figure(mark("width at mid-range"), over, lambda each: each.width_mid)
-    across, up = span.scale, stroke.scale
-    both = f"{up.symbol}²" if across == up else f"{across.symbol}·{up.symbol}"
-    area = Scale(both, across.per_si * up.per_si)
+    span = make_statistics(
+        mark("input span"), input_unit, lambda cycle: cycle.input_high - cycle.input_low
+    )
+    stroke = make_statistics(mark("stroke"), output_unit, lambda cycle: cycle.stroke)
+    width = make_statistics(mark("largest width"), output_unit, lambda cycle: cycle.width_max)
+    mid_width = make_statistics(
+        mark("width at mid-range"), output_unit, lambda cycle: cycle.width_mid
+    )
+    x_scale, y_scale = span.scale, stroke.scale
+    area_symbol = (
+        f"{y_scale.symbol}²" if x_scale == y_scale else f"{x_scale.symbol}·{y_scale.symbol}"
+    )
+    area_scale = DisplayScale(area_symbol, x_scale.per_si * y_scale.per_si)
     figures = (
         span,
         stroke,
         width,
-        Figure(
+        FigureStatistics(
             mark("width over stroke"),
             _PERCENT,
-            [each.width_percent for each in found],
-            [each.width_percent for each in beside],
+            [cycle.width_percent for cycle in cycles],
+            [cycle.width_percent for cycle in model_cycles],
         ),
-        middle._replace(scale=width.scale),
-        figure(mark("backlash width"), under, lambda each: each.input_width_mid),
-        Figure(mark("area"), area, [each.area for each in found], [each.area for each in beside]),
+        mid_width._replace(scale=width.scale),
+        make_statistics(mark("backlash width"), input_unit, lambda cycle: cycle.input_width_mid),
+        FigureStatistics(
+            mark("area"),
+            area_scale,
+            [cycle.area for cycle in cycles],
+            [cycle.area for cycle in model_cycles],
+        ),
     )
-    exponent = (mark("width ∝ amplitude^p"), _exponent(found), "", "", "")
+    exponent_row = (mark("width ∝ amplitude^p"), _format_exponent(cycles), "", "", "")
     rows = (
-        (mark("cycles"), str(len(found)), "", "", ""),
-        *(each.row() for each in figures),
-        exponent,
+        (mark("cycles"), str(len(cycles)), "", "", ""),
+        *(figure.make_row() for figure in figures),
+        exponent_row,
     )
-    return rows, tuple(each.column() for each in figures)
+    return rows, tuple(figure.make_column() for figure in figures)
 
 
-def _exponent(found: tuple[Loop, ...]) -> str:
-    """Return p, or nothing where the cycles are too alike to tell it."""
+def _format_exponent(cycles: tuple[HysteresisLoop, ...]) -> str:
+    """Return the exponent p as text, or a note if the cycles are too similar to determine it."""
     try:
-        return f"p = {rounded(amplitude_exponent(found), 3)}"
-    except ExcitationError:
+        return f"p = {format_rounded(fit_amplitude_exponent(cycles), 3)}"
+    except InsufficientExcitationError:
         return mark("too similar")
 
 
-def _doubts(question: Question, found: tuple[Loop, ...]) -> list[str]:
-    if not found:
+def _find_loop_notices(question: AnalysisQuestion, cycles: tuple[HysteresisLoop, ...]) -> list[str]:
+    if not cycles:
         return []
-    doubts = []
-    rows = float(np.median([each.rows[1] - each.rows[0] for each in found]))
-    if rows < _SLOW:
-        doubts.append(
+    notices = []
+    rows_per_cycle = float(np.median([cycle.rows[1] - cycle.rows[0] for cycle in cycles]))
+    if rows_per_cycle < _MIN_ROWS_PER_CYCLE:
+        notices.append(
             FilledTemplate(
                 mark(
                     "A cycle has {rows:.0f} rows, fewer than {least}: lag and resonance cause "
                     "the loop. Drive slower cycles."
                 ),
-                rows=rows,
-                least=_SLOW,
+                rows=rows_per_cycle,
+                least=_MIN_ROWS_PER_CYCLE,
             )
         )
-    if np.median([each.width_max for each in found]) < 0.0:
+    if np.median([cycle.width_max for cycle in cycles]) < 0.0:
         lag = question.lag_samples
-        doubts.append(
+        notices.append(
             FilledTemplate(
                 mark(
                     "The width is negative: the output leads, or the axis lags less than the "
@@ -212,4 +267,4 @@ def _doubts(question: Question, found: tuple[Loop, ...]) -> list[str]:
             if lag
             else mark("The width is negative: the output leads the input.")
         )
-    return doubts
+    return notices

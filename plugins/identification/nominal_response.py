@@ -1,52 +1,58 @@
-"""The nominal model's answer to the same inputs, for the same analysis."""
+"""Response of the nominal model to the input of a record, for the same analysis as the record."""
 
 from rotemina.plugins.identification import mark
-from rotemina.plugins.identification.record_query import Question
-from rotemina.sim.identification.experiment_signals import Signals, siso
-from rotemina.sim.plant.response import nominal_response
-from rotemina.sim.records.record import Record, Tap
+from rotemina.plugins.identification.record_query import AnalysisQuestion
+from rotemina.sim.identification import ExperimentSignals, make_siso_signals
+from rotemina.sim.plant import simulate_nominal_response
+from rotemina.sim.records import Record, Tap
 
-ABSENT = mark("The nominal model is not shown: {reason}")
+NO_NOMINAL_MODEL = mark("The nominal model is not shown: {reason}")
 
 
-def nominal_signals(question: Question) -> Signals:
-    """Simulate the nominal model and return its input and output of the pair asked for.
+def simulate_nominal_signals(question: AnalysisQuestion) -> ExperimentSignals:
+    """Simulate the nominal model, and return its input and output for the pair of taps.
 
-    The model is driven by the record's commands, or by its measured ``u`` where that is the
-    input. Hold, delay, loops and the length of the record then act on both alike, so what differs
-    in the drawing differs in the machine.
+    The model is driven by the commands of the record, or by the measured ``u`` if that is the
+    input. The hold of the commands, delays, feedback loops and the length of the record then affect
+    the model and the machine alike. So a difference in the picture is a difference between model
+    and machine.
 
     Raises
     ------
     InputError
-        If the record does not fit the robot, or holds nothing to drive the model by.
+        If the record does not fit the robot, or has no signal to drive the model with.
     KeyError
         If the model has no such tap.
     """
     measured = question.signals()
-    record = nominal_record(question)
-    driven, answer = (record.signal(question.axis, t) for t in (question.drive, question.answer))
-    return siso(driven, answer, measured.rate_hz, measured.period_samples)
+    record = simulate_nominal_record(question)
+    input_signal, output_signal = (
+        record.signal(question.axis, tap) for tap in (question.input_tap, question.output_tap)
+    )
+    return make_siso_signals(input_signal, output_signal, measured.rate_hz, measured.period_samples)
 
 
-def nominal_record(question: Question) -> Record:
-    """Return a record of the pair alone, as the model makes it; rows need not be equally spaced.
+def simulate_nominal_record(question: AnalysisQuestion) -> Record:
+    """Simulate the nominal model, and return a record of the pair of taps.
+
+    The samples need not be equally spaced.
 
     Raises
     ------
     InputError, KeyError
-        As :func:`nominal_signals`.
+        The same as in :func:`simulate_nominal_signals`.
     """
     record, axis = question.record, question.axis
-    by = Tap.U if question.drive is Tap.U else Tap.CMD
-    response = nominal_response(question.robot, record, drive=by)
-    if question.drive is Tap.REF:
-        driven = response.signal(axis, Tap.REF)
+    driving_tap = Tap.U if question.input_tap is Tap.U else Tap.CMD
+    response = simulate_nominal_response(question.robot, record, drive=driving_tap)
+    # The model has its own true position; commands and voltages are those of the record.
+    if question.input_tap is Tap.REF:
+        input_signal = response.signal(axis, Tap.REF)
     else:
-        driven = record.signal(axis, question.drive)
+        input_signal = record.signal(axis, question.input_tap)
     signals = {
-        (axis, question.drive): driven,
-        (axis, question.answer): response.signal(axis, question.answer),
+        (axis, question.input_tap): input_signal,
+        (axis, question.output_tap): response.signal(axis, question.output_tap),
     }
     units = {axis: record.units[axis]}
     return Record.from_signals(record.time_s, signals, units, record.metadata)

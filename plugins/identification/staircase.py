@@ -1,4 +1,4 @@
-"""Step figures of a record: rise, overshoot, settling, static gain."""
+"""Step responses of a record: rise time, overshoot, settling time and static gain."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -6,192 +6,253 @@ from dataclasses import replace
 import numpy as np
 
 from rotemina.plugins.identification import mark
-from rotemina.plugins.identification.filled_template import FilledTemplate
-from rotemina.plugins.identification.findings import Curve, Findings, Picture, ratio_scale
-from rotemina.plugins.identification.nominal_response import ABSENT, nominal_record
-from rotemina.plugins.identification.record_query import Question
-from rotemina.plugins.identification.step_statistics import HEAD, Figure, largest
+from rotemina.plugins.identification.findings import (
+    AnalysisCurve,
+    AnalysisFindings,
+    AnalysisPicture,
+    FilledTemplate,
+    make_ratio_scale,
+)
+from rotemina.plugins.identification.nominal_response import (
+    NO_NOMINAL_MODEL,
+    simulate_nominal_record,
+)
+from rotemina.plugins.identification.record_query import AnalysisQuestion
+from rotemina.plugins.identification.step_statistics import (
+    STATISTIC_HEADINGS,
+    FigureStatistics,
+    find_largest,
+)
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
-from rotemina.sim.identification.step_figures import StepMetrics, step_metrics
-from rotemina.sim.quantities import Scale, scale_of
-from rotemina.sim.records.record import Channel, Record, Tap
+from rotemina.sim.identification import StepMetrics, measure_steps
+from rotemina.sim.records import (
+    Record,
+    RecordChannel,
+    Tap,
+)
+from rotemina.sim.units import DisplayScale, choose_scale
 
-Reader = Callable[[StepMetrics], float | None]
+MetricReader = Callable[[StepMetrics], float | None]
 
-_MS = Scale("ms", 1e3)
-_PERCENT = Scale("%", 1.0)
+_MILLISECONDS = DisplayScale("ms", 1e3)
+_PERCENT = DisplayScale("%", 1.0)
+
+# The measurement of a step needs holds of at least this many rows.
+_MIN_HOLD_ROWS = 50
 
 
-_HOLD_ROWS = 50  # at least, as the measuring of steps wants them
+def replace_ramps_by_jumps(record: Record, axis: str, input_tap: Tap) -> tuple[Record, float]:
+    """Return a record in which each ramp of the input between two holds is replaced by a jump.
 
-
-def jumped(record: Record, axis: str, drive: Tap) -> tuple[Record, float]:
-    """Return a record whose input jumps where it moved one way between two holds.
-
-    An axis that declares speed and acceleration is never told to jump: its levels are ramps of
-    some rows. The jump is put where the ramp begins, so rise and delay count the ramp in.
+    If speed and acceleration are limited, the command of an axis cannot jump. It changes from level
+    to level in a ramp over several rows. The jump is placed at the start of the ramp, so rise time
+    and delay include the ramp.
 
     Returns
     -------
     Record
-        The same one where the input has no such ramp, or is noisy.
+        The same record if the input has no such ramp, or is noisy.
     float
-        The longest ramp, s; 0 without any.
+        Duration of the longest ramp, s, or 0 without ramps.
     """
-    command = record.signal(axis, drive)
-    moving = np.flatnonzero(np.diff(command))  # from this row to the next
-    if len(moving) == 0:
+    command = record.signal(axis, input_tap)
+    # The rows after which the command changes.
+    change_rows = np.flatnonzero(np.diff(command))
+    if len(change_rows) == 0:
         return record, 0.0
-    breaks = np.flatnonzero(np.diff(moving) >= _HOLD_ROWS)
-    begins = moving[np.concatenate([[0], breaks + 1])]
-    ends = moving[np.concatenate([breaks, [len(moving) - 1]])] + 1
-    levels, longest_s = command.copy(), 0.0
-    for begin, end in zip(begins.tolist(), ends.tolist(), strict=True):
-        if end - begin < 2 or not _one_way(command[begin : end + 1]):
+    # Indices into `change_rows` of the last change before each hold.
+    last_changes = np.flatnonzero(np.diff(change_rows) >= _MIN_HOLD_ROWS)
+    ramp_starts = change_rows[np.concatenate([[0], last_changes + 1])]
+    ramp_ends = change_rows[np.concatenate([last_changes, [len(change_rows) - 1]])] + 1
+    jump_command, longest_ramp_s = command.copy(), 0.0
+    for start, end in zip(ramp_starts.tolist(), ramp_ends.tolist(), strict=True):
+        if end - start < 2 or not _is_monotonic(command[start : end + 1]):
             continue
-        levels[begin + 1 : end] = command[end]
-        longest_s = max(longest_s, float(record.time_s[end] - record.time_s[begin]))
-    if longest_s == 0.0:
+        jump_command[start + 1 : end] = command[end]
+        longest_ramp_s = max(longest_ramp_s, float(record.time_s[end] - record.time_s[start]))
+    if longest_ramp_s == 0.0:
         return record, 0.0
-    column = record.columns.index(Channel(axis, drive))
+    column = record.columns.index(RecordChannel(axis, input_tap))
     values = record.values.copy()
-    values[:, column] = levels
-    return replace(record, values=values), longest_s
+    values[:, column] = jump_command
+    return replace(record, values=values), longest_ramp_s
 
 
-def _one_way(values: FloatArray) -> bool:
-    steps = np.diff(values)
-    return bool((steps >= 0.0).all() or (steps <= 0.0).all())
+def _is_monotonic(values: FloatArray) -> bool:
+    differences = np.diff(values)
+    return bool((differences >= 0.0).all() or (differences <= 0.0).all())
 
 
-def step_findings(question: Question) -> Findings:
-    """Measure every step between two holds, and the model's; rows need not be equally spaced."""
-    question.check()
+def analyse_steps(question: AnalysisQuestion) -> AnalysisFindings:
+    """Measure every step between two holds, in the record and in the response of the model.
+
+    The samples need not be equally spaced.
+    """
+    question.check_pair()
     record, axis = question.record, question.axis
-    driven, answer = (record.signal(axis, tap) for tap in (question.drive, question.answer))
+    input_signal, output_signal = (
+        record.signal(axis, tap) for tap in (question.input_tap, question.output_tap)
+    )
     time_s = record.time_s - record.time_s[0]
     try:
-        levels, ramp_s = jumped(record, axis, question.drive)
-        found = step_metrics(levels, axis, question.answer, drive=question.drive)
+        jump_record, ramp_s = replace_ramps_by_jumps(record, axis, question.input_tap)
+        steps = measure_steps(jump_record, axis, question.output_tap, drive=question.input_tap)
     except InputError as error:
-        course = _response_picture(question, time_s, driven, answer)
-        return Findings(question, (course,), notices=(str(error),))
-    nominal, absent = _modelled(question)
-    beside = () if nominal is None else _measured(question, nominal)
-    figures = _figures(question, found, beside)
-    return Findings(
+        picture = _make_response_picture(question, time_s, input_signal, output_signal)
+        return AnalysisFindings(question, (picture,), notices=(str(error),))
+    nominal, nominal_notices = _simulate_nominal(question)
+    model_steps = () if nominal is None else _measure_model_steps(question, nominal)
+    statistics = _make_metric_statistics(question, steps, model_steps)
+    return AnalysisFindings(
         question,
         (
-            _response_picture(question, time_s, driven, answer, nominal),
-            _closest(question, found, answer, nominal),
+            _make_response_picture(question, time_s, input_signal, output_signal, nominal),
+            _make_largest_step_picture(question, steps, output_signal, nominal),
         ),
-        HEAD,
-        ((mark("steps"), str(len(found)), "", "", ""), *(figure.row() for figure in figures)),
-        tuple(figure.column() for figure in figures),
-        (*absent, *_doubts(found, ramp_s)),
+        STATISTIC_HEADINGS,
+        (
+            (mark("steps"), str(len(steps)), "", "", ""),
+            *(metric.make_row() for metric in statistics),
+        ),
+        tuple(metric.make_column() for metric in statistics),
+        (*nominal_notices, *_find_notices(steps, ramp_s)),
     )
 
 
-def _modelled(question: Question) -> tuple[Record | None, tuple[str, ...]]:
-    """Return the model's record of the pair, or why there is none."""
+def _simulate_nominal(question: AnalysisQuestion) -> tuple[Record | None, tuple[str, ...]]:
     try:
-        return nominal_record(question), ()
+        return simulate_nominal_record(question), ()
     except (InputError, KeyError) as error:
-        return None, (FilledTemplate(ABSENT, reason=error),)
+        return None, (FilledTemplate(NO_NOMINAL_MODEL, reason=error),)
 
 
-def _measured(question: Question, nominal: Record) -> tuple[StepMetrics, ...]:
-    """Measure the model's steps; none where it makes none of a measured input."""
+def _measure_model_steps(question: AnalysisQuestion, nominal: Record) -> tuple[StepMetrics, ...]:
+    """Return the steps of the model; there are none if its input has no steps."""
     try:
-        levels, _ = jumped(nominal, question.axis, question.drive)
-        return step_metrics(levels, question.axis, question.answer, drive=question.drive)
+        jump_record, _ = replace_ramps_by_jumps(nominal, question.axis, question.input_tap)
+        return measure_steps(
+            jump_record, question.axis, question.output_tap, drive=question.input_tap
+        )
     except InputError:
         return ()
 
 
-def _figures(
-    question: Question, found: tuple[StepMetrics, ...], beside: tuple[StepMetrics, ...]
-) -> tuple[Figure, ...]:
-    unit = question.unit(question.answer)
+def _make_metric_statistics(
+    question: AnalysisQuestion, steps: tuple[StepMetrics, ...], model_steps: tuple[StepMetrics, ...]
+) -> tuple[FigureStatistics, ...]:
+    unit = question.unit(question.output_tap)
 
-    def figure(name: str, scale: Callable[[float], Scale], read: Reader) -> Figure:
-        values = [read(each) for each in found]
-        return Figure(name, scale(largest(values)), values, [read(each) for each in beside])
-
-    def output(size: float) -> Scale:
-        return scale_of(unit, size)
-
-    figures = [
-        figure(mark("time of the step"), lambda _: Scale("s", 1.0), lambda each: each.start_s),
-        figure(
-            mark("size of the step"), output, lambda each: abs(each.output_to - each.output_from)
-        ),
-        figure(
-            mark("static gain"), lambda size: ratio_scale(question, size), lambda each: each.gain
-        ),
-        figure(mark("rise 10–90 %"), lambda _: _MS, lambda each: each.rise_s),
-        figure(mark("delay to 50 %"), lambda _: _MS, lambda each: each.delay_s),
-        figure(mark("overshoot"), lambda _: _PERCENT, lambda each: each.overshoot_percent),
-        figure(mark("settling to 5 %"), lambda _: _MS, lambda each: each.settling_5_s),
-        figure(mark("settling to 2 %"), lambda _: _MS, lambda each: each.settling_2_s),
-    ]
-    if unit == question.unit(question.drive):
-        figures.append(figure(mark("final error"), output, lambda each: each.error))
-    figures.append(figure(mark("noise rms"), output, lambda each: each.noise_rms))
-    return tuple(figures)
-
-
-def _response_picture(
-    question: Question,
-    time_s: FloatArray,
-    driven: FloatArray,
-    answer: FloatArray,
-    nominal: Record | None = None,
-) -> Picture:
-    """Return the whole record; an input of another kind has no place on the output's scale."""
-    scale = scale_of(question.unit(question.answer), float(np.abs(answer).max()))
-    curves = [Curve(mark("measured"), "real", time_s, scale.per_si * answer)]
-    if nominal is not None:
-        model = nominal.signal(question.axis, question.answer)
-        curves.insert(0, Curve(mark("model"), mark("model"), time_s, scale.per_si * model, width=3))
-    if question.unit(question.drive) == question.unit(question.answer):
-        curves.insert(0, Curve(mark("input"), "command", time_s, scale.per_si * driven, width=3))
-    return Picture(f"{question.answer} [{scale.symbol}]", mark("time [s]"), tuple(curves))
-
-
-def _closest(
-    question: Question, found: tuple[StepMetrics, ...], answer: FloatArray, nominal: Record | None
-) -> Picture:
-    """Return the largest step until it has settled, from 0 at its old level to 1 at the new."""
-    time_s = question.record.time_s
-    step = max(found, key=lambda each: abs(each.output_to - each.output_from))
-    size = step.output_to - step.output_from
-    begin = int(np.searchsorted(time_s, step.start_s))
-    later = [each.start_s for each in found if each.start_s > step.start_s]
-    end_s = min(later, default=float(time_s[-1]))
-    # Twice the settling time shows the ringing and that it is over.
-    shown_s = min(end_s, step.start_s + 2.0 * (step.settling_2_s or end_s))
-    rows = slice(begin, max(int(np.searchsorted(time_s, shown_s)), begin + 2))
-    since_ms = 1e3 * (time_s[rows] - step.start_s)
-    course = (answer[rows] - step.output_from) / (size or 1.0)
-    curves = [Curve(mark("measured"), "real", since_ms, course)]
-    if nominal is not None:  # from its own old level, which may be another
-        model = nominal.signal(question.axis, question.answer)[rows]
-        curves.insert(
-            0, Curve(mark("model"), mark("model"), since_ms, (model - model[0]) / (size or 1.0), 3)
+    def make_statistics(
+        name: str, make_scale: Callable[[float], DisplayScale], read: MetricReader
+    ) -> FigureStatistics:
+        values = [read(step) for step in steps]
+        return FigureStatistics(
+            name, make_scale(find_largest(values)), values, [read(step) for step in model_steps]
         )
-    return Picture(
-        FilledTemplate(mark("largest step, at {time:.4g} s [1]"), time=step.start_s),
+
+    def make_output_scale(largest: float) -> DisplayScale:
+        return choose_scale(unit, largest)
+
+    statistics = [
+        make_statistics(
+            mark("time of the step"), lambda _: DisplayScale("s", 1.0), lambda step: step.start_s
+        ),
+        make_statistics(
+            mark("size of the step"),
+            make_output_scale,
+            lambda step: abs(step.output_to - step.output_from),
+        ),
+        make_statistics(
+            mark("static gain"),
+            lambda largest: make_ratio_scale(question, largest),
+            lambda step: step.gain,
+        ),
+        make_statistics(mark("rise 10–90 %"), lambda _: _MILLISECONDS, lambda step: step.rise_s),
+        make_statistics(mark("delay to 50 %"), lambda _: _MILLISECONDS, lambda step: step.delay_s),
+        make_statistics(mark("overshoot"), lambda _: _PERCENT, lambda step: step.overshoot_percent),
+        make_statistics(
+            mark("settling to 5 %"), lambda _: _MILLISECONDS, lambda step: step.settling_5_s
+        ),
+        make_statistics(
+            mark("settling to 2 %"), lambda _: _MILLISECONDS, lambda step: step.settling_2_s
+        ),
+    ]
+    if unit == question.unit(question.input_tap):
+        statistics.append(
+            make_statistics(mark("final error"), make_output_scale, lambda step: step.error)
+        )
+    statistics.append(
+        make_statistics(mark("noise rms"), make_output_scale, lambda step: step.noise_rms)
+    )
+    return tuple(statistics)
+
+
+def _make_response_picture(
+    question: AnalysisQuestion,
+    time_s: FloatArray,
+    input_signal: FloatArray,
+    output_signal: FloatArray,
+    nominal: Record | None = None,
+) -> AnalysisPicture:
+    """Return a picture of the whole record, with the input if it has the unit of the output."""
+    scale = choose_scale(question.unit(question.output_tap), float(np.abs(output_signal).max()))
+    curves = [AnalysisCurve(mark("measured"), "real", time_s, scale.per_si * output_signal)]
+    if nominal is not None:
+        model = nominal.signal(question.axis, question.output_tap)
+        curves.insert(
+            0, AnalysisCurve(mark("model"), "model", time_s, scale.per_si * model, width=3)
+        )
+    if question.unit(question.input_tap) == question.unit(question.output_tap):
+        curves.insert(
+            0, AnalysisCurve(mark("input"), "command", time_s, scale.per_si * input_signal, width=3)
+        )
+    return AnalysisPicture(
+        f"{question.output_tap} [{scale.symbol}]", mark("time [s]"), tuple(curves)
+    )
+
+
+def _make_largest_step_picture(
+    question: AnalysisQuestion,
+    steps: tuple[StepMetrics, ...],
+    output_signal: FloatArray,
+    nominal: Record | None,
+) -> AnalysisPicture:
+    """Return a picture of the largest step until it has settled, scaled from 0 to 1."""
+    time_s = question.record.time_s
+    step = max(steps, key=lambda other: abs(other.output_to - other.output_from))
+    size = step.output_to - step.output_from
+    start = int(np.searchsorted(time_s, step.start_s))
+    later_starts_s = [other.start_s for other in steps if other.start_s > step.start_s]
+    end_s = min(later_starts_s, default=float(time_s[-1]))
+    # Twice the settling time shows that the ringing has ended.
+    shown_end_s = end_s
+    if step.settling_2_s:
+        shown_end_s = min(end_s, step.start_s + 2.0 * step.settling_2_s)
+    rows = slice(start, max(int(np.searchsorted(time_s, shown_end_s)), start + 2))
+    elapsed_ms = 1e3 * (time_s[rows] - step.start_s)
+    response = (output_signal[rows] - step.output_from) / (size or 1.0)
+    curves = [AnalysisCurve(mark("measured"), "real", elapsed_ms, response)]
+    # The model starts from a different level than the measurement, so its own level is subtracted.
+    if nominal is not None:
+        model = nominal.signal(question.axis, question.output_tap)[rows]
+        curves.insert(
+            0,
+            AnalysisCurve(
+                mark("model"), "model", elapsed_ms, (model - model[0]) / (size or 1.0), 3
+            ),
+        )
+    return AnalysisPicture(
+        FilledTemplate(mark("largest step, at {time:.4g} s [normalised]"), time=step.start_s),
         mark("time since the step [ms]"),
         tuple(curves),
     )
 
 
-def _doubts(found: tuple[StepMetrics, ...], ramp_s: float) -> list[str]:
-    doubts = []
+def _find_notices(steps: tuple[StepMetrics, ...], ramp_s: float) -> list[str]:
+    notices = []
     if ramp_s > 0.0:
-        doubts.append(
+        notices.append(
             FilledTemplate(
                 mark(
                     "The input takes up to {ramp:.3g} ms from level to level, as fast as its "
@@ -202,32 +263,34 @@ def _doubts(found: tuple[StepMetrics, ...], ramp_s: float) -> list[str]:
             )
         )
     for name, values in (
-        (mark("settling to 2 %"), [each.settling_2_s for each in found]),
-        (mark("rise"), [each.rise_s for each in found]),
+        (mark("settling to 2 %"), [step.settling_2_s for step in steps]),
+        (mark("rise"), [step.rise_s for step in steps]),
     ):
-        missing = sum(value is None for value in values)
-        if missing:
-            doubts.append(
+        missing_count = sum(value is None for value in values)
+        if missing_count:
+            notices.append(
                 FilledTemplate(
                     mark(
                         "{name}: {n} of {steps} steps give no value; at the end of the hold the "
                         "axis still moves, or noise exceeds the band."
                     ),
                     name=name,
-                    n=missing,
-                    steps=len(found),
+                    n=missing_count,
+                    steps=len(steps),
                 )
             )
-    faint = sum(abs(each.output_to - each.output_from) < 10.0 * each.noise_rms for each in found)
-    if faint:
-        doubts.append(
+    small_count = sum(
+        abs(step.output_to - step.output_from) < 10.0 * step.noise_rms for step in steps
+    )
+    if small_count:
+        notices.append(
             FilledTemplate(
                 mark(
-                    "{n} of {steps} steps are smaller than 10 times the noise, which determines"
+                    "{n} of {steps} steps are smaller than 10 times the noise, so noise dominates"
                     " overshoot and times. Record larger steps."
                 ),
-                n=faint,
-                steps=len(found),
+                n=small_count,
+                steps=len(steps),
             )
         )
-    return doubts
+    return notices

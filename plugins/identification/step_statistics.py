@@ -1,4 +1,4 @@
-"""Statistics of many steps or cycles on one sheet: median and extremes."""
+"""Statistics of a figure over many steps or cycles: median and extremes."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -6,39 +6,51 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.plugins.identification import mark
-from rotemina.plugins.identification.findings import NONE, Column
-from rotemina.sim.quantities import Scale
+from rotemina.plugins.identification.findings import NO_VALUE, ExportColumn
+from rotemina.sim.units import DisplayScale
 
-HEAD = (mark("figure"), mark("median"), mark("model"), mark("lowest"), mark("highest"))
+STATISTIC_HEADINGS = (
+    mark("figure"),
+    mark("median"),
+    mark("model"),
+    mark("lowest"),
+    mark("highest"),
+)
 
 
-class Figure(NamedTuple):
-    """One figure of every step or cycle, SI; None where the record does not show it.
+class FigureStatistics(NamedTuple):
+    """Values of one figure for all steps or cycles, SI. A value is None if it cannot be measured.
 
-    ``model`` are those of the nominal model, over the same input.
+    ``model`` contains the values of the nominal model for the same input.
     """
 
     name: str
-    scale: Scale
+    scale: DisplayScale
     values: Sequence[float | None]
     model: Sequence[float | None] = ()
 
-    def row(self) -> tuple[str, ...]:
-        """Return the figure's row of the sheet."""
-        known = [value for value in self.values if value is not None]
-        beside = [value for value in self.model if value is not None]
-        model = float(np.median(beside)) if beside else None
-        if not known:
-            return (self.name, NONE, self.scale.text(model), NONE, NONE)
-        figures = (float(np.median(known)), model, min(known), max(known))
-        return (self.name, *map(self.scale.text, figures))
+    def make_row(self) -> tuple[str, ...]:
+        """Return the row of the table."""
+        values = [value for value in self.values if value is not None]
+        model_values = [value for value in self.model if value is not None]
+        model_median = float(np.median(model_values)) if model_values else None
+        if not values:
+            return (
+                self.name,
+                NO_VALUE,
+                self.scale.format_with_unit(model_median),
+                NO_VALUE,
+                NO_VALUE,
+            )
+        figures = (float(np.median(values)), model_median, min(values), max(values))
+        return (self.name, *map(self.scale.format_with_unit, figures))
 
-    def column(self) -> Column:
-        """Return the figure's column of the file."""
-        values = (None if v is None else v * self.scale.per_si for v in self.values)
-        return Column(f"{self.name} [{self.scale.symbol or '1'}]", tuple(values))
+    def make_column(self) -> ExportColumn:
+        """Return the column of the exported file."""
+        values = (None if value is None else value * self.scale.per_si for value in self.values)
+        return ExportColumn(f"{self.name} [{self.scale.symbol or '1'}]", tuple(values))
 
 
-def largest(values: Sequence[float | None]) -> float:
-    """Return the largest size among values, 0 without any."""
+def find_largest(values: Sequence[float | None]) -> float:
+    """Return the largest absolute value, or 0 without values."""
     return max((abs(value) for value in values if value is not None), default=0.0)

@@ -1,8 +1,9 @@
-"""Input devices and their set-up.
+"""The Input devices panel: connected devices, their readings, mapping and calibration.
 
-Connected devices, their readings and their functions.
+Each section of the panel is one module. ``profiles`` and ``profile_edits`` change mappings without
+widgets. What the mappings do is in ``app/motion/inputs``.
 """
 
-from rotemina.app.shell.language import texts_of
+from rotemina.app.language import make_text_functions
 
-tr, mark = texts_of("inputs")
+tr, mark = make_text_functions("inputs")

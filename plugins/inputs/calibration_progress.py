@@ -1,4 +1,4 @@
-"""A calibration in progress: measured in steps, then curve, direction and travel."""
+"""Calibration of a device in progress: a measurement in steps, then changes of single axes."""
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import asdict, replace
@@ -6,178 +6,202 @@ from enum import StrEnum
 
 from pydantic import ValidationError
 
-from rotemina.app.motion.teleoperation.axis_calibration import (
-    AxisCalibration,
-    Calibration,
-    CalibrationError,
+from rotemina.app.errors import InputCalibrationError
+from rotemina.app.motion.inputs import (
+    InputAxisCalibration,
+    InputCalibration,
+    InputDeviceView,
+    StickCalibrationRun,
 )
-from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
-from rotemina.app.motion.teleoperation.stick_calibration import CalibrationRun
-from rotemina.drivers.inputs.device import InputReading
+from rotemina.drivers.inputs import InputReading
 from rotemina.plugins.inputs import tr
 
-REST_S = 1.0  # for which it must be left alone, so that its noise is seen
-_SWITCHES = ("hat",)  # axes of -1, 0, 1: there is nothing to measure
-_TRIGGERS = ("accelerator", "brake", "clutch", "throttle")
+# The device must not be touched for this time, so that its noise can be measured.
+REST_DURATION_S = 1.0
+# Axes with these prefixes have only the values −1, 0 and 1, so there is nothing to measure.
+_SWITCH_PREFIXES = ("hat",)
+# Axes with these prefixes rest at one end.
+_TRIGGER_PREFIXES = ("accelerator", "brake", "clutch", "throttle")
 
 
-class Step(StrEnum):
-    """Where a calibration is."""
+class CalibrationStep(StrEnum):
+    """Step of a calibration. Nothing is measured in ``EDIT``."""
 
-    EDIT = "edit"  # nothing is being measured
+    EDIT = "edit"
     REST = "rest"
     SWEEP = "sweep"
 
 
-class Calibrating:
-    """The calibration of one device, until it is kept or discarded.
+class CalibrationProgress:
+    """Calibration of one device, from the measurement until it is applied or discarded.
 
     Parameters
     ----------
-    view : DeviceView
+    view : InputDeviceView
+        The device, with the calibration in use.
     """
 
-    def __init__(self, view: DeviceView) -> None:
+    def __init__(self, view: InputDeviceView) -> None:
         self.device = view.device
-        #: What is in use.
-        self.kept: Calibration = view.calibration
-        #: What was changed, and is not yet in use.
-        self.draft: Calibration = view.calibration
-        #: Of the latest measurement: axes that stay as they were, and why.
+        self.calibration_in_use: InputCalibration = view.calibration
+        # The calibration as changed by the operator, which is not in use yet.
+        self.draft: InputCalibration = view.calibration
+        # Why the latest measurement has left an axis unchanged, by axis.
         self.problems: Mapping[str, str] = {}
-        self.step = Step.EDIT
-        self._run: CalibrationRun | None = None
-        self._begun_s = 0.0
+        self.step = CalibrationStep.EDIT
+        self._run: StickCalibrationRun | None = None
+        self._start_s = 0.0
 
     @property
-    def changed(self) -> bool:
-        """Whether there is something to keep or to discard."""
-        return self.draft != self.kept
+    def is_changed(self) -> bool:
+        """Whether the draft differs from the calibration in use."""
+        return self.draft != self.calibration_in_use
 
     @property
-    def measurable(self) -> tuple[str, ...]:
-        """Axes that are measured unless someone wishes otherwise."""
-        return tuple(axis for axis in self.device.axes if not _begins(axis, _SWITCHES))
+    def measurable_axes(self) -> tuple[str, ...]:
+        """The axes that are measured by default."""
+        return tuple(axis for axis in self.device.axes if not _has_prefix(axis, _SWITCH_PREFIXES))
 
     @property
-    def one_sided(self) -> tuple[str, ...]:
-        """Axes that rest at an end, by their calibration or, without one, by their name."""
-        return tuple(axis for axis in self.device.axes if self._rests_at_end(axis))
+    def one_sided_axes(self) -> tuple[str, ...]:
+        """The axes that rest at an end, according to their calibration or else to their name."""
+        return tuple(axis for axis in self.device.axes if self._is_one_sided(axis))
 
     @property
     def ranges(self) -> Mapping[str, tuple[float, float]]:
-        """Least and greatest reading of each axis so far, while it is measured."""
+        """The smallest and the largest reading of each axis in the current measurement."""
         return {} if self._run is None else self._run.ranges
 
     @property
-    def missing(self) -> Mapping[str, str]:
-        """What is still wrong with each axis while it is measured."""
+    def open_problems(self) -> Mapping[str, str]:
+        """The current problem of each axis during a measurement, by axis."""
         return {} if self._run is None else self._run.problems
 
     def begin(
         self,
-        wanted: Sequence[str],
+        axes: Sequence[str],
         one_sided: Collection[str],
         last: InputReading | None,
         now_s: float,
     ) -> None:
-        """Begin to measure: the device is to be left alone.
+        """Start a measurement. The device must not be touched from now on.
+
+        Parameters
+        ----------
+        axes : sequence of str
+            The axes to measure.
+        one_sided : collection of str
+            The axes that rest at an end.
+        last : InputReading or None
+            The latest reading of the device.
+        now_s : float
+            Host time, s.
 
         Raises
         ------
-        CalibrationError
-            If no axis is wanted.
+        InputCalibrationError
+            If there is no axis to measure.
         """
-        if not wanted:
-            raise CalibrationError(tr("no axis is chosen: choose the axes to measure"))
-        sides = [axis for axis in one_sided if axis in wanted]
-        self._run = CalibrationRun(self.device.axes, wanted, sides, last)
-        self.step, self._begun_s, self.problems = Step.REST, now_s, {}
+        if not axes:
+            raise InputCalibrationError(tr("no axis is chosen: choose the axes to measure"))
+        measured_one_sided = [axis for axis in one_sided if axis in axes]
+        self._run = StickCalibrationRun(self.device.axes, axes, measured_one_sided, last)
+        self.step, self._start_s, self.problems = CalibrationStep.REST, now_s, {}
 
     def receive(self, readings: Sequence[InputReading]) -> None:
-        """Take in what the device has said since the measurement began."""
+        """Add the readings that were taken since the start of the measurement."""
         if self._run is not None:
             for reading in readings:
-                if reading.host_time_s >= self._begun_s:
+                if reading.host_time_s >= self._start_s:
                     self._run.feed(reading)
 
-    def rest_left_s(self, now_s: float) -> float:
-        """Return for how long it is still to be left alone."""
-        return max(REST_S - (now_s - self._begun_s), 0.0) if self.step is Step.REST else 0.0
+    def compute_remaining_rest_s(self, now_s: float) -> float:
+        """Return the remaining time for which the device must not be touched, s."""
+        return (
+            max(REST_DURATION_S - (now_s - self._start_s), 0.0)
+            if self.step is CalibrationStep.REST
+            else 0.0
+        )
 
-    def sweep(self) -> None:
-        """Continue to the ends."""
+    def start_sweep(self) -> None:
+        """Begin the step in which the operator moves the axes to their ends."""
         assert self._run is not None
-        self._run.sweep()
-        self.step = Step.SWEEP
+        self._run.begin_sweep()
+        self.step = CalibrationStep.SWEEP
 
     def finish(self) -> None:
-        """Take over what was measured well; the other axes stay as they were."""
+        """Enter the successfully measured axes in the draft, and leave the others unchanged."""
         assert self._run is not None
-        before = {axis: self.draft.axis(axis) for axis in self.device.axes}
+        previous_calibrations = {axis: self.draft.find_axis(axis) for axis in self.device.axes}
         self.problems = self._run.problems
-        self.draft = self.draft.with_axes(self._run.sound(before))
+        self.draft = self.draft.with_axes(self._run.make_calibrations(previous_calibrations))
         self.cancel()
 
     def cancel(self) -> None:
         """Cancel the measurement."""
         self._run = None
-        self.step = Step.EDIT
+        self.step = CalibrationStep.EDIT
 
     def discard(self) -> None:
-        """Go back to what is in use."""
-        self.draft, self.problems = self.kept, {}
+        """Reset the draft to the calibration in use."""
+        self.draft, self.problems = self.calibration_in_use, {}
 
-    def change(self, axis: str, **changes: float | bool | None) -> None:
-        """Change settings of one axis.
+    def change_axis(self, axis: str, **changes: float | bool | None) -> None:
+        """Change settings of one axis in the draft.
 
         Raises
         ------
-        CalibrationError
-            If they do not go together.
+        InputCalibrationError
+            If a setting is out of bounds or contradicts another one.
         """
-        self.draft = self.draft.with_axes({axis: changed(axis, self.draft.axis(axis), **changes)})
+        self.draft = self.draft.with_axes(
+            {axis: with_settings(axis, self.draft.find_axis(axis), **changes)}
+        )
 
-    def forget(self, axis: str) -> None:
-        """Give one axis the settings of one that was never calibrated."""
-        axes = {name: one for name, one in self.draft.axes.items() if name != axis}
+    def reset_axis(self, axis: str) -> None:
+        """Reset one axis in the draft to the settings of an uncalibrated axis."""
+        axes = {name: settings for name, settings in self.draft.axes.items() if name != axis}
         self.draft = replace(self.draft, axes=axes)
 
-    def _rests_at_end(self, axis: str) -> bool:
-        if axis in self.kept.axes:
-            one = self.kept.axes[axis]
-            return one.centre in (one.low, one.high)
-        return _begins(axis, _TRIGGERS)
+    def _is_one_sided(self, axis: str) -> bool:
+        if axis in self.calibration_in_use.axes:
+            calibration = self.calibration_in_use.axes[axis]
+            return calibration.centre in (calibration.low, calibration.high)
+        return _has_prefix(axis, _TRIGGER_PREFIXES)
 
 
-def changed(axis: str, before: AxisCalibration, **changes: float | bool | None) -> AxisCalibration:
+def with_settings(
+    axis: str, calibration: InputAxisCalibration, **changes: float | bool | None
+) -> InputAxisCalibration:
     """Return a calibration with some settings changed.
 
     Raises
     ------
-    CalibrationError
-        If they do not go together, or one is out of its bounds.
+    InputCalibrationError
+        If a setting is out of bounds or contradicts another one.
     """
     try:
-        return AxisCalibration(**{**asdict(before), **changes})
+        return InputAxisCalibration(**{**asdict(calibration), **changes})
     except ValidationError as error:
         detail = error.errors()[0]
-        where = ".".join(map(str, detail["loc"])) or tr("its settings")
+        setting = ".".join(map(str, detail["loc"])) or tr("its settings")
         reason = str(detail.get("ctx", {}).get("error", detail["msg"]))
-        raise CalibrationError(
-            tr("axis {axis}, {where}: {reason}").format(axis=axis, where=where, reason=reason)
+        raise InputCalibrationError(
+            tr("axis {axis}, {where}: {reason}").format(axis=axis, where=setting, reason=reason)
         ) from error
 
 
-def summary(one: AxisCalibration) -> str:
-    """Return where an axis ends and rests, in one line."""
-    rest = (
+def describe_axis_calibration(calibration: InputAxisCalibration) -> str:
+    """Return the ends and the rest position of an axis in one line of text."""
+    rest_text = (
         tr("rests at an end")
-        if one.centre in (one.low, one.high)
-        else tr("rests at {centre:+.2f}").format(centre=one.centre)
+        if calibration.centre in (calibration.low, calibration.high)
+        else tr("rests at {centre:+.2f}").format(centre=calibration.centre)
     )
-    return tr("{low:+.2f} to {high:+.2f}, {rest}").format(low=one.low, high=one.high, rest=rest)
+    return tr("{low:+.2f} to {high:+.2f}, {rest}").format(
+        low=calibration.low, high=calibration.high, rest=rest_text
+    )
 
 
-def _begins(axis: str, names: tuple[str, ...]) -> bool:
-    return axis.casefold().startswith(names)
+def _has_prefix(axis: str, prefixes: tuple[str, ...]) -> bool:
+    return axis.casefold().startswith(prefixes)

@@ -1,73 +1,102 @@
-"""*Move it now*: finds the moved control of a device for one row of the mapping."""
+"""Finds the control to be assigned to a function, by asking the operator to move it."""
 
-from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
-from rotemina.app.motion.teleoperation.input_devices import InputSnapshot
-from rotemina.app.motion.teleoperation.moved_control import Detection, Findings, Kind
+from rotemina.app.motion.inputs import (
+    ControlDetector,
+    ControlKind,
+    DetectionResult,
+    InputDeviceView,
+    InputSnapshot,
+)
 from rotemina.plugins.inputs import tr
 
-BUTTON_WAIT_S = 0.3  # a trigger tells its way first, and that it is pressed a moment later
+# A moved axis is accepted only after this time. The trigger of a gamepad first reports its travel
+# as an axis, and only a moment later its press as a button.
+BUTTON_WAIT_S = 0.3
 
 
-class Finding:
-    """Waits for one control to be moved.
+class ControlFinder:
+    """Finds the one control of a device that the operator moves.
 
     Parameters
     ----------
-    view : DeviceView
-        The device; what it said last is where its controls stand.
+    view : InputDeviceView
+        The device. Its latest reading gives the initial positions of the controls.
     axis : bool
-        Whether it must be an axis. Otherwise a button goes before an axis: the trigger of many a
-        gamepad is both.
+        Whether only axes are accepted. Otherwise a button takes precedence over an axis, because
+        the triggers of many gamepads are both.
     """
 
-    def __init__(self, view: DeviceView, *, axis: bool) -> None:
+    def __init__(self, view: InputDeviceView, *, axis: bool) -> None:
         self._key = view.device.identity.key
-        kinds = (Kind.AXIS,) if axis else (Kind.BUTTON, Kind.AXIS)
-        self._detections = {kind: Detection([view.device], kind) for kind in kinds}
-        self._axis_since_s: float | None = None
+        kinds = (ControlKind.AXIS,) if axis else (ControlKind.BUTTON, ControlKind.AXIS)
+        self._detectors = {kind: ControlDetector([view.device], kind) for kind in kinds}
+        # When a moved axis was first found; None if none has been found.
+        self._axis_found_s: float | None = None
         self._view = view
-        self._newest = view.newest
-        if view.newest is not None:
-            for detection in self._detections.values():
-                detection.feed(self._key, view.newest)
+        self._latest_reading = view.latest_reading
+        if view.latest_reading is not None:
+            for detector in self._detectors.values():
+                detector.feed(self._key, view.latest_reading)
 
     def receive(self, snapshot: InputSnapshot) -> None:
-        """Take in what a step has read; what was said before is known already."""
+        """Add the new readings of the device, except those older than the latest one."""
         for reading in snapshot.readings.get(self._key, ()):
-            if self._newest is not None and reading.host_time_s < self._newest.host_time_s:
+            if (
+                self._latest_reading is not None
+                and reading.host_time_s < self._latest_reading.host_time_s
+            ):
                 continue
-            self._newest = reading
-            for detection in self._detections.values():
-                detection.feed(self._key, reading)
+            self._latest_reading = reading
+            for detector in self._detectors.values():
+                detector.feed(self._key, reading)
 
-    def look(self, now_s: float) -> Findings:
-        """Return what was moved, once that is sure."""
-        found = {kind: self._found(kind, now_s) for kind in self._detections}
-        button = found.get(Kind.BUTTON)
-        if button is None:
-            return found[Kind.AXIS]
-        axis = found[Kind.AXIS]
-        if button.detected is not None or axis.detected is None:
-            self._axis_since_s = None
-            return button if button.detected is not None else _both(button, axis)
-        if self._axis_since_s is None:
-            self._axis_since_s = now_s
-        return axis if now_s - self._axis_since_s >= BUTTON_WAIT_S else Findings(None, axis.message)
+    def find_control(self, now_s: float) -> DetectionResult:
+        """Return the moved control, or a message to the operator if none has been found.
 
-    def _found(self, kind: Kind, now_s: float) -> Findings:
-        """Return what was moved; an axis that has come back to its rest was let go."""
-        found = self._detections[kind].findings(now_s)
-        if kind is Kind.BUTTON or found.detected is None or self._newest is None:
-            return found
-        control = found.detected.control
-        raw = self._newest.axes[self._view.device.axes.index(control)]
-        at_rest = self._view.calibration.axis(control).deflection(raw) == 0.0
-        return Findings(None, tr("move the axis now")) if at_rest else found
+        ``now_s`` is the host time, s.
+        """
+        results = {kind: self._find_kind(kind, now_s) for kind in self._detectors}
+        button_result = results.get(ControlKind.BUTTON)
+        if button_result is None:
+            return results[ControlKind.AXIS]
+        axis_result = results[ControlKind.AXIS]
+        if button_result.moved_control is not None:
+            self._axis_found_s = None
+            return button_result
+        if axis_result.moved_control is None:
+            self._axis_found_s = None
+            return _merge_messages(button_result, axis_result)
+        if self._axis_found_s is None:
+            self._axis_found_s = now_s
+        return (
+            axis_result
+            if now_s - self._axis_found_s >= BUTTON_WAIT_S
+            else DetectionResult(None, axis_result.message)
+        )
+
+    def _find_kind(self, kind: ControlKind, now_s: float) -> DetectionResult:
+        """Return the moved control of one kind, but not an axis that is back at rest."""
+        result = self._detectors[kind].find_moved_control(now_s)
+        if (
+            kind is ControlKind.BUTTON
+            or result.moved_control is None
+            or self._latest_reading is None
+        ):
+            return result
+        control = result.moved_control.control
+        raw = self._latest_reading.axes[self._view.device.axes.index(control)]
+        is_at_rest = self._view.calibration.find_axis(control).compute_deflection(raw) == 0.0
+        return DetectionResult(None, tr("move the axis now")) if is_at_rest else result
 
 
-def _both(button: Findings, axis: Findings) -> Findings:
-    """Return what there is to say while nothing was found: that several moved, if they did."""
-    for one in (button, axis):
-        if "together" in one.message:
-            return one
-    return Findings(None, tr("press the button, or move the axis, now"))
+def _merge_messages(
+    button_result: DetectionResult, axis_result: DetectionResult
+) -> DetectionResult:
+    """Return a result without a control, with one message for buttons and axes.
+
+    If several controls moved at once, the message that says so takes precedence.
+    """
+    for result in (button_result, axis_result):
+        if result.is_ambiguous:
+            return result
+    return DetectionResult(None, tr("press the button, or move the axis, now"))

@@ -1,127 +1,146 @@
-"""Rows of the mapping: the control of each function."""
+"""Rows of the mapping. Each assigns a control of the device to one function."""
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QGridLayout, QPushButton, QToolButton, QWidget
 
-from rotemina.app.motion.teleoperation.intent import Action
-from rotemina.app.motion.teleoperation.profile import ActionMapping
-from rotemina.app.widgets.controls import allow, named, plain_tip
-from rotemina.app.widgets.labels import ElidedLabel
+from rotemina.app.motion.inputs import ActionMapping, OperatorAction
+from rotemina.app.widgets.controls import (
+    enable_unless,
+    make_tooltip,
+    name_widget,
+)
+from rotemina.app.widgets.text import ElidedLabel
 from rotemina.plugins.inputs import tr
-from rotemina.plugins.inputs.number_field import NumberField
-from rotemina.plugins.inputs.profile_edits import Edited
+from rotemina.plugins.inputs.number_field import BoundedNumberField
+from rotemina.plugins.inputs.profile_edits import ProfileEditor
 from rotemina.plugins.inputs.words import (
+    ACTION_NAMES,
     ACTION_TIPS,
-    ACTIONS,
-    control_text,
-    target_name,
-    target_tip,
+    describe_target,
+    format_controls,
+    format_target_name,
 )
 
-_EXTRA_WIDTH = 46
-NOBODY = "–"
+# The width of the widget for the setting of a row: the inversion or the threshold.
+_SETTING_WIDTH_PX = 46
+UNMAPPED_TEXT = "–"
 
 
-class Row(QObject):
-    """One thing that a control can do.
+class MappingRow(QObject):
+    """Row for one function that a control can have.
 
     Signals
     -------
-    asked() : its control is to be found, or not any more.
-    cleared() : nothing is to do it.
-    changed(object) : whether it is turned round, or from where on it counts.
+    find_requested()
+        The operator wants to start or cancel the search for the control.
+    clear_requested()
+        The operator wants no control to have this function.
+    setting_changed(object)
+        The operator has changed the inversion (bool) or the threshold (float, %).
     """
 
-    asked = Signal()
-    cleared = Signal()
-    changed = Signal(object)
+    find_requested = Signal()
+    clear_requested = Signal()
+    setting_changed = Signal(object)
 
-    def __init__(self, name: str, tip: str, grid: QGridLayout) -> None:
+    def __init__(self, name: str, explanation: str, grid: QGridLayout) -> None:
         super().__init__()
         self.name = name
         self.title = ElidedLabel()
         self.title.show_text(name)
-        self.title.setToolTip(plain_tip(name, tip))
-        self.control = named(QPushButton(NOBODY), tr("Control of: {name}").format(name=name))
+        self.title.setToolTip(make_tooltip(name, explanation))
+        self.control = name_widget(
+            QPushButton(UNMAPPED_TEXT), tr("Control of: {name}").format(name=name)
+        )
         self.control.setCheckable(True)
-        self.control.clicked.connect(lambda _: self.asked.emit())
-        self.clear = named(QToolButton(), tr("Clear: {name}").format(name=name))
+        self.control.clicked.connect(lambda _: self.find_requested.emit())
+        self.clear = name_widget(QToolButton(), tr("Clear: {name}").format(name=name))
         self.clear.setText("✕")
-        self.clear.clicked.connect(lambda _: self.cleared.emit())
+        self.clear.clicked.connect(lambda _: self.clear_requested.emit())
         row = grid.rowCount()
         grid.addWidget(self.title, row, 0)
         grid.addWidget(self.control, row, 1)
         grid.addWidget(self.clear, row, 3)
 
-    def show_edited(self, edited: Edited, finding: str | None) -> None:
-        """Show what does it; ``finding``: what to tell while its control is being found."""
-        text = self._controls(edited)
-        self.control.setChecked(finding is not None)
-        self.control.setText(tr("move it …") if finding is not None else text or NOBODY)
-        tip = finding or tr("Press this field, then move the control for this action")
-        self.control.setToolTip(plain_tip(self.name, text, tip))
-        allow(
+    def show_mapping(self, editor: ProfileEditor, hint: str | None) -> None:
+        """Show the mapped controls.
+
+        Parameters
+        ----------
+        editor : ProfileEditor
+        hint : str or None
+            What the operator should do while the control is being searched for, or None.
+        """
+        controls_text = self._update_controls(editor)
+        self.control.setChecked(hint is not None)
+        self.control.setText(
+            tr("move it …") if hint is not None else controls_text or UNMAPPED_TEXT
+        )
+        instruction = hint or tr("Press this field, then move the control for this action")
+        self.control.setToolTip(make_tooltip(self.name, controls_text, instruction))
+        enable_unless(
             self.clear,
-            None if text else tr("not mapped"),
+            None if controls_text else tr("not mapped"),
             tr("{name}: not mapped").format(name=self.name),
         )
 
-    def _controls(self, edited: Edited) -> str:
+    def _update_controls(self, editor: ProfileEditor) -> str:
+        """Show the setting of the mapping, and return the names of its controls."""
         raise NotImplementedError
 
-    def _place_extra(self, grid: QGridLayout, widget: QWidget) -> None:
-        widget.setFixedWidth(_EXTRA_WIDTH)
+    def _place_setting(self, grid: QGridLayout, widget: QWidget) -> None:
+        widget.setFixedWidth(_SETTING_WIDTH_PX)
         grid.addWidget(widget, grid.rowCount() - 1, 2)
         policy = widget.sizePolicy()
         policy.setRetainSizeWhenHidden(True)
         widget.setSizePolicy(policy)
 
 
-class TargetRow(Row):
-    """An axis that is driven."""
+class TargetMappingRow(MappingRow):
+    """Row for a target that a device axis moves: a robot axis, or x, y or z of the stick."""
 
     def __init__(self, target: str, grid: QGridLayout) -> None:
-        super().__init__(target_name(target), target_tip(target), grid)
+        super().__init__(format_target_name(target), describe_target(target), grid)
         self.target = target
         self.inverted = QPushButton("±")
         self.inverted.setCheckable(True)
         self.inverted.setAccessibleName(tr("Inverted: {name}").format(name=self.name))
         self.inverted.setToolTip(tr("Inverted: opposite to the calibration"))
-        self.inverted.clicked.connect(lambda on: self.changed.emit(on))
-        self._place_extra(grid, self.inverted)
+        self.inverted.clicked.connect(lambda is_checked: self.setting_changed.emit(is_checked))
+        self._place_setting(grid, self.inverted)
 
-    def _controls(self, edited: Edited) -> str:
-        mapping = edited.axis(self.target)
+    def _update_controls(self, editor: ProfileEditor) -> str:
+        mapping = editor.find_axis_mapping(self.target)
         self.inverted.setVisible(mapping is not None)
         self.inverted.setChecked(mapping is not None and mapping.inverted)
         return "" if mapping is None else mapping.control
 
 
-class ActionRow(Row):
-    """An action that is done."""
+class ActionMappingRow(MappingRow):
+    """Row for an action, with a threshold if an axis triggers it."""
 
-    def __init__(self, action: Action, grid: QGridLayout) -> None:
-        name, tip = ACTIONS[action], ACTION_TIPS[action]
-        super().__init__(tr(name), tr(tip), grid)
+    def __init__(self, action: OperatorAction, grid: QGridLayout) -> None:
+        name, explanation = ACTION_NAMES[action], ACTION_TIPS[action]
+        super().__init__(tr(name), tr(explanation), grid)
         self.action = action
-        self.at = NumberField(
+        self.threshold_field = BoundedNumberField(
             tr("Threshold of: {name}").format(name=self.name),
             "%",
             tr("Deflection from which the axis counts as pressed, not between −10 and 10"),
             -100.0,
             100.0,
         )
-        self.at.entered.connect(self.changed)
-        self._place_extra(grid, self.at)
+        self.threshold_field.entered.connect(self.setting_changed)
+        self._place_setting(grid, self.threshold_field)
 
-    def _controls(self, edited: Edited) -> str:
-        mappings = edited.actions(self.action)
-        at = _threshold(mappings)
-        self.at.setVisible(at is not None)
-        self.at.show_number(None if at is None else 100.0 * at)
-        return control_text({one.control: one.at for one in mappings})
+    def _update_controls(self, editor: ProfileEditor) -> str:
+        mappings = editor.find_action_mappings(self.action)
+        threshold = _find_threshold(mappings)
+        self.threshold_field.setVisible(threshold is not None)
+        self.threshold_field.show_number(None if threshold is None else 100.0 * threshold)
+        return format_controls({mapping.control: mapping.at for mapping in mappings})
 
 
-def _threshold(mappings: tuple[ActionMapping, ...]) -> float | None:
-    """Return the threshold, where one axis alone does it."""
+def _find_threshold(mappings: tuple[ActionMapping, ...]) -> float | None:
+    """Return the threshold if a single axis triggers the action, or else None."""
     return mappings[0].at if len(mappings) == 1 else None

@@ -1,34 +1,39 @@
-"""The steps of measuring a device: choice of axes, rest, ends, outcome."""
+"""Steps of the measurement of a device: choice of axes, rest, ends, and result."""
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QWidget
 
-from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
-from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.controls import allow, button
-from rotemina.app.widgets.labels import plain_text, show_text
-from rotemina.app.widgets.layouts import in_column, in_grid, in_row
-from rotemina.app.widgets.section import clear
+from rotemina.app.language import translate_message
+from rotemina.app.motion.inputs import InputDeviceView
+from rotemina.app.widgets.controls import enable_unless, make_button
+from rotemina.app.widgets.layout import (
+    clear_layout,
+    make_column,
+    make_grid,
+    make_row,
+)
+from rotemina.app.widgets.text import make_plain_label, show_or_hide_text
+from rotemina.app.workbench import Workbench
 from rotemina.plugins.inputs import mark, tr
-from rotemina.plugins.inputs.calibration_progress import Calibrating, Step
+from rotemina.plugins.inputs.calibration_progress import CalibrationProgress, CalibrationStep
 
-_TEXTS = {
-    Step.EDIT: mark(
+_STEP_TEXTS = {
+    CalibrationStep.EDIT: mark(
         "Choose the axes to measure. Tick the ones that rest at an end, such as "
         "triggers and pedals."
     ),
-    Step.REST: mark("1 of 2: release the device and do not touch it."),
-    Step.SWEEP: mark("2 of 2: move each axis several times to both ends."),
+    CalibrationStep.REST: mark("1 of 2: release the device and do not touch it."),
+    CalibrationStep.SWEEP: mark("2 of 2: move each axis several times to both ends."),
 }
 
 
-class Measuring(QWidget):
-    """Measures the axes of a device.
+class AxisMeasurementView(QWidget):
+    """View that guides the operator through the measurement of the axes of a device.
 
     Signals
     -------
-    measured() : there is something new in the draft.
+    measured()
+        Emitted when the measured axes have been entered in the draft.
     """
 
     measured = Signal()
@@ -36,95 +41,104 @@ class Measuring(QWidget):
     def __init__(self, workbench: Workbench) -> None:
         super().__init__()
         self._workbench = workbench
-        self._now: Calibrating | None = None
-        self._device: DeviceView | None = None
+        self._progress: CalibrationProgress | None = None
+        self._device: InputDeviceView | None = None
         self._now_s = 0.0
-        self.text = plain_text(wrap=True)
-        self.wanted: dict[str, QCheckBox] = {}
-        self.one_sided: dict[str, QCheckBox] = {}
-        self.choice = QWidget()
-        self._grid = in_grid(on=self.choice, margins=0, spacing=(-1, 2))
-        self.problems = plain_text(wrap=True)
-        self.next = button(tr("Measure …"), self._next)
-        self.cancel = button(tr("Cancel"), self._cancel)
-        row = in_row((self.next, 1), self.cancel, spacing=6)
-        in_column(self.text, self.choice, self.problems, row, on=self, margins=0, spacing=4)
+        self.text = make_plain_label(wrap=True)
+        self.axis_boxes: dict[str, QCheckBox] = {}
+        self.one_sided_boxes: dict[str, QCheckBox] = {}
+        self.axis_choice = QWidget()
+        self._grid = make_grid(on=self.axis_choice, margins=0, spacing=(-1, 2))
+        self.problems = make_plain_label(wrap=True)
+        self.next_button = make_button(tr("Measure …"), self._advance)
+        self.cancel_button = make_button(tr("Cancel"), self._cancel_measurement)
+        row = make_row((self.next_button, 1), self.cancel_button, spacing=6)
+        make_column(self.text, self.axis_choice, self.problems, row, on=self, margins=0, spacing=4)
 
-    def refresh(self, now: Calibrating, device: DeviceView, now_s: float) -> None:
-        """Show where the measurement of a device is."""
-        if now is not self._now:
-            self._now = now
-            self._offer(now)
+    def refresh(self, progress: CalibrationProgress, device: InputDeviceView, now_s: float) -> None:
+        """Show the current step of the measurement."""
+        if progress is not self._progress:
+            self._progress = progress
+            self._make_boxes(progress)
         self._device, self._now_s = device, now_s
         self.setVisible(bool(device.device.axes))
-        show_text(self.text, tr(_TEXTS[now.step]))
-        self.choice.setVisible(now.step is Step.EDIT)
-        self.cancel.setVisible(now.step is not Step.EDIT)
-        self._show_problems(now)
-        self._show_next(now, now_s)
+        show_or_hide_text(self.text, tr(_STEP_TEXTS[progress.step]))
+        self.axis_choice.setVisible(progress.step is CalibrationStep.EDIT)
+        self.cancel_button.setVisible(progress.step is not CalibrationStep.EDIT)
+        self._show_problems(progress)
+        self._update_next_button(progress, now_s)
 
-    def _show_problems(self, now: Calibrating) -> None:
-        problems = now.missing if now.step is Step.SWEEP else now.problems
-        lead = "" if now.step is Step.SWEEP or not problems else tr("Unchanged:\n")
-        show_text(
-            self.problems, lead + "\n".join(map(spoken, problems.values())) if problems else ""
+    def _show_problems(self, progress: CalibrationProgress) -> None:
+        problems = (
+            progress.open_problems if progress.step is CalibrationStep.SWEEP else progress.problems
+        )
+        heading = (
+            "" if progress.step is CalibrationStep.SWEEP or not problems else tr("Unchanged:\n")
+        )
+        show_or_hide_text(
+            self.problems,
+            heading + "\n".join(map(translate_message, problems.values())) if problems else "",
         )
 
-    def _show_next(self, now: Calibrating, now_s: float) -> None:
-        if now.step is Step.EDIT:
-            why = (
+    def _update_next_button(self, progress: CalibrationProgress, now_s: float) -> None:
+        if progress.step is CalibrationStep.EDIT:
+            objection = (
                 None
-                if any(box.isChecked() for box in self.wanted.values())
+                if any(box.isChecked() for box in self.axis_boxes.values())
                 else tr("no axis is ticked")
             )
-            self.next.setText(tr("Measure …"))
-            allow(self.next, why, tr("Measure rest and ends of the ticked axes"))
-        elif now.step is Step.REST:
-            left_s = now.rest_left_s(now_s)
-            self.next.setText(
-                tr("At rest: next")
-                if left_s == 0.0
-                else tr("{left_s:.1f} s …").format(left_s=left_s)
+            self.next_button.setText(tr("Measure …"))
+            enable_unless(
+                self.next_button, objection, tr("Measure rest and ends of the ticked axes")
             )
-            allow(
-                self.next,
-                None if left_s == 0.0 else tr("measuring the noise"),
+        elif progress.step is CalibrationStep.REST:
+            remaining_s = progress.compute_remaining_rest_s(now_s)
+            self.next_button.setText(
+                tr("At rest: next")
+                if remaining_s == 0.0
+                else tr("{left_s:.1f} s …").format(left_s=remaining_s)
+            )
+            enable_unless(
+                self.next_button,
+                None if remaining_s == 0.0 else tr("measuring the noise"),
                 tr("Continue with the ends"),
             )
         else:
-            good = len(now.ranges) and not now.missing
-            self.next.setText(tr("Done") if good else tr("Done, without these"))
-            allow(self.next, None, tr("Use the successful measurements"))
+            is_complete = len(progress.ranges) and not progress.open_problems
+            self.next_button.setText(tr("Done") if is_complete else tr("Done, without these"))
+            enable_unless(self.next_button, None, tr("Use the successful measurements"))
 
-    def _next(self) -> None:
-        now, device = self._now, self._device
-        if now is None or device is None:
+    def _advance(self) -> None:
+        progress, device = self._progress, self._device
+        if progress is None or device is None:
             return
-        if now.step is Step.EDIT:
-            wanted = [axis for axis, box in self.wanted.items() if box.isChecked()]
-            sides = [axis for axis, box in self.one_sided.items() if box.isChecked()]
-            last, now_s = device.newest, self._now_s
-            self._workbench.ask(lambda: now.begin(wanted, sides, last, now_s))
-        elif now.step is Step.REST:
-            now.sweep()
+        if progress.step is CalibrationStep.EDIT:
+            axes = [axis for axis, box in self.axis_boxes.items() if box.isChecked()]
+            one_sided_axes = [axis for axis, box in self.one_sided_boxes.items() if box.isChecked()]
+            latest_reading, now_s = device.latest_reading, self._now_s
+            self._workbench.run_request(
+                lambda: progress.begin(axes, one_sided_axes, latest_reading, now_s)
+            )
+        elif progress.step is CalibrationStep.REST:
+            progress.start_sweep()
         else:
-            now.finish()
+            progress.finish()
             self.measured.emit()
 
-    def _cancel(self) -> None:
-        if self._now is not None:
-            self._now.cancel()
+    def _cancel_measurement(self) -> None:
+        if self._progress is not None:
+            self._progress.cancel()
 
-    def _offer(self, now: Calibrating) -> None:
-        clear(self._grid)
-        self.wanted, self.one_sided = {}, {}
-        for row, axis in enumerate(now.device.axes):
-            wanted, side = QCheckBox(axis), QCheckBox(tr("rests at an end"))
-            wanted.setChecked(axis in now.measurable)
-            wanted.setAccessibleName(tr("Measure axis {axis}").format(axis=axis))
-            side.setChecked(axis in now.one_sided)
-            side.setAccessibleName(tr("Axis {axis} rests at an end").format(axis=axis))
-            self._grid.addWidget(wanted, row, 0)
-            self._grid.addWidget(side, row, 1, Qt.AlignmentFlag.AlignLeft)
-            self.wanted[axis], self.one_sided[axis] = wanted, side
+    def _make_boxes(self, progress: CalibrationProgress) -> None:
+        clear_layout(self._grid)
+        self.axis_boxes, self.one_sided_boxes = {}, {}
+        for row, axis in enumerate(progress.device.axes):
+            axis_box, one_sided_box = QCheckBox(axis), QCheckBox(tr("rests at an end"))
+            axis_box.setChecked(axis in progress.measurable_axes)
+            axis_box.setAccessibleName(tr("Measure axis {axis}").format(axis=axis))
+            one_sided_box.setChecked(axis in progress.one_sided_axes)
+            one_sided_box.setAccessibleName(tr("Axis {axis} rests at an end").format(axis=axis))
+            self._grid.addWidget(axis_box, row, 0)
+            self._grid.addWidget(one_sided_box, row, 1, Qt.AlignmentFlag.AlignLeft)
+            self.axis_boxes[axis], self.one_sided_boxes[axis] = axis_box, one_sided_box
         self._grid.setColumnStretch(1, 1)

@@ -1,28 +1,31 @@
-"""A field for one number with its unit; invalid input is refused and marked."""
+"""Field for one number with a unit. Invalid input is refused and marked."""
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QLineEdit, QWidget
 
-from rotemina.app.widgets.controls import plain_tip, set_property
+from rotemina.app.widgets.controls import make_tooltip, set_property
 from rotemina.plugins.inputs import tr
-from rotemina.sim.quantities import parsed, rounded
+from rotemina.sim.messages import format_rounded, parse_number
 
 
-class NumberField(QLineEdit):
-    """A field for one number.
+class BoundedNumberField(QLineEdit):
+    """Field for one number between two bounds.
 
     Parameters
     ----------
-    name, unit, about : str
-        Its accessible name, and what its tooltip says.
+    name, unit : str
+        The accessible name of the field, and its unit.
+    about : str
+        The tooltip, to which the bounds are added.
     low, high : float
-        In the shown unit.
+        The bounds in the shown unit.
     optional : bool
-        Whether it may be empty.
+        Whether the field may be empty.
 
     Signals
     -------
-    entered(object) : someone has typed another number; None: it was emptied.
+    entered(object)
+        Emitted with the number that the operator has typed, or None if the field was emptied.
     """
 
     entered = Signal(object)
@@ -43,58 +46,58 @@ class NumberField(QLineEdit):
         self._bounds = (
             tr("{low:g} to {high:g} {unit}").format(low=low, high=high, unit=unit).rstrip()
         )
-        self._about = f"{about}: {self._bounds}" + (tr(", or empty") if optional else "")
+        self._tooltip = f"{about}: {self._bounds}" + (tr(", or empty") if optional else "")
         self._value: float | None = None
-        self._wrong = ""
+        self._problem = ""
         self.setAccessibleName(f"{name}, {unit}" if unit else name)
         self.setAlignment(Qt.AlignmentFlag.AlignRight)
-        self.setToolTip(plain_tip(self._about))
-        self.editingFinished.connect(self._commit)
+        self.setToolTip(make_tooltip(self._tooltip))
+        self.editingFinished.connect(self._on_edited)
 
     def show_number(self, value: float | None) -> None:
-        """Show a number; what someone is typing stays."""
+        """Show a number, unless the operator is typing or has typed an invalid text."""
         self._value = value
-        if not self.hasFocus() and not self._wrong:
-            self.setText(self._shown())
+        if not self.hasFocus() and not self._problem:
+            self.setText(self._format_value())
 
     def reset(self, value: float | None) -> None:
-        """Show a number, whatever was typed."""
+        """Show a number, and discard a typed text."""
         self._value = value
-        self._mark("")
-        self.setText(self._shown())
+        self._mark_problem("")
+        self.setText(self._format_value())
 
-    def _shown(self) -> str:
-        return "" if self._value is None else rounded(self._value)
+    def _format_value(self) -> str:
+        return "" if self._value is None else format_rounded(self._value)
 
-    def _commit(self) -> None:
+    def _on_edited(self) -> None:
         text = self.text().strip()
-        if text == self._shown():
-            self._mark("")
+        if text == self._format_value():
+            self._mark_problem("")
             return
-        number = parsed(text)
+        number = parse_number(text)
         if not text and self._optional:
-            self._take(None)
+            self._accept_value(None)
         elif number is None:
-            self._mark(
+            self._mark_problem(
                 tr("{text!r} is not a number; enter one with a decimal point, {bounds}").format(
                     text=text, bounds=self._bounds
                 )
             )
         elif not self._low <= number <= self._high:
-            self._mark(
+            self._mark_problem(
                 tr("{value} is outside {bounds}").format(
                     value=f"{text} {self._unit}".rstrip(), bounds=self._bounds
                 )
             )
         else:
-            self._take(number)
+            self._accept_value(number)
 
-    def _take(self, value: float | None) -> None:
+    def _accept_value(self, value: float | None) -> None:
         self._value = value
-        self._mark("")
+        self._mark_problem("")
         self.entered.emit(value)
 
-    def _mark(self, wrong: str) -> None:
-        self._wrong = wrong
-        set_property(self, "bad", bool(wrong))
-        self.setToolTip(plain_tip(self._about, wrong))
+    def _mark_problem(self, problem: str) -> None:
+        self._problem = problem
+        set_property(self, "bad", bool(problem))
+        self.setToolTip(make_tooltip(self._tooltip, problem))

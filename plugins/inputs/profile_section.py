@@ -1,131 +1,148 @@
-"""Choice of the profile in use; saving a changed one."""
+"""Section with the choice of the profile, and the buttons that save or discard changes."""
 
 from PySide6.QtGui import QStandardItemModel
 from PySide6.QtWidgets import QLineEdit, QToolButton, QWidget
 
-from rotemina.app.motion.teleoperation.input_arbiter import DevicesView
-from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.app.widgets.controls import allow, button, plain_tip
-from rotemina.app.widgets.inline_question import Question
-from rotemina.app.widgets.labels import show_text
-from rotemina.app.widgets.layouts import in_row
-from rotemina.app.widgets.section import Section
-from rotemina.app.widgets.wheel_safe import SteadyChoice
+from rotemina.app.language import translate_message
+from rotemina.app.motion.inputs import InputDisplayState
+from rotemina.app.widgets.controls import (
+    WheelSafeComboBox,
+    enable_unless,
+    make_button,
+    make_tooltip,
+)
+from rotemina.app.widgets.layout import InlineQuestion, Section, make_row
+from rotemina.app.widgets.text import show_or_hide_text
+from rotemina.app.workbench import Level, Workbench
 from rotemina.plugins.inputs import mark, tr
-from rotemina.plugins.inputs.profiles import AUTOMATIC, Offer, ProfileChoice
+from rotemina.plugins.inputs.profiles import AUTOMATIC_PROFILE, ProfileChoice, ProfileOption
 
-_FIRST = mark("save or discard the changes first")
+_UNSAVED_CHANGES = mark("save or discard the changes first")
 
 
 class ProfileSection(Section):
-    """The choice of a profile and, while input devices are set up, what becomes of changes."""
+    """Section with the choice of a profile. In the set-up, changes can be saved or discarded."""
 
     def __init__(self, workbench: Workbench, profiles: ProfileChoice) -> None:
         super().__init__(tr("Profile"))
         self._workbench = workbench
         self.profiles = profiles
-        self.choice = SteadyChoice(tr("Profile"), letters=8)
-        self.again = QToolButton()
-        self.again.setText("⟳")
-        self.again.setAccessibleName(tr("Refresh the profiles"))
-        self.again.setToolTip(tr("Read the folder of profiles again"))
-        self.add_row(self.choice, self.again, equal=False)
+        self.choice = WheelSafeComboBox(tr("Profile"), letters=8)
+        self.refresh_button = QToolButton()
+        self.refresh_button.setText("⟳")
+        self.refresh_button.setAccessibleName(tr("Refresh the profiles"))
+        self.refresh_button.setToolTip(tr("Read the folder of profiles again"))
+        self.add_row(self.choice, self.refresh_button, equal=False)
         self.state = self.add_text()
         self.name = QLineEdit()
         self.name.setAccessibleName(tr("Name of the profile"))
         self.name.setToolTip(tr("Letters, digits, blanks and ( ) . , + - _; at most 60"))
         self.name.setMaxLength(60)
-        self.save = button(tr("Save"), self._ask_save)
-        self.save.setToolTip(tr("Save the profile under this name and use it from now on"))
-        self.discard = button(tr("Discard"), self._discard)
-        self.discard.setToolTip(tr("Discard the changes of the profile"))
-        self.keeping = QWidget()
-        in_row((self.name, 1), self.save, self.discard, on=self.keeping, margins=0, spacing=6)
-        self.column.addWidget(self.keeping)
-        self.question = Question()
-        self.column.addWidget(self.question)
-        self._offers: tuple[Offer, ...] = ()
-        self.choice.activated.connect(lambda _: self._choose())
-        self.again.clicked.connect(lambda _: self._fill(profiles.look()))
-        self.name.returnPressed.connect(self._ask_save)
-        self._suggested = ""
-        self._fill(profiles.offers)
-
-    def refresh(self, view: DevicesView) -> None:
-        """Show what is used."""
-        profiles = self.profiles
-        self._fill(profiles.offers)
-        self.choice.select(profiles.chosen)
-        allow(
-            self.choice, tr(_FIRST) if profiles.changed else None, tr("Functions of the controls")
+        self.save_button = make_button(tr("Save"), self._ask_to_save)
+        self.save_button.setToolTip(tr("Save the profile under this name and use it from now on"))
+        self.discard_button = make_button(tr("Discard"), self._discard_changes)
+        self.discard_button.setToolTip(tr("Discard the changes of the profile"))
+        self.save_row = QWidget()
+        make_row(
+            (self.name, 1),
+            self.save_button,
+            self.discard_button,
+            on=self.save_row,
+            margins=0,
+            spacing=6,
         )
-        show_text(self.state, _state(view, profiles))
-        self.keeping.setVisible(view.setting_up)
-        if not view.setting_up:
+        self.column.addWidget(self.save_row)
+        self.question = InlineQuestion()
+        self.column.addWidget(self.question)
+        self._options: tuple[ProfileOption, ...] = ()
+        self.choice.activated.connect(lambda _: self._choose_profile())
+        self.refresh_button.clicked.connect(lambda _: self._fill_choice(profiles.read_options()))
+        self.name.returnPressed.connect(self._ask_to_save)
+        self._suggested_name = ""
+        self._fill_choice(profiles.options)
+
+    def refresh(self, view: InputDisplayState) -> None:
+        """Show the profile in use."""
+        profiles = self.profiles
+        self._fill_choice(profiles.options)
+        self.choice.select(profiles.chosen)
+        enable_unless(
+            self.choice,
+            tr(_UNSAVED_CHANGES) if profiles.is_changed else None,
+            tr("Functions of the controls"),
+        )
+        show_or_hide_text(self.state, _describe_state(view, profiles))
+        self.save_row.setVisible(view.is_mapping_open)
+        if not view.is_mapping_open:
             self.question.hide()
             return
-        self._suggest()
-        nothing = (
+        self._suggest_name()
+        no_profile_reason = (
             None if view.profile is not None else tr("there is no profile: map a control first")
         )
-        allow(self.save, nothing, tr("Save the profile under this name and use it from now on"))
-        unchanged = None if profiles.changed else tr("nothing was changed")
-        allow(self.discard, unchanged, tr("Discard the changes of the profile"))
+        enable_unless(
+            self.save_button,
+            no_profile_reason,
+            tr("Save the profile under this name and use it from now on"),
+        )
+        unchanged_reason = None if profiles.is_changed else tr("nothing was changed")
+        enable_unless(
+            self.discard_button, unchanged_reason, tr("Discard the changes of the profile")
+        )
 
-    def _suggest(self) -> None:
-        """Write a name, unless someone has written one."""
-        suggestion = self.profiles.suggestion()
-        if suggestion != self._suggested and self.name.text() == self._suggested:
+    def _suggest_name(self) -> None:
+        """Suggest a name unless the operator has typed one."""
+        suggestion = self.profiles.suggest_name()
+        if suggestion != self._suggested_name and self.name.text() == self._suggested_name:
             self.name.setText(suggestion)
-            self._suggested = suggestion
+            self._suggested_name = suggestion
 
-    def _fill(self, offers: tuple[Offer, ...]) -> None:
-        if offers == self._offers:
+    def _fill_choice(self, options: tuple[ProfileOption, ...]) -> None:
+        if options == self._options:
             return
-        self._offers = offers
+        self._options = options
         self.choice.clear()
         model = self.choice.model()
         assert isinstance(model, QStandardItemModel)
-        for offer in offers:
-            self.choice.addItem(offer.text, offer.name)
+        for option in options:
+            self.choice.addItem(option.text, option.name)
             item = model.item(self.choice.count() - 1)
-            item.setEnabled(offer.problem is None)
-            item.setToolTip(plain_tip(offer.problem or ""))
+            item.setEnabled(option.problem is None)
+            item.setToolTip(make_tooltip(option.problem or ""))
         self.choice.select(self.profiles.chosen)
 
-    def _choose(self) -> None:
+    def _choose_profile(self) -> None:
         name = str(self.choice.currentData())
-        if not self._workbench.ask(lambda: self.profiles.choose(name)):
+        if not self._workbench.run_request(lambda: self.profiles.choose_profile(name)):
             self.choice.select(self.profiles.chosen)
 
-    def _ask_save(self) -> None:
+    def _ask_to_save(self) -> None:
         name = self.name.text().strip()
-        if name != self.profiles.chosen and self.profiles.exists(name):
-            asked = tr("Profile {name!r} already exists. Overwrite it?")
-            self.question.ask(asked.format(name=name), tr("Overwrite"), self._save)
+        if name != self.profiles.chosen and self.profiles.has_profile(name):
+            question = tr("Profile {name!r} already exists. Overwrite it?")
+            self.question.ask(question.format(name=name), tr("Overwrite"), self._save_profile)
         else:
-            self._save()
+            self._save_profile()
 
-    def _save(self) -> None:
+    def _save_profile(self) -> None:
         self.question.hide()
         name = self.name.text().strip()
-        if self._workbench.ask(lambda: self.profiles.save(name)):
-            self._suggested = name
+        if self._workbench.run_request(lambda: self.profiles.save(name)):
+            self._suggested_name = name
             self._workbench.notify(
                 Level.GOOD, tr("Input devices: profile {name!r} is saved.").format(name=name)
             )
 
-    def _discard(self) -> None:
-        self._workbench.ask(self.profiles.discard)
+    def _discard_changes(self) -> None:
+        self._workbench.run_request(self.profiles.discard)
 
 
-def _state(view: DevicesView, profiles: ProfileChoice) -> str:
-    if profiles.changed:
-        where = tr("save it") if view.setting_up else tr("set up, and save it")
+def _describe_state(view: InputDisplayState, profiles: ProfileChoice) -> str:
+    if profiles.is_changed:
+        remedy = tr("save it") if view.is_mapping_open else tr("set up, and save it")
         return tr(
             "Changed, but not saved: {where}, or the change is lost when the program ends."
-        ).format(where=where)
-    if profiles.chosen == AUTOMATIC and view.profile is not None:
-        return tr("In use: {name}").format(name=spoken(view.profile.name))
+        ).format(where=remedy)
+    if profiles.chosen == AUTOMATIC_PROFILE and view.profile is not None:
+        return tr("In use: {name}").format(name=translate_message(view.profile.name))
     return ""

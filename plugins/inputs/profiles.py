@@ -1,33 +1,34 @@
-"""The profile in use: remembered between starts, changed, saved."""
+"""Choice of the profile in use. It can be changed and saved, and is remembered."""
 
 import re
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from rotemina.app.motion.teleoperation.input_devices import InputDevices
-from rotemina.app.motion.teleoperation.profile import ListedProfile, Profile, ProfileError
-from rotemina.app.motion.teleoperation.profile_check import check_profile
-from rotemina.app.settings import Settings
-from rotemina.app.shell.engine_words import error_text
+from rotemina.app.errors import InputProfileError
+from rotemina.app.language import describe_error
+from rotemina.app.motion.inputs import InputDevices, InputProfile, ListedProfile, check_profile
+from rotemina.app.settings import UserSettings
 from rotemina.plugins.inputs import tr
-from rotemina.plugins.inputs.words import device_name
+from rotemina.plugins.inputs.words import format_device_name
 
-SETTING = "inputs.profile"
-AUTOMATIC = ""  # the setting, where the profile is made for what is plugged in
-_LETTERS = 60
+PROFILE_KEY = "inputs.profile"
+# Stands for the profile that is made automatically for the connected devices.
+AUTOMATIC_PROFILE = ""
+_MAX_NAME_LENGTH = 60
 
 
 @dataclass(frozen=True, slots=True)
-class Offer:
-    """A profile that can be chosen, or why it cannot.
+class ProfileOption:
+    """Entry in the list of profiles.
 
     Attributes
     ----------
     name : str
-        Of its file; empty: automatic.
+        The name of the file, or ``AUTOMATIC_PROFILE``.
     text : str
-        As a list shows it.
+        The text in the list.
     problem : str or None
+        Why the profile cannot be chosen.
     """
 
     name: str
@@ -36,163 +37,170 @@ class Offer:
 
 
 class ProfileChoice:
-    """The choice of the input devices' profile.
+    """Choice of the profile of the input devices.
 
     Parameters
     ----------
     devices : InputDevices
-    settings : Settings
-        Remembers the choice.
+    settings : UserSettings
+        Stores the choice for the next start.
     robot_axes : tuple of str
     """
 
     def __init__(
-        self, devices: InputDevices, settings: Settings, robot_axes: tuple[str, ...]
+        self, devices: InputDevices, settings: UserSettings, robot_axes: tuple[str, ...]
     ) -> None:
         self._devices = devices
         self._settings = settings
         self._robot_axes = robot_axes
-        self._listed: dict[str, ListedProfile] = {}
-        #: What was chosen: the name of a file, or automatic.
-        self.chosen = AUTOMATIC
-        #: Whether what is used was changed since, and no file has it.
-        self.changed = False
-        self.look()
+        self._listed_profiles: dict[str, ListedProfile] = {}
+        # The file name of the chosen profile, or `AUTOMATIC_PROFILE`.
+        self.chosen = AUTOMATIC_PROFILE
+        # Whether the profile in use has unsaved changes.
+        self.is_changed = False
+        self.read_options()
 
-    def begin(self) -> str | None:
-        """Use the profile of the last start; return its problem, if any."""
-        name = self._settings.get(SETTING, AUTOMATIC)
-        if name == AUTOMATIC:
+    def use_last_profile(self) -> str | None:
+        """Use the profile that was chosen last. Return why this is impossible, or None."""
+        name = self._settings.get(PROFILE_KEY, AUTOMATIC_PROFILE)
+        if name == AUTOMATIC_PROFILE:
             return None
         try:
-            self._use(name)
-        except ProfileError as error:
+            self._use_profile(name)
+        except InputProfileError as error:
             return tr("Input devices: {error}. An automatic profile is used instead.").format(
                 error=error
             )
         return None
 
-    def look(self) -> tuple[Offer, ...]:
-        """Return what can be chosen, after a look into the folder."""
-        self._listed = {listed.path.stem: listed for listed in self._devices.profiles}
-        return self.offers
+    def read_options(self) -> tuple[ProfileOption, ...]:
+        """Read the folder of profiles again, and return the options."""
+        self._listed_profiles = {listed.path.stem: listed for listed in self._devices.profiles}
+        return self.options
 
     @property
-    def offers(self) -> tuple[Offer, ...]:
-        """What can be chosen, as of the latest look."""
-        kept = [self._offer(name, listed) for name, listed in self._listed.items()]
-        return (Offer(AUTOMATIC, tr("Automatic")), *kept)
+    def options(self) -> tuple[ProfileOption, ...]:
+        """The profiles that were in the folder when it was last read."""
+        saved = [self._make_option(name, listed) for name, listed in self._listed_profiles.items()]
+        return (ProfileOption(AUTOMATIC_PROFILE, tr("Automatic")), *saved)
 
-    def choose(self, name: str) -> None:
-        """Use a kept profile, or an automatic one, and remember that.
+    def choose_profile(self, name: str) -> None:
+        """Use a saved profile or the automatic one, and remember the choice.
 
         Raises
         ------
-        ProfileError
-            If it cannot be used; the one before stays.
+        InputProfileError
+            If the profile cannot be used. The previous one then stays in use.
         """
-        self._use(name)
-        self._settings.set(SETTING, name)
+        self._use_profile(name)
+        self._settings.set(PROFILE_KEY, name)
 
-    def edit(self, profile: Profile) -> None:
+    def use_changed_profile(self, profile: InputProfile) -> None:
         """Use a changed profile.
 
         Raises
         ------
-        ProfileError
-            If it cannot be used; the one before stays.
+        InputProfileError
+            If the profile cannot be used. The previous one then stays in use.
         """
-        self._devices.use(profile)
-        self.changed = True
+        self._devices.use_profile(profile)
+        self.is_changed = True
 
     def discard(self) -> None:
-        """Go back to what was chosen, as it was; to an automatic one if that has gone.
+        """Discard the changes of the chosen profile.
+
+        If its file is missing or can no longer be used, the automatic profile is used.
 
         Raises
         ------
-        ProfileError
-            If it has gone, or cannot be used any more.
+        InputProfileError
+            If the chosen profile is missing or can no longer be used.
         """
         try:
-            self._use(self.chosen)
-        except ProfileError:
-            self.choose(AUTOMATIC)
+            self._use_profile(self.chosen)
+        except InputProfileError:
+            self.choose_profile(AUTOMATIC_PROFILE)
             raise
 
-    def exists(self, name: str) -> bool:
-        """Whether a file has this name, on any file system."""
-        self.look()
-        return name.casefold() in {other.casefold() for other in self._listed}
+    def has_profile(self, name: str) -> bool:
+        """Return whether there is a profile of this name, ignoring case."""
+        self.read_options()
+        return name.casefold() in {other.casefold() for other in self._listed_profiles}
 
     def save(self, name: str) -> Path:
-        """Keep what is used under a name, choose it, and return its file.
+        """Save the profile in use under a name, choose it, and return its file.
 
         Raises
         ------
-        ProfileError
-            If there is no profile, or no file can have this name.
+        InputProfileError
+            If no profile is in use, or the name is invalid.
         FileWriteError
-            If it cannot be written.
+            If the file cannot be written.
         """
         profile = self._devices.profile
         if profile is None:
-            raise ProfileError(tr("there is no profile to save: map a control first"))
-        named = _named(profile, name)
-        path = self._devices.keep(named)
-        self.look()
-        self._devices.use(named)
-        self.chosen, self.changed = path.stem, False
-        self._settings.set(SETTING, self.chosen)
+            raise InputProfileError(tr("there is no profile to save: map a control first"))
+        renamed_profile = _with_name(profile, name)
+        path = self._devices.save_profile(renamed_profile)
+        self.read_options()
+        self._devices.use_profile(renamed_profile)
+        self.chosen, self.is_changed = path.stem, False
+        self._settings.set(PROFILE_KEY, self.chosen)
         return path
 
-    def suggestion(self) -> str:
-        """Return a name to keep what is used under."""
-        if self.chosen != AUTOMATIC:
+    def suggest_name(self) -> str:
+        """Return a name under which the profile in use can be saved."""
+        if self.chosen != AUTOMATIC_PROFILE:
             return self.chosen
-        for one in self._devices.view.devices:
-            if one.drives:
-                return plain_name(device_name(one.device.identity))
+        for view in self._devices.view.devices:
+            if view.is_driving:
+                return make_valid_name(format_device_name(view.device.identity))
         return tr("Profile")
 
-    def _use(self, name: str) -> None:
-        if name == AUTOMATIC:
-            self._devices.use(None)
+    def _use_profile(self, name: str) -> None:
+        if name == AUTOMATIC_PROFILE:
+            self._devices.use_profile(None)
         else:
-            self.look()
-            listed = self._listed.get(name)
+            self.read_options()
+            listed = self._listed_profiles.get(name)
             if listed is None:
-                raise ProfileError(tr("there is no profile {name!r} any more").format(name=name))
+                raise InputProfileError(
+                    tr("there is no profile {name!r} any more").format(name=name)
+                )
             if listed.profile is None:
-                raise ProfileError(
+                raise InputProfileError(
                     listed.problem or tr("{file}: cannot be read").format(file=listed.path)
                 )
-            self._devices.use(listed.profile)
-        self.chosen, self.changed = name, False
+            self._devices.use_profile(listed.profile)
+        self.chosen, self.is_changed = name, False
 
-    def _offer(self, name: str, listed: ListedProfile) -> Offer:
+    def _make_option(self, name: str, listed: ListedProfile) -> ProfileOption:
         if listed.profile is None:
-            return Offer(name, tr("{name} – cannot be used").format(name=name), listed.problem)
+            return ProfileOption(
+                name, tr("{name} – cannot be used").format(name=name), listed.problem
+            )
         try:
             check_profile(listed.profile, self._robot_axes)
-        except ProfileError as error:
-            return Offer(
-                name, tr("{name} – not for this robot").format(name=name), error_text(error)
+        except InputProfileError as error:
+            return ProfileOption(
+                name, tr("{name} – not for this robot").format(name=name), describe_error(error)
             )
-        return Offer(name, name)
+        return ProfileOption(name, name)
 
 
-def plain_name(name: str) -> str:
-    """Return a name that a profile may have, as near to this one as can be."""
-    plain = re.sub(r"[^\w ().,+-]+", " ", name)
-    plain = re.sub(r"\s+", " ", plain)[:_LETTERS].strip(" ().,+-")
-    return plain or tr("Profile")
+def make_valid_name(name: str) -> str:
+    """Return a valid profile name that is similar to this name."""
+    valid_name = re.sub(r"[^\w ().,+-]+", " ", name)
+    valid_name = re.sub(r"\s+", " ", valid_name)[:_MAX_NAME_LENGTH].strip(" ().,+-")
+    return valid_name or tr("Profile")
 
 
-def _named(profile: Profile, name: str) -> Profile:
+def _with_name(profile: InputProfile, name: str) -> InputProfile:
     try:
         return replace(profile, name=name)
-    except ValueError as error:  # pydantic's, which tells several lines
-        raise ProfileError(
+    except ValueError as error:
+        # The message of pydantic has several lines, so another message replaces it.
+        raise InputProfileError(
             tr(
                 "{name!r} cannot be the name of a profile: it must begin with a letter or "
                 "digit and have at most 60 letters, digits, blanks and ( ) . , + - _"

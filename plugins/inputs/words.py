@@ -1,219 +1,246 @@
-"""Text about input devices."""
+"""Texts about input devices."""
 
 import re
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
-from rotemina.app.display_units import label
-from rotemina.app.motion.teleoperation.input_arbiter import DevicesView, DeviceView
-from rotemina.app.motion.teleoperation.intent import Action
-from rotemina.app.motion.teleoperation.profile import OperatorRole
-from rotemina.app.motion.teleoperation.profile_check import DEGREES_OF_FREEDOM
-from rotemina.app.shell.engine_words import spoken
-from rotemina.drivers.inputs.device import InputIdentity
-from rotemina.drivers.inputs.hub import InputHub
+from rotemina.app.language import get_axis_label, translate_message
+from rotemina.app.motion.inputs import (
+    DEGREES_OF_FREEDOM,
+    InputDeviceView,
+    InputDisplayState,
+    OperatorAction,
+    OperatorRole,
+)
+from rotemina.drivers.inputs import InputHub, InputIdentity
 from rotemina.plugins.inputs import mark, tr
-from rotemina.sim.quantities import fixed
+from rotemina.sim.messages import format_fixed
 
-NOTHING_SENT = mark("During set-up only stops are sent to the robot.")
-ACTIONS = {
-    Action.STOP: mark("Stop"),
-    Action.EMERGENCY_STOP: mark("Stop and lock"),
-    Action.DEAD_MAN: mark("Dead-man"),
-    Action.CLUTCH: mark("Clutch"),
-    Action.FINE: mark("Fine"),
-    Action.COARSE: mark("Coarse"),
-    Action.STAGE: mark("Next mode"),
-    Action.LAW: mark("Next law"),
-    Action.STEP_PRESET: mark("Next preset"),
-    Action.RECENTRE: mark("Re-centre"),
-    Action.PENETRATION: mark("Penetration"),
-    Action.TOOL: mark("Tool on/off"),
-    Action.TAKE_OVER: mark("Take over"),
+SET_UP_BANNER = mark("During set-up only stops are sent to the robot.")
+ACTION_NAMES = {
+    OperatorAction.STOP: mark("Stop"),
+    OperatorAction.EMERGENCY_STOP: mark("Stop and lock"),
+    OperatorAction.DEAD_MAN: mark("Dead-man"),
+    OperatorAction.CLUTCH: mark("Clutch"),
+    OperatorAction.FINE: mark("Fine"),
+    OperatorAction.COARSE: mark("Coarse"),
+    OperatorAction.STAGE: mark("Next mode"),
+    OperatorAction.LAW: mark("Next law"),
+    OperatorAction.STEP_PRESET: mark("Next preset"),
+    OperatorAction.RECENTRE: mark("Re-centre"),
+    OperatorAction.PENETRATION: mark("Penetration"),
+    OperatorAction.TOOL: mark("Tool on/off"),
+    OperatorAction.TAKE_OVER: mark("Take over"),
 }
 ACTION_TIPS = {
-    Action.STOP: mark("Stop all axes; works from every device at any time"),
-    Action.EMERGENCY_STOP: mark("Stop all axes and lock; works from every device at any time"),
-    Action.DEAD_MAN: mark("The stick acts only while this is pressed"),
-    Action.CLUTCH: mark("While this is pressed, the stick moves without the robot"),
-    Action.FINE: mark("A tenth of the scale while this is pressed"),
-    Action.COARSE: mark("Ten times the scale while this is pressed"),
-    Action.STAGE: mark("Next control mode: micro, nano and so on"),
-    Action.LAW: mark("Next scaling law"),
-    Action.STEP_PRESET: mark("Next scale preset"),
-    Action.RECENTRE: mark("Move the piezos back to mid-range"),
-    Action.PENETRATION: mark("Start or stop the automatic penetration"),
-    Action.TOOL: mark("Tool on or off"),
-    Action.TAKE_OVER: mark("This seat takes over control"),
+    OperatorAction.STOP: mark("Stop all axes; works from every device at any time"),
+    OperatorAction.EMERGENCY_STOP: mark(
+        "Stop all axes and lock; works from every device at any time"
+    ),
+    OperatorAction.DEAD_MAN: mark("The stick acts only while this is pressed"),
+    OperatorAction.CLUTCH: mark("While this is pressed, the stick moves without the robot"),
+    OperatorAction.FINE: mark("A tenth of the scale while this is pressed"),
+    OperatorAction.COARSE: mark("Ten times the scale while this is pressed"),
+    OperatorAction.STAGE: mark("Next control mode: micro, nano and so on"),
+    OperatorAction.LAW: mark("Next scaling law"),
+    OperatorAction.STEP_PRESET: mark("Next scale preset"),
+    OperatorAction.RECENTRE: mark("Move the piezos back to mid-range"),
+    OperatorAction.PENETRATION: mark("Start or stop the automatic penetration"),
+    OperatorAction.TOOL: mark("Tool on or off"),
+    OperatorAction.TAKE_OVER: mark("This seat takes over control"),
 }
-_WAYS = {"x": mark("to the right (+x)"), "y": mark("away from you (+y)"), "z": mark("upwards (+z)")}
-_SEATS = {OperatorRole.TRAINER: mark("trainer"), OperatorRole.TRAINEE: mark("trainee")}
-#: What the pad on the screen and its buttons are called.
-_PAD = ("keys", mark("pad"))  # source and name
+_DIRECTIONS = {
+    "x": mark("to the right (+x)"),
+    "y": mark("away from you (+y)"),
+    "z": mark("upwards (+z)"),
+}
+_SEAT_NAMES = {OperatorRole.TRAINER: mark("trainer"), OperatorRole.TRAINEE: mark("trainee")}
+# The source and the name of the on-screen pad.
+_SCREEN_PAD = ("keys", mark("pad"))
 _PAD_BUTTONS = (mark("clutch"), mark("fine"), mark("coarse"), mark("take_over"))
-_HID = re.compile(r"hid:([0-9a-f]{4}):([0-9a-f]{4}):")
+_HID_KEY_PATTERN = re.compile(r"hid:([0-9a-f]{4}):([0-9a-f]{4}):")
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
-    """One device in the list.
+class DeviceEntry:
+    """Entry of a device in the list.
 
     Attributes
     ----------
     key, name : str
-    standing : str
-        Whether it drives, or why not, in a few words.
+    status : str
+        Whether the device is in control, or why not, in a few words.
     problem : str or None
     """
 
     key: str
     name: str
-    standing: str
+    status: str
     problem: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
-class Trouble:
-    """Something that is wrong with a source or a device, and what to type where that helps."""
+class InputProblem:
+    """Problem of a device, of a source of devices or of the profile.
+
+    ``remedy`` is a text to copy that solves the problem, such as a udev rule.
+    """
 
     text: str
     remedy: str | None = None
 
 
-def axis_targets(robot_axes: Collection[str]) -> tuple[str, ...]:
-    """Return what an axis of a device may drive: x, y, z of the stick, other axes directly."""
+def list_axis_targets(robot_axes: Collection[str]) -> tuple[str, ...]:
+    """Return the targets that a device axis can move: x, y and z of the stick, and robot axes."""
     return (*DEGREES_OF_FREEDOM, *(axis for axis in robot_axes if axis not in DEGREES_OF_FREEDOM))
 
 
-def target_name(target: str) -> str:
-    """Return what an axis drives, as a row of the mapping is called."""
-    name = label(target)
+def format_target_name(target: str) -> str:
+    """Return the name of a target on the screen."""
+    name = get_axis_label(target)
     return tr("Stick {name}").format(name=name) if target in DEGREES_OF_FREEDOM else name
 
 
-def control_name(control: str) -> str:
-    """Return what a control is called on the screen: the pad's buttons by what they do."""
+def format_control_name(control: str) -> str:
+    """Return the name of a control on the screen. Buttons of the pad are named by their action."""
     return tr(control) if control in _PAD_BUTTONS else control
 
 
-def device_name(identity: InputIdentity) -> str:
-    """Return how an operator calls a device: the pad on the screen by what it is."""
-    pad = (identity.source, identity.name) == _PAD
-    return tr(identity.name) if pad else identity.name
+def format_device_name(identity: InputIdentity) -> str:
+    """Return the name of a device on the screen. The name of the pad is translated."""
+    is_pad = (identity.source, identity.name) == _SCREEN_PAD
+    return tr(identity.name) if is_pad else identity.name
 
 
-def target_tip(target: str) -> str:
-    """Return what that means for the robot."""
+def describe_target(target: str) -> str:
+    """Return what a target moves on the robot."""
     if target in DEGREES_OF_FREEDOM:
-        axes = tr(" or ").join(label(axis) for axis in DEGREES_OF_FREEDOM[target])
+        axes = tr(" or ").join(get_axis_label(axis) for axis in DEGREES_OF_FREEDOM[target])
         return tr("Moves {axes}, depending on the control mode").format(axes=axes)
-    return tr("Moves {target} directly in any mode").format(target=label(target))
+    return tr("Moves {target} directly in any mode").format(target=get_axis_label(target))
 
 
-def way_of(target: str) -> str:
-    """Return which way a stick is to be moved for an axis to grow."""
-    if target in _WAYS:
-        return tr(_WAYS[target])
-    return tr("the direction of increasing {target}").format(target=label(target))
+def describe_direction(target: str) -> str:
+    """Return the direction in which a stick must be moved to increase a target."""
+    if target in _DIRECTIONS:
+        return tr(_DIRECTIONS[target])
+    return tr("the direction of increasing {target}").format(target=get_axis_label(target))
 
 
-def entries(view: DevicesView, hub: InputHub) -> tuple[Entry, ...]:
-    """Return what is plugged in, those that cannot be opened last."""
-    # The pad is always there: what was plugged in comes first.
-    ordered = sorted(view.devices, key=lambda one: one.device.identity.source == "keys")
-    there = [_entry(one, view) for one in ordered]
-    open_keys = {one.key for one in there}
+def list_device_entries(view: InputDisplayState, hub: InputHub) -> tuple[DeviceEntry, ...]:
+    """Return the entries of all connected devices, with those that cannot be opened last."""
+    # The on-screen pad always exists, so the connected devices come before it.
+    sorted_devices = sorted(
+        view.devices, key=lambda device: device.device.identity.source == "keys"
+    )
+    usable = [_make_entry(device, view) for device in sorted_devices]
+    open_keys = {entry.key for entry in usable}
     problems = hub.problems
-    closed = [
-        Entry(one.key, one.name, tr("cannot be used"), problems[one.key])
-        for one in hub.devices
-        if one.key not in open_keys and one.key in problems
+    unusable = [
+        DeviceEntry(device.key, device.name, tr("cannot be used"), problems[device.key])
+        for device in hub.devices
+        if device.key not in open_keys and device.key in problems
     ]
-    return (*there, *closed)
+    return (*usable, *unusable)
 
 
-def troubles(view: DevicesView, hub: InputHub) -> tuple[Trouble, ...]:
+def list_problems(view: InputDisplayState, hub: InputHub) -> tuple[InputProblem, ...]:
     """Return the problems of sources, devices and the profile."""
-    names = {one.key: one.name for one in hub.devices}
-    found = [
-        Trouble(
+    names = {device.key: device.name for device in hub.devices}
+    hub_problems = [
+        InputProblem(
             problem if names.get(key, key) in problem else f"{names.get(key, key)}: {problem}",
-            udev_rule(key) if "70-rotemina-inputs.rules" in problem else None,
+            make_udev_rule(key) if "70-rotemina-inputs.rules" in problem else None,
         )
         for key, problem in hub.problems.items()
     ]
-    return (*found, *(Trouble(spoken(problem)) for problem in view.problems))
+    return (*hub_problems, *(InputProblem(translate_message(problem)) for problem in view.problems))
 
 
-def udev_rule(key: str) -> str | None:
-    """Return the line of the rule that lets a user open a joystick on Linux, by its key."""
-    model = _HID.match(key)
-    if model is None:
+def make_udev_rule(key: str) -> str | None:
+    """Return the udev rule that permits a user to open a joystick on Linux.
+
+    Return None if the key does not belong to a HID joystick.
+    """
+    match = _HID_KEY_PATTERN.match(key)
+    if match is None:
         return None
-    vendor, product = model.groups()
+    vendor, product = match.groups()
     return (
         f'KERNEL=="hidraw*", ATTRS{{idVendor}}=="{vendor}", ATTRS{{idProduct}}=="{product}", '
         'TAG+="uaccess"'
     )
 
 
-def headline(view: DevicesView, wrong: int) -> str:
-    """Return who drives, and how much is ``wrong``."""
-    if view.setting_up:
+def describe_control(view: InputDisplayState, problem_count: int) -> str:
+    """Describe which devices are in control, and how many problems there are."""
+    if view.is_mapping_open:
         return tr("Set-up: no device controls the robot.")
-    problems = {0: "", 1: tr("One problem, see below.")}.get(
-        wrong, tr("{wrong} problems, see below.").format(wrong=wrong)
+    problems_text = {0: "", 1: tr("One problem, see below.")}.get(
+        problem_count, tr("{wrong} problems, see below.").format(wrong=problem_count)
     )
-    return f"{_drivers(view)} {problems}".rstrip()
+    return f"{_describe_controlling_devices(view)} {problems_text}".rstrip()
 
 
-def _drivers(view: DevicesView) -> str:
+def _describe_controlling_devices(view: InputDisplayState) -> str:
     if not view.devices:
         return tr("No input device is connected.")
-    driving = [one for one in view.devices if one.drives]
-    names = tr(" and ").join(device_name(one.device.identity) for one in driving)
-    two = len({one.seat for one in view.devices if one.seat is not None}) > 1
-    seat = f" ({_seat(view.driving)})" if two else ""
+    driving_devices = [device for device in view.devices if device.is_driving]
+    names = tr(" and ").join(
+        format_device_name(device.device.identity) for device in driving_devices
+    )
+    has_two_seats = len({device.seat for device in view.devices if device.seat is not None}) > 1
+    seat_text = f" ({_format_seat(view.driving_seat)})" if has_two_seats else ""
     return (
-        tr("{names} may control the robot{seat}.").format(names=names, seat=seat)
+        tr("{names} may control the robot{seat}.").format(names=names, seat=seat_text)
         if names
         else tr("No device of the controlling seat is connected.")
     )
 
 
-def control_text(controls: Mapping[str, float | None]) -> str:
-    """Return controls as a row of the mapping shows them, with thresholds of axes."""
+def format_controls(controls: Mapping[str, float | None]) -> str:
+    """Return the names of controls, with the thresholds of axes.
+
+    ``controls`` maps each control to its threshold, or to None for a button.
+    """
     return ", ".join(
-        name if at is None else f"{name} {'>' if at > 0 else '<'} {fixed(100 * at, 0)} %"
-        for name, at in ((control_name(control), at) for control, at in controls.items())
+        format_control_name(control)
+        if threshold is None
+        else f"{format_control_name(control)} {'>' if threshold > 0 else '<'} "
+        f"{format_fixed(100 * threshold, 0)} %"
+        for control, threshold in controls.items()
     )
 
 
-def _seat(seat: OperatorRole) -> str:
-    return tr(_SEATS[seat])
+def _format_seat(seat: OperatorRole) -> str:
+    return tr(_SEAT_NAMES[seat])
 
 
-def _entry(one: DeviceView, view: DevicesView) -> Entry:
-    identity = one.device.identity
-    return Entry(identity.key, device_name(identity), _standing(one, view), one.problem)
+def _make_entry(device: InputDeviceView, view: InputDisplayState) -> DeviceEntry:
+    identity = device.device.identity
+    return DeviceEntry(
+        identity.key, format_device_name(identity), _describe_status(device, view), device.problem
+    )
 
 
-def _standing(one: DeviceView, view: DevicesView) -> str:
-    if one.problem is not None:
+def _describe_status(device: InputDeviceView, view: InputDisplayState) -> str:
+    if device.problem is not None:
         return tr("cannot be used")
-    if one.seat is None:
+    if device.seat is None:
         return tr("not in the profile")
-    if view.setting_up:
-        return tr("{seat}, being set up").format(seat=_seat(one.seat))
-    if not one.drives:
+    if view.is_mapping_open:
+        return tr("{seat}, being set up").format(seat=_format_seat(device.seat))
+    if not device.is_driving:
         return (
             tr("trainee, watching")
-            if one.seat is OperatorRole.TRAINEE
+            if device.seat is OperatorRole.TRAINEE
             else tr("trainer, may take over")
         )
-    waiting = [axis.control for axis in one.axes if axis.drives and axis.reason is not None]
+    waiting_axes = [axis.control for axis in device.axes if axis.drives and axis.reason is not None]
     return (
-        tr("{seat}, waiting for {waiting}").format(seat=_seat(one.seat), waiting=", ".join(waiting))
-        if waiting
-        else tr("{seat}, in control").format(seat=_seat(one.seat))
+        tr("{seat}, waiting for {waiting}").format(
+            seat=_format_seat(device.seat), waiting=", ".join(waiting_axes)
+        )
+        if waiting_axes
+        else tr("{seat}, in control").format(seat=_format_seat(device.seat))
     )

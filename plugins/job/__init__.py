@@ -1,8 +1,9 @@
-"""The running job and its progress.
+"""The Job panel: the running jobs, their progress, and the buttons that pause and stop them.
 
-The panel also has the buttons that pause and stop it.
+Jobs are playbacks, penetrations and other runs that last. Their buttons are the ones of the panels
+for trajectory and penetration.
 """
 
-from rotemina.app.shell.language import texts_of
+from rotemina.app.language import make_text_functions
 
-tr, _ = texts_of("job")
+tr, _ = make_text_functions("job")

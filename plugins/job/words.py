@@ -1,71 +1,79 @@
-"""Text about running jobs. Free of Qt."""
+"""Texts about running jobs. Does not use Qt."""
 
 from pathlib import Path
 from typing import NamedTuple
 
-from rotemina.app.display_units import duration_text, size_text
-from rotemina.app.motion.ownership import PLAYBACK
-from rotemina.app.motion.penetration.status import PenetrationStatus, Phase
+from rotemina.app.language import format_duration, format_file_size, translate_message
+from rotemina.app.motion.device import PLAYBACK
+from rotemina.app.motion.penetration import PenetrationPhase, PenetrationStatus
 from rotemina.app.motion.playback import PlaybackPhase, PlaybackState
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.state_words import describe_moved, describe_movers
-from rotemina.drivers.samples import DeviceState
+from rotemina.app.workbench import describe_moved, describe_movers
+from rotemina.drivers.contract import DeviceState
 from rotemina.plugins.job import tr
-from rotemina.plugins.penetration.words import headline
-from rotemina.sim.robot.model import Robot
+from rotemina.plugins.penetration import format_headline
+from rotemina.sim.robot import Robot
 
 
-class Running(NamedTuple):
-    """The state of a job.
+class JobState(NamedTuple):
+    """State of a job as shown on its card.
 
     Attributes
     ----------
-    name, doing : str
+    name, activity : str
     time : str
-        That is left, or has passed; it may be empty.
+        The remaining or the elapsed time; may be empty.
     share : float or None
-        That is done, 0 to 1; None: nobody knows.
+        The completed fraction, 0 to 1, or None if it is unknown.
     """
 
     name: str
-    doing: str = ""
+    activity: str = ""
     time: str = ""
     share: float | None = None
 
 
-def playback(state: PlaybackState, name: str, robot: Robot) -> Running:
-    """Return the state of a playback, or that ``name`` is ready to be played."""
+def describe_playback_job(state: PlaybackState, name: str, robot: Robot) -> JobState:
+    """Return the state of the playback; ``name`` is the loaded trajectory, or "" for none."""
     if not name:
-        return Running(tr("No trajectory is loaded"))
+        return JobState(tr("No trajectory is loaded"))
     if state.phase is PlaybackPhase.IDLE:
-        return Running(name, tr("loaded"))
-    row = tr("row {row} of {rows}").format(row=max(state.row, 0) + 1, rows=state.rows)
+        return JobState(name, tr("loaded"))
+    activity = tr("row {row} of {rows}").format(row=max(state.row, 0) + 1, rows=state.rows)
     if state.phase is PlaybackPhase.PAUSED:
-        row = describe_moved(robot, state) or tr("paused, {row}").format(row=row)
-    left_s = (state.duration_s - state.path_s) / state.speed
-    left = tr("{time} left").format(time=duration_text(left_s))
-    share = state.path_s / state.duration_s if state.duration_s else 0.0
-    return Running(name, row, left, share)
+        activity = describe_moved(robot, state) or tr("paused, {row}").format(row=activity)
+    remaining_s = (state.duration_s - state.path_s) / state.speed
+    time_left = tr("{time} left").format(time=format_duration(remaining_s))
+    fraction = state.path_s / state.duration_s if state.duration_s else 0.0
+    return JobState(name, activity, time_left, fraction)
 
 
-def penetration(status: PenetrationStatus) -> Running | None:
-    """Return the state of a penetration; None while nothing is armed."""
-    if status.phase is Phase.DISARMED:
+def describe_penetration_job(status: PenetrationStatus) -> JobState | None:
+    """Return the state of a penetration, or None while none is armed."""
+    if status.phase is PenetrationPhase.DISARMED:
         return None
-    return Running(headline(status), spoken(status.reason) if status.reason else "")
+    return JobState(
+        format_headline(status), translate_message(status.reason) if status.reason else ""
+    )
 
 
-def recording(path: Path, since_s: float, size: int, failure: str | None) -> Running:
-    """Return the state of a recording: name, duration and size, or why there is none."""
-    doing = tr("not recording: {why}").format(why=failure) if failure else ""
-    return Running(path.name, doing or size_text(size), duration_text(since_s))
+def describe_recording_job(
+    path: Path, elapsed_s: float, byte_count: int, failure: str | None
+) -> JobState:
+    """Return the state of a recording: name, duration, and size or the reason for a failure."""
+    failure_text = tr("not recording: {why}").format(why=failure) if failure else ""
+    return JobState(
+        path.name, failure_text or format_file_size(byte_count), format_duration(elapsed_s)
+    )
 
 
-def motion(state: SessionState) -> Running | None:
-    """Return who moves what; None where nothing moves, or what does has a card of its own."""
+def describe_motion_job(state: SessionState) -> JobState | None:
+    """Return who moves which axes.
+
+    Return None if nothing moves, or if a trajectory is playing, which has a separate card.
+    """
     if state.activity in (DeviceState.IDLE, DeviceState.CLOSED, DeviceState.PLAYING):
         return None
     if PLAYBACK in state.owners.values():
         return None
-    return Running(describe_movers(state) or tr("The axes are moving"))
+    return JobState(describe_movers(state) or tr("The axes are moving"))

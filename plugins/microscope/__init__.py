@@ -1,5 +1,9 @@
-"""The microscope picture, and motion by it."""
+"""Panel with the microscope picture, and moves of the tip by a click in the picture.
 
-from rotemina.app.shell.language import texts_of
+``picture_view`` shows the picture, the modules ``…_section`` are the tools next to it, and
+``geometry`` maps pixels to the screen. The services behind it are in ``app/microscope``.
+"""
 
-tr, mark = texts_of("microscope")
+from rotemina.app.language import make_text_functions
+
+tr, mark = make_text_functions("microscope")

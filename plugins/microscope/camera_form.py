@@ -1,77 +1,90 @@
-"""Conversion of typed camera settings."""
+"""Conversion between camera settings and the texts of the form."""
 
 from dataclasses import dataclass
 
-from rotemina.drivers.cameras.errors import CameraSettingError
-from rotemina.drivers.cameras.frame import Region
-from rotemina.drivers.cameras.settings import CameraDescription, CameraSettings, PixelType, Trigger
+from rotemina.drivers.cameras import (
+    CameraDescription,
+    CameraSettings,
+    CameraTrigger,
+    PixelType,
+    SensorRegion,
+)
+from rotemina.drivers.contract import CameraSettingError
 from rotemina.plugins.microscope import mark, tr
-from rotemina.sim.quantities import parsed, rounded
+from rotemina.sim.messages import format_rounded, parse_number
 
-WHOLE = mark("whole")
+WHOLE_SENSOR = mark("whole")
 
 
 @dataclass(frozen=True, slots=True)
 class CameraTexts:
-    """As typed and chosen: exposure in ms; empty leaves the camera as it is."""
+    """Camera settings as typed and chosen.
+
+    The exposure is in ms. An empty text leaves the setting of the camera unchanged.
+    """
 
     exposure: str = ""
     gain: str = ""
     rate: str = ""
-    region: str = WHOLE
+    region: str = WHOLE_SENSOR
     pixel_type: str = ""
-    trigger: str = Trigger.FREE.value
+    trigger: str = CameraTrigger.FREE.value
     repeat: bool = True
 
 
-def texts_of(settings: CameraSettings) -> CameraTexts:
-    """Return settings as they are typed."""
+def to_camera_texts(settings: CameraSettings) -> CameraTexts:
+    """Return camera settings as texts for the form."""
     exposure_s = settings.exposure_s
     return CameraTexts(
-        exposure=_text(None if exposure_s is None else 1e3 * exposure_s),
-        gain=_text(settings.gain),
-        rate=_text(settings.rate_hz),
-        region=region_text(settings.region),
+        exposure=_format_number(None if exposure_s is None else 1e3 * exposure_s),
+        gain=_format_number(settings.gain),
+        rate=_format_number(settings.rate_hz),
+        region=format_region(settings.region),
         pixel_type=settings.pixel_type.value if settings.pixel_type is not None else "",
         trigger=settings.trigger.value,
         repeat=settings.repeat,
     )
 
 
-def settings_of(texts: CameraTexts) -> CameraSettings:
-    """Return what was typed as settings; whether the camera can do that is its own to say.
+def to_camera_settings(texts: CameraTexts) -> CameraSettings:
+    """Return the camera settings that the texts of the form describe.
+
+    The camera itself checks later whether it supports the values.
 
     Raises
     ------
     CameraSettingError
-        If something is no number, or no region.
+        If a text is not a number, or the region is not valid.
     """
-    exposure_ms = _number(tr("exposure"), texts.exposure, "ms")
+    exposure_ms = _parse_number(tr("exposure"), texts.exposure, "ms")
     return CameraSettings(
         exposure_s=None if exposure_ms is None else 1e-3 * exposure_ms,
-        gain=_number(tr("gain"), texts.gain, ""),
-        rate_hz=_number(tr("rate"), texts.rate, "Hz"),
-        region=_region(texts.region),
+        gain=_parse_number(tr("gain"), texts.gain, ""),
+        rate_hz=_parse_number(tr("rate"), texts.rate, "Hz"),
+        region=_parse_region(texts.region),
         pixel_type=PixelType(texts.pixel_type) if texts.pixel_type else None,
-        trigger=Trigger(texts.trigger),
+        trigger=CameraTrigger(texts.trigger),
         repeat=texts.repeat,
     )
 
 
-def region_text(region: Region | None) -> str:
-    """Return a region as it is typed."""
+def format_region(region: SensorRegion | None) -> str:
+    """Return the text of a region: first column, first row, width and height, px."""
     if region is None:
-        return tr(WHOLE)
+        return tr(WHOLE_SENSOR)
     return f"{region.left} {region.top} {region.width} {region.height}"
 
 
-def pixel_types(can: CameraDescription) -> tuple[PixelType, ...]:
-    """Return what can be chosen; 8 bits are made of everything."""
-    return tuple(dict.fromkeys((*can.pixel_types, PixelType.MONO8)))
+def list_pixel_types(description: CameraDescription) -> tuple[PixelType, ...]:
+    """Return the pixel types to choose from.
+
+    8 bits are always among them because the program converts every other type to them.
+    """
+    return tuple(dict.fromkeys((*description.pixel_types, PixelType.MONO8)))
 
 
-def bounds_text(bounds: tuple[float, float] | None, scale: float, unit: str) -> str:
-    """Return what may be typed, in words."""
+def format_bounds(bounds: tuple[float, float] | None, scale: float, unit: str) -> str:
+    """Return the permitted range of a setting as text."""
     if bounds is None:
         return tr("this camera has no such setting")
     return (
@@ -81,14 +94,14 @@ def bounds_text(bounds: tuple[float, float] | None, scale: float, unit: str) -> 
     )
 
 
-def _text(value: float | None) -> str:
-    return "" if value is None else rounded(value, 6)
+def _format_number(value: float | None) -> str:
+    return "" if value is None else format_rounded(value, 6)
 
 
-def _number(name: str, text: str, unit: str) -> float | None:
+def _parse_number(name: str, text: str, unit: str) -> float | None:
     if not text.strip():
         return None
-    number = parsed(text)
+    number = parse_number(text)
     if number is None:
         raise CameraSettingError(
             tr("{name}: {text!r} is not a number; enter one in {unit}").format(
@@ -98,16 +111,16 @@ def _number(name: str, text: str, unit: str) -> float | None:
     return number
 
 
-def _region(text: str) -> Region | None:
-    plain = text.strip().lower()
-    if plain in ("", WHOLE, tr(WHOLE)):
+def _parse_region(text: str) -> SensorRegion | None:
+    cleaned = text.strip().lower()
+    if cleaned in ("", WHOLE_SENSOR, tr(WHOLE_SENSOR)):
         return None
-    parts = plain.replace(",", " ").replace("×", " ").split()
+    parts = cleaned.replace(",", " ").replace("×", " ").split()
     if len(parts) != 4 or not all(part.isdecimal() and len(part) < 7 for part in parts):
         raise CameraSettingError(
             tr(
                 "region: {text!r} is not valid; enter {whole}, or four integers: first "
                 "column, first row, width and height, px"
-            ).format(text=text.strip(), whole=tr(WHOLE))
+            ).format(text=text.strip(), whole=tr(WHOLE_SENSOR))
         )
-    return Region(*map(int, parts))
+    return SensorRegion(*map(int, parts))

@@ -1,4 +1,7 @@
-"""Contrast: conversion of camera values to screen colours by one table. Free of Qt."""
+"""Contrast: conversion of camera values to screen colours by one lookup table.
+
+This module does not use Qt.
+"""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -8,21 +11,25 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from rotemina.drivers.cameras.frame import Frame, Pixels
+from rotemina.drivers.cameras import CameraFrame, Pixels
 
-Colours = NDArray[np.uint32]  # 0xffrrggbb
+#: Colours of the screen, 0xffrrggbb.
+Colours = NDArray[np.uint32]
 
-AUTO_PERCENT = (0.1, 99.9)
-GAMMA = (0.2, 5.0)
-BINS = 256
-_STRIDE = 4  # rows and columns between the pixels that levels and histogram are made of
-_LEAST_SPAN = 1.0 / 255.0  # of the levels, share of the largest number
-_DECIMALS = 3  # of levels: noise is not to make another table for every picture
-_RED, _OPAQUE = 0xFFFF2020, 0xFF000000
+AUTO_PERCENTILES = (0.1, 99.9)
+GAMMA_RANGE = (0.2, 5.0)
+BIN_COUNT = 256
+# Levels and histogram use only every fourth row and column, which is accurate enough and faster.
+_SAMPLE_STRIDE_PX = 4
+# Smallest difference between white and black level, relative to the largest pixel value.
+_MIN_LEVEL_SPAN = 1.0 / 255.0
+# Rounding the levels allows the lookup table to be reused although pictures are noisy.
+_LEVEL_DECIMALS = 3
+_SATURATED_COLOUR, _OPAQUE_ALPHA = 0xFFFF2020, 0xFF000000
 
 
-class Table(StrEnum):
-    """How a level is coloured."""
+class ColourTable(StrEnum):
+    """Colour scheme of the lookup table."""
 
     GREY = "grey"
     INVERTED = "grey, inverted"
@@ -31,37 +38,41 @@ class Table(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Contrast:
-    """What the operator chose; levels are shares of the largest number, 0 to 1."""
+class ContrastSettings:
+    """Contrast as chosen by the operator.
+
+    The levels ``low`` and ``high`` are relative to the largest pixel value, 0 to 1. They are used
+    only if ``auto`` is off.
+    """
 
     auto: bool = True
     low: float = 0.0
     high: float = 1.0
     gamma: float = 1.0
-    table: Table = Table.GREY
+    table: ColourTable = ColourTable.GREY
 
 
-def levels(frame: Frame, contrast: Contrast) -> tuple[float, float]:
-    """Return the levels that become black and white: those chosen, or percentiles."""
+def compute_levels(frame: CameraFrame, contrast: ContrastSettings) -> tuple[float, float]:
+    """Return the levels of black and white: the chosen ones, or percentiles of the picture."""
     if contrast.auto:
-        some = _sampled(frame.pixels)
-        low, high = np.percentile(some, AUTO_PERCENT) / frame.largest
+        samples = _subsample(frame.pixels)
+        low, high = np.percentile(samples, AUTO_PERCENTILES) / frame.saturation_value
     else:
         low, high = contrast.low, contrast.high
-    low = round(min(max(float(low), 0.0), 1.0 - _LEAST_SPAN), _DECIMALS)
-    return low, max(round(float(high), _DECIMALS), low + _LEAST_SPAN)
+    low = round(min(max(float(low), 0.0), 1.0 - _MIN_LEVEL_SPAN), _LEVEL_DECIMALS)
+    return low, max(round(float(high), _LEVEL_DECIMALS), low + _MIN_LEVEL_SPAN)
 
 
-def histogram(frame: Frame) -> NDArray[np.int64]:
-    """Return how many of the sampled pixels are in each of 256 bins from 0 to the largest."""
-    some = _sampled(frame.pixels).ravel()
-    bins = np.minimum(some >> (frame.bits - 8), BINS - 1) if frame.bits > 8 else some
-    return np.bincount(bins, minlength=BINS)
+def compute_histogram(frame: CameraFrame) -> NDArray[np.int64]:
+    """Return the number of sampled pixels in each of 256 bins, from 0 to the largest value."""
+    samples = _subsample(frame.pixels).ravel()
+    bins = np.minimum(samples >> (frame.bits - 8), BIN_COUNT - 1) if frame.bits > 8 else samples
+    return np.bincount(bins, minlength=BIN_COUNT)
 
 
-def shown(
-    frame: Frame,
-    contrast: Contrast,
+def render_frame(
+    frame: CameraFrame,
+    contrast: ContrastSettings,
     span: tuple[float, float],
     *,
     columns: tuple[int, int] | None = None,
@@ -72,97 +83,106 @@ def shown(
 
     Parameters
     ----------
-    frame : Frame
-    contrast : Contrast
+    frame : CameraFrame
+    contrast : ContrastSettings
     span : (low, high)
-        Of :func:`levels`.
-    columns, rows : (first, behind the last), optional
-        All by default.
+        The levels of black and white, from :func:`compute_levels`.
+    columns, rows : (first, last + 1), optional
+        The part of the picture; by default all of it.
     size : (width, height), optional
-        To which the part is scaled, px. Enlarged, pixels stay squares; where saturated ones are
-        marked, none gets lost by shrinking.
+        The size to which the part is scaled, px. Enlarged pixels stay squares. If saturated pixels
+        are marked, shrinking loses none of them.
     """
     part = frame.pixels[slice(*(rows or (None,))), slice(*(columns or (None,)))]
     size = size or (part.shape[1], part.shape[0])
-    scaled = _scaled(part, size)
-    table = _table(frame.bits, span, contrast.gamma, contrast.table)
-    if frame.colour:
-        colours = _coloured(scaled, table)
+    scaled = _scale_part(part, size)
+    table = _make_table(frame.bits, span, contrast.gamma, contrast.table)
+    if frame.is_colour:
+        colours = _map_colour_planes(scaled, table)
     else:
         colours = np.take(table, scaled, mode="clip")
-    if contrast.table is Table.SATURATED:
-        _mark_saturated(part, frame.largest, colours)
+    if contrast.table is ColourTable.SATURATED:
+        _mark_saturated(part, frame.saturation_value, colours)
     return colours
 
 
-def as_rgb(colours: Colours) -> NDArray[np.uint8]:
-    """Return colours (h, w) as (h, w, 3): red, green, blue."""
+def to_rgb(colours: Colours) -> NDArray[np.uint8]:
+    """Return colours (height, width) as (height, width, 3): red, green, blue."""
     planes = np.ascontiguousarray(colours).view(np.uint8).reshape(*colours.shape, 4)
     return np.ascontiguousarray(planes[..., 2::-1])
 
 
-def _sampled(pixels: Pixels) -> Pixels:
-    some = pixels[::_STRIDE, ::_STRIDE]
-    return some if some.size else pixels
+def _subsample(pixels: Pixels) -> Pixels:
+    samples = pixels[::_SAMPLE_STRIDE_PX, ::_SAMPLE_STRIDE_PX]
+    return samples if samples.size else pixels
 
 
-def _scaled(part: Pixels, size: tuple[int, int]) -> Pixels:
+def _scale_part(part: Pixels, size: tuple[int, int]) -> Pixels:
     if size == (part.shape[1], part.shape[0]):
         return part
+    # Enlarged pixels stay squares. Shrinking averages, which keeps fine structures visible.
     ratio = size[0] / part.shape[1]
-    way = cv2.INTER_NEAREST
+    interpolation = cv2.INTER_NEAREST
     if ratio < 0.5:
-        way = cv2.INTER_AREA
+        interpolation = cv2.INTER_AREA
     elif ratio < 1.0:
-        way = cv2.INTER_LINEAR
-    return np.asarray(cv2.resize(np.ascontiguousarray(part), size, interpolation=way))
+        interpolation = cv2.INTER_LINEAR
+    return np.asarray(cv2.resize(np.ascontiguousarray(part), size, interpolation=interpolation))
 
 
 @lru_cache(maxsize=8)
-def _table(bits: int, span: tuple[float, float], gamma: float, table: Table) -> Colours:
-    """Return the colour of every number: 256 of 8 bits, or all 65536 of 16."""
+def _make_table(bits: int, span: tuple[float, float], gamma: float, table: ColourTable) -> Colours:
+    """Return the colour of every pixel value: 256 for 8 bits, or 65536 for 16 bits."""
     count = 1 << (8 if bits <= 8 else 16)
-    share = np.arange(count) / ((1 << bits) - 1)
-    level = np.clip((share - span[0]) / (span[1] - span[0]), 0.0, 1.0) ** gamma
+    relative_value = np.arange(count) / ((1 << bits) - 1)
+    level = np.clip((relative_value - span[0]) / (span[1] - span[0]), 0.0, 1.0) ** gamma
     grey = np.rint(255.0 * level).astype(np.uint8)
-    if table is Table.INVERTED:
+    if table is ColourTable.INVERTED:
         grey = np.asarray(255 - grey, dtype=np.uint8)
-    if table is Table.PERCEPTUAL:
-        blue, green, red = _viridis()[grey].T.astype(np.uint32)
+    if table is ColourTable.PERCEPTUAL:
+        blue, green, red = _make_viridis()[grey].T.astype(np.uint32)
     else:
         red = green = blue = grey.astype(np.uint32)
-    colours = np.asarray(_OPAQUE | red << 16 | green << 8 | blue, dtype=np.uint32)
+    colours = np.asarray(_OPAQUE_ALPHA | red << 16 | green << 8 | blue, dtype=np.uint32)
     colours.flags.writeable = False
     return colours
 
 
 @lru_cache(maxsize=1)
-def _viridis() -> NDArray[np.uint8]:
-    """Return blue, green, red (256, 3) of a map whose steps look even, and grey too."""
+def _make_viridis() -> NDArray[np.uint8]:
+    """Return the viridis colour map as blue, green, red (256, 3). It is uniform also in grey."""
     ramp = np.arange(256, dtype=np.uint8)[:, None]
     return np.asarray(cv2.applyColorMap(ramp, cv2.COLORMAP_VIRIDIS)).reshape(256, 3)
 
 
-def _coloured(part: Pixels, table: Colours) -> Colours:
-    """Give red, green and blue their levels each; a colour keeps being one in every table."""
+def _map_colour_planes(part: Pixels, table: Colours) -> Colours:
+    """Apply the levels to red, green and blue separately.
+
+    Only the brightness of the table is used, so that colour pictures keep their colours.
+    """
     level = (table & 0xFF).astype(np.uint8)
-    out = np.full((*part.shape[:2], 4), 255, dtype=np.uint8)
-    out[..., 2::-1] = level[part]
-    return out.view(np.uint32)[..., 0]
+    colours = np.full((*part.shape[:2], 4), 255, dtype=np.uint8)
+    colours[..., 2::-1] = level[part]
+    return colours.view(np.uint32)[..., 0]
 
 
-def _mark_saturated(part: Pixels, largest: int, colours: Colours) -> None:
-    full = part >= largest
-    if full.ndim == 3:
-        full = full.any(axis=2)
-    if not full.any():
+def _mark_saturated(part: Pixels, saturation_value: int, colours: Colours) -> None:
+    saturated = part >= saturation_value
+    if saturated.ndim == 3:
+        saturated = saturated.any(axis=2)
+    if not saturated.any():
         return
     height, width = colours.shape
-    if (height, width) == full.shape:
-        colours[full] = _RED
-    elif width > full.shape[1]:
-        grown = cv2.resize(full.astype(np.uint8), (width, height), interpolation=cv2.INTER_NEAREST)
-        colours[grown > 0] = _RED
+    if (height, width) == saturated.shape:
+        colours[saturated] = _SATURATED_COLOUR
+    elif width > saturated.shape[1]:
+        enlarged = cv2.resize(
+            saturated.astype(np.uint8), (width, height), interpolation=cv2.INTER_NEAREST
+        )
+        colours[enlarged > 0] = _SATURATED_COLOUR
     else:
-        row, column = np.nonzero(full)
-        colours[row * height // full.shape[0], column * width // full.shape[1]] = _RED
+        picture_rows, picture_columns = np.nonzero(saturated)
+        colours[
+            picture_rows * height // saturated.shape[0],
+            picture_columns * width // saturated.shape[1],
+        ] = _SATURATED_COLOUR

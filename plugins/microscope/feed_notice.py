@@ -1,16 +1,20 @@
-"""The state of the camera as text over the picture."""
+"""Text over the picture about the state of the camera, and objections to moves."""
 
 from dataclasses import dataclass
 
-from rotemina.app.cameras.feed import FeedState, FeedView
-from rotemina.app.microscope.status import Activity, MicroscopeStatus, TipState
+from rotemina.app.cameras import FeedState, FeedView
+from rotemina.app.language import translate_message
+from rotemina.app.microscope import (
+    MicroscopeActivity,
+    MicroscopeStatus,
+    TipState,
+)
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.engine_words import spoken
-from rotemina.drivers.samples import DeviceState
+from rotemina.drivers.contract import DeviceState
 from rotemina.plugins.microscope import mark, tr
-from rotemina.sim.quantities import fixed
+from rotemina.sim.messages import format_fixed
 
-TONES = {
+STATE_TONES = {
     FeedState.CLOSED: "quiet",
     FeedState.OPENING: "busy",
     FeedState.LIVE: "good",
@@ -20,7 +24,7 @@ TONES = {
     FeedState.BLACK: "warning",
     FeedState.LOST: "danger",
 }
-TITLES = {
+STATE_TITLES = {
     FeedState.CLOSED: mark("No camera"),
     FeedState.OPENING: mark("Opening …"),
     FeedState.WAITING: mark("Waiting for a trigger"),
@@ -33,18 +37,18 @@ TITLES = {
 
 @dataclass(frozen=True, slots=True)
 class FeedNotice:
-    """What is said of the picture.
+    """Text over the picture.
 
     Attributes
     ----------
     tone : str
-        Of the theme: good, busy, quiet, warning, danger.
+        Colour role of the theme: good, busy, quiet, warning or danger.
     badge : str
-        In a corner: state, rate, age.
+        Text in the corner: state, rate and age.
     title, reason : str
-        Over the picture; empty where nothing stands in the way.
+        Text in the middle of the picture; empty if the picture is usable.
     veiled : bool
-        The picture shows the past: it is greyed and hatched, and nothing is moved by it.
+        Whether the picture is outdated. It is then greyed and hatched, and no move may use it.
     """
 
     tone: str
@@ -54,31 +58,34 @@ class FeedNotice:
     veiled: bool = False
 
 
-def feed_notice(view: FeedView) -> FeedNotice:
-    """Return the text for the present state of a camera."""
-    state, tone = view.state, TONES[view.state]
+def make_feed_notice(view: FeedView) -> FeedNotice:
+    """Return the notice for the current state of a camera."""
+    state, tone = view.state, STATE_TONES[view.state]
     if state is FeedState.LIVE and view.frame is None:
         return FeedNotice("busy", tr("opened"), tr("Waiting for the first picture"))
     if state is FeedState.LIVE:
-        # One picture has no rate yet.
-        parts = [tr("live"), *([f"{fixed(view.rate_hz, 0)} Hz"] if view.rate_hz > 0.0 else [])]
+        # The rate is known only after two pictures.
+        parts = [
+            tr("live"),
+            *([f"{format_fixed(view.rate_hz, 0)} Hz"] if view.rate_hz > 0.0 else []),
+        ]
         lost = [tr("{lost} lost").format(lost=view.frame.lost)] if view.frame.lost else []
-        return FeedNotice(tone, " · ".join((*parts, age(view.age_s), *lost)))
-    badge = spoken(state)
+        return FeedNotice(tone, " · ".join((*parts, format_age(view.age_s), *lost)))
+    badge = translate_message(state)
     if view.frame is not None:
-        badge = f"{badge} · {age(view.age_s)}"
+        badge = f"{badge} · {format_age(view.age_s)}"
     if state is FeedState.WAITING:
-        title = "" if view.frame is not None else tr(TITLES[state])
+        title = "" if view.frame is not None else tr(STATE_TITLES[state])
         return FeedNotice(tone, badge, title)
-    reason = spoken(view.reason)
+    reason = translate_message(view.reason)
     if state is FeedState.CLOSED:
         reason = tr("Choose a camera under Tools, Camera, and open it.")
-    title = tr(TITLES[state])
+    title = tr(STATE_TITLES[state])
     return FeedNotice(tone, badge, title, reason, veiled=state is not FeedState.OPENING)
 
 
-def age(age_s: float | None) -> str:
-    """Return an age as text, which does not flicker below a tenth of a second."""
+def format_age(age_s: float | None) -> str:
+    """Return an age as text: in ms below one second, else in s."""
     if age_s is None:
         return "–"
     return (
@@ -88,31 +95,37 @@ def age(age_s: float | None) -> str:
     )
 
 
-def against_aiming(status: MicroscopeStatus) -> str | None:
-    """Return why a place in the picture is no place to go to; None if it is."""
+def find_aiming_objection(status: MicroscopeStatus) -> str | None:
+    """Return why a point of the picture cannot be a target, or None if it can."""
     if status.feed.state is not FeedState.LIVE or status.feed.frame is None:
-        return tr("the picture is not live: {state}").format(state=spoken(status.feed.state))
+        return tr("the picture is not live: {state}").format(
+            state=translate_message(status.feed.state)
+        )
     if status.calibration is None:
         return status.calibration_problem or tr("this camera and objective are not calibrated")
     return None
 
 
-def against_clicking(status: MicroscopeStatus, state: SessionState) -> str | None:
-    """Return why no click may move anything now; None if it may."""
-    why = against_aiming(status) or against_moving(status, state)
-    if why is None and status.tip.state is not TipState.TRACKED:
-        why = tr("the tip is not tracked; click it with Tip, or turn on tracking under Vision")
-    return why
+def find_click_objection(status: MicroscopeStatus, state: SessionState) -> str | None:
+    """Return why a click cannot move the tip now, or None if it can."""
+    objection = find_aiming_objection(status) or find_motion_objection(status, state)
+    if objection is None and status.tip.state is not TipState.TRACKED:
+        objection = tr(
+            "the tip is not tracked; click it with Tip, or turn on tracking under Vision"
+        )
+    return objection
 
 
-def against_moving(status: MicroscopeStatus, state: SessionState) -> str | None:
-    """Return why nothing may be moved by the picture now; None if it may."""
+def find_motion_objection(status: MicroscopeStatus, state: SessionState) -> str | None:
+    """Return why a move cannot rely on the picture now, or None if it can."""
     if status.feed.state is not FeedState.LIVE or status.feed.frame is None:
-        return tr("the picture is not live: {state}").format(state=spoken(status.feed.state))
-    if status.activity is not Activity.NONE:
-        return tr("{activity} is running").format(activity=spoken(status.activity))
-    if state.locked is not None:
-        return tr("motion is locked: {locked}").format(locked=spoken(state.locked))
+        return tr("the picture is not live: {state}").format(
+            state=translate_message(status.feed.state)
+        )
+    if status.activity is not MicroscopeActivity.NONE:
+        return tr("{activity} is running").format(activity=translate_message(status.activity))
+    if state.lock_reason is not None:
+        return tr("motion is locked: {locked}").format(locked=translate_message(state.lock_reason))
     if state.activity is not DeviceState.IDLE:
         return tr("the machine is not at rest")
     return None

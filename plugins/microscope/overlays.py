@@ -1,25 +1,31 @@
-"""Overlays of the picture, in its pixels."""
+"""Overlays of the picture: lines, crosses and rings, in pixels of the picture."""
 
 from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
 
-from rotemina.app.microscope.click_corrections import Visit
-from rotemina.app.microscope.status import Activity, MicroscopeStatus, TipState
-from rotemina.app.shell.engine_words import spoken
+from rotemina.app.language import translate_message
+from rotemina.app.microscope import (
+    MicroscopeActivity,
+    MicroscopeStatus,
+    TipState,
+    VisitState,
+)
 from rotemina.plugins.microscope import tr
-from rotemina.plugins.microscope.cursor_readout import measured_text
+from rotemina.plugins.microscope.cursor_readout import format_measurement
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.quantities import exact, fixed
+from rotemina.sim.messages import format_fixed
+from rotemina.sim.units import format_exact
 
-_AROUND = np.linspace(0.0, 2.0 * np.pi, 49)
-_BODY_PX = 60.0  # how far the pipette's direction is drawn
-_SURE = 2.0  # standard deviations that a ring shows
+_ELLIPSE_ANGLES = np.linspace(0.0, 2.0 * np.pi, 49)
+_BODY_LENGTH_PX = 60.0
+# The radius of a ring is this many standard deviations.
+_RING_SIGMAS = 2.0
 
 
-class Layer(StrEnum):
-    """What can be shown or hidden."""
+class OverlayLayer(StrEnum):
+    """Group of overlays that can be shown or hidden."""
 
     CROSSHAIR = "crosshair"
     TIP = "tip"
@@ -30,8 +36,8 @@ class Layer(StrEnum):
     MEASURE = "measure"
 
 
-class Look(StrEnum):
-    """Whose colour and line something has."""
+class OverlayStyle(StrEnum):
+    """Style of an overlay, which determines its colour."""
 
     TIP = "tip"
     LOST = "lost"
@@ -47,10 +53,10 @@ class Look(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Stroke:
-    """A line through points (n, 2), px; ``label`` stands at its last."""
+class OverlayLine:
+    """Line through points (n, 2), px. The label is written at the last point."""
 
-    look: Look
+    style: OverlayStyle
     points: FloatArray
     closed: bool = False
     dashed: bool = False
@@ -58,117 +64,139 @@ class Stroke:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Cross:
-    """A mark at a point (2,), px, as large as the screen has it."""
+class OverlayCross:
+    """Cross at a point (2,), px. Its size on the screen does not depend on the zoom."""
 
-    look: Look
+    style: OverlayStyle
     at: FloatArray
     label: str = ""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Ring:
-    """A circle about a point, its radius in px of the picture."""
+class OverlayRing:
+    """Circle around a point (2,). Centre and radius are in px of the picture."""
 
-    look: Look
+    style: OverlayStyle
     at: FloatArray
     radius: float
 
 
-Shape = Stroke | Cross | Ring
+OverlayShape = OverlayLine | OverlayCross | OverlayRing
 
 
-def shapes(status: MicroscopeStatus, shown: frozenset[Layer]) -> list[Shape]:
-    """Return everything that is to be drawn, what lies beneath first."""
-    found: list[Shape] = []
-    if Layer.NANO in shown and status.nano_limits is not None:
-        found.append(Stroke(Look.NANO, status.nano_limits, closed=True, label=tr("nano range")))
-    if Layer.CELL in shown:
-        found += _cell(status)
-    if Layer.PATH in shown and status.path is not None and len(status.path) > 1:
-        found.append(Stroke(Look.PATH, status.path))
-    if Layer.TARGETS in shown:
-        found += _targets(status)
-    if Layer.MEASURE in shown and status.measured is not None:
-        line = np.array([status.measured.begin, status.measured.end])
-        found.append(Stroke(Look.MEASURE, line, label=measured_text(status.measured)))
-    if Layer.TIP in shown:
-        found += _tip(status)
-    return found + _ghost(status)
+def make_shapes(
+    status: MicroscopeStatus, visible_layers: frozenset[OverlayLayer]
+) -> list[OverlayShape]:
+    """Return the shapes in the order in which they are drawn."""
+    overlays: list[OverlayShape] = []
+    if OverlayLayer.NANO in visible_layers and status.nano_limits is not None:
+        overlays.append(
+            OverlayLine(OverlayStyle.NANO, status.nano_limits, closed=True, label=tr("nano range"))
+        )
+    if OverlayLayer.CELL in visible_layers:
+        overlays += _make_cell(status)
+    if (
+        OverlayLayer.PATH in visible_layers
+        and status.tip_path is not None
+        and len(status.tip_path) > 1
+    ):
+        overlays.append(OverlayLine(OverlayStyle.PATH, status.tip_path))
+    if OverlayLayer.TARGETS in visible_layers:
+        overlays += _make_targets(status)
+    if OverlayLayer.MEASURE in visible_layers and status.measured_line is not None:
+        line = np.array([status.measured_line.begin, status.measured_line.end])
+        overlays.append(
+            OverlayLine(OverlayStyle.MEASURE, line, label=format_measurement(status.measured_line))
+        )
+    if OverlayLayer.TIP in visible_layers:
+        overlays += _make_tip(status)
+    return overlays + _make_planned_move(status)
 
 
-def ghost_text(status: MicroscopeStatus) -> str:
-    """Return how far the tip would go, with what, and how surely."""
-    plan = status.planned
+def describe_planned_move(status: MicroscopeStatus) -> str:
+    """Return distance, stage and uncertainty of the planned move, or an empty text."""
+    plan = status.planned_move
     if plan is None:
         return ""
     text = tr("{distance} with the {stage} stage").format(
-        distance=exact(plan.distance, "m"), stage=spoken(plan.stage)
+        distance=format_exact(plan.distance, "m"), stage=translate_message(plan.stage)
     )
-    return f"{text}, ± {fixed(plan.uncertainty_px, 1)} px"
+    return f"{text}, ± {format_fixed(plan.uncertainty_px, 1)} px"
 
 
-def _ghost(status: MicroscopeStatus) -> list[Shape]:
-    plan = status.planned
-    if plan is None or status.activity not in (Activity.NONE, Activity.CLICK):
+def _make_planned_move(status: MicroscopeStatus) -> list[OverlayShape]:
+    plan = status.planned_move
+    if plan is None or status.activity not in (MicroscopeActivity.NONE, MicroscopeActivity.CLICK):
         return []
-    found: list[Shape] = [
-        Ring(Look.GHOST, plan.ghost, _SURE * plan.uncertainty_px),
-        Cross(Look.GHOST, plan.ghost, exact(plan.distance, "m")),
+    overlays: list[OverlayShape] = [
+        OverlayRing(OverlayStyle.GHOST, plan.predicted_px, _RING_SIGMAS * plan.uncertainty_px),
+        OverlayCross(OverlayStyle.GHOST, plan.predicted_px, format_exact(plan.distance, "m")),
     ]
     if status.tip.pixel is not None:
-        way = np.array([status.tip.pixel, plan.ghost])
-        found.insert(0, Stroke(Look.GHOST, way, dashed=True))
-    return found
+        path = np.array([status.tip.pixel, plan.predicted_px])
+        overlays.insert(0, OverlayLine(OverlayStyle.GHOST, path, dashed=True))
+    return overlays
 
 
-def _tip(status: MicroscopeStatus) -> list[Shape]:
+def _make_tip(status: MicroscopeStatus) -> list[OverlayShape]:
     tip = status.tip
     if tip.pixel is None or tip.state is TipState.OFF:
         return []
-    look = Look.TIP if tip.state is TipState.TRACKED else Look.LOST
-    found: list[Shape] = []
+    style = OverlayStyle.TIP if tip.state is TipState.TRACKED else OverlayStyle.LOST
+    overlays: list[OverlayShape] = []
     if tip.sigma_px is not None:
-        found.append(Ring(look, tip.pixel, _SURE * tip.sigma_px))
+        overlays.append(OverlayRing(style, tip.pixel, _RING_SIGMAS * tip.sigma_px))
     if tip.direction is not None:
-        way = np.array([np.cos(tip.direction), np.sin(tip.direction)])
-        body = np.array([tip.pixel, tip.pixel + _BODY_PX * way])
-        found.append(Stroke(look, body, dashed=True))
-    return [*found, Cross(look, tip.pixel, tr("tip") if look is Look.TIP else tr("tip lost"))]
+        direction = np.array([np.cos(tip.direction), np.sin(tip.direction)])
+        line = np.array([tip.pixel, tip.pixel + _BODY_LENGTH_PX * direction])
+        overlays.append(OverlayLine(style, line, dashed=True))
+    return [
+        *overlays,
+        OverlayCross(style, tip.pixel, tr("tip") if style is OverlayStyle.TIP else tr("tip lost")),
+    ]
 
 
-def _cell(status: MicroscopeStatus) -> list[Shape]:
+def _make_cell(status: MicroscopeStatus) -> list[OverlayShape]:
     cell = status.cell
     if cell.outline is None:
         return []
-    long, short, angle = cell.outline.figures[2:]
+    long, short, angle = cell.outline.parameters[2:]
     along = np.array([np.cos(angle), np.sin(angle)])
     across = np.array([-along[1], along[0]])
-    ring = np.outer(long * np.cos(_AROUND), along) + np.outer(short * np.sin(_AROUND), across)
-    found: list[Shape] = [Stroke(Look.CELL, cell.outline.centre + ring, closed=True)]
+    ellipse = np.outer(long * np.cos(_ELLIPSE_ANGLES), along) + np.outer(
+        short * np.sin(_ELLIPSE_ANGLES), across
+    )
+    overlays: list[OverlayShape] = [
+        OverlayLine(OverlayStyle.CELL, cell.outline.centre + ellipse, closed=True)
+    ]
     ahead, tip = cell.ahead, status.tip
     if ahead is not None and tip.pixel is not None and tip.direction is not None:
-        # The body leads away from the tip; the tip thrusts the other way.
-        way = -np.array([np.cos(tip.direction), np.sin(tip.direction)])
-        line = np.array([tip.pixel, tip.pixel + ahead.distance * way])
-        found.append(Stroke(Look.AHEAD, line, dashed=True, label=membrane_text(status)))
-    return found
+        # The direction points from the tip along the body. The tip thrusts the other way.
+        direction = -np.array([np.cos(tip.direction), np.sin(tip.direction)])
+        line = np.array([tip.pixel, tip.pixel + ahead.distance * direction])
+        overlays.append(
+            OverlayLine(OverlayStyle.AHEAD, line, dashed=True, label=describe_membrane(status))
+        )
+    return overlays
 
 
-def membrane_text(status: MicroscopeStatus) -> str:
-    """Return how far the membrane is from the tip, and at which angle it is met."""
+def describe_membrane(status: MicroscopeStatus) -> str:
+    """Return the distance from tip to membrane, and the angle of the tip to its normal."""
     cell = status.cell
     if cell.ahead is None:
         return ""
-    text = f"{fixed(cell.ahead.distance, 1)} ± {fixed(cell.ahead.distance_uncertainty, 1)} px"
+    distance, uncertainty = cell.ahead.distance, cell.ahead.distance_uncertainty
+    text = f"{format_fixed(distance, 1)} ± {format_fixed(uncertainty, 1)} px"
     if cell.distance_m is not None and cell.sigma_m is not None:
-        text = f"{fixed(1e6 * cell.distance_m, 2)} ± {fixed(1e6 * cell.sigma_m, 2)} µm"
-    return f"{text}, {fixed(np.degrees(cell.ahead.angle), 0)}°"
+        text = (
+            f"{format_fixed(1e6 * cell.distance_m, 2)} ± {format_fixed(1e6 * cell.sigma_m, 2)} µm"
+        )
+    return f"{text}, {format_fixed(np.degrees(cell.ahead.angle), 0)}°"
 
 
-def _targets(status: MicroscopeStatus) -> list[Shape]:
-    looks = {Visit.ARRIVED: Look.REACHED, Visit.FAILED: Look.MISSED}
+def _make_targets(status: MicroscopeStatus) -> list[OverlayShape]:
+    styles = {VisitState.ARRIVED: OverlayStyle.REACHED, VisitState.FAILED: OverlayStyle.MISSED}
     return [
-        Cross(looks.get(target.visit, Look.TARGET), target.pixel, str(number))
+        OverlayCross(styles.get(target.visit, OverlayStyle.TARGET), target.pixel, str(number))
         for number, target in enumerate(status.targets, start=1)
     ]

@@ -1,4 +1,4 @@
-"""A picture in the colours and the size in which it is on the screen."""
+"""Rendering of pictures in screen colours and screen size, on a separate thread."""
 
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -8,74 +8,88 @@ from typing import NamedTuple
 from PySide6.QtCore import QObject, QPointF, QRectF, Signal
 from PySide6.QtGui import QImage, QPainter
 
-from rotemina.drivers.cameras.frame import Frame
-from rotemina.plugins.microscope.contrast import Colours, Contrast, levels, shown
-from rotemina.plugins.microscope.geometry import Part
+from rotemina.drivers.cameras import CameraFrame
+from rotemina.plugins.microscope.contrast import (
+    Colours,
+    ContrastSettings,
+    compute_levels,
+    render_frame,
+)
+from rotemina.plugins.microscope.geometry import VisiblePart
 
 
-class Wanted(NamedTuple):
-    """What is to be seen: which part, px, of which frame, and in which colours."""
+class PictureRequest(NamedTuple):
+    """Request to render a part of a frame with a contrast."""
 
-    frame: Frame
-    contrast: Contrast
-    part: Part
+    frame: CameraFrame
+    contrast: ContrastSettings
+    part: VisiblePart
 
-    def looks_like(self, other: "Wanted") -> bool:
-        """Return whether another frame alone makes them differ."""
+    def looks_like(self, other: "PictureRequest") -> bool:
+        """Return whether both requests differ at most in their frames."""
         return (self.contrast, self.part) == (other.contrast, other.part)
 
-    def worked_out(self) -> "Picture":
-        """Return it in colours, of (part.height, part.width) screen px; takes milliseconds."""
+    def render(self) -> "RenderedPicture":
+        """Return the picture in colours, (part.height, part.width) screen px.
+
+        This takes some milliseconds.
+        """
         frame, contrast, part = self
-        span = levels(frame, contrast)
+        span = compute_levels(frame, contrast)
         size = part.width, part.height
-        colours = shown(frame, contrast, span, columns=part.columns, rows=part.rows, size=size)
+        colours = render_frame(
+            frame, contrast, span, columns=part.columns, rows=part.rows, size=size
+        )
         height, width = colours.shape
         image = QImage(colours.data, width, height, 4 * width, QImage.Format.Format_RGB32)
-        return Picture(self, span, image, colours)
+        return RenderedPicture(self, span, image, colours)
 
 
-class Picture(NamedTuple):
-    """What is drawn: levels (low, high) that became black and white, and colours of the part."""
+class RenderedPicture(NamedTuple):
+    """Rendered picture, with ``span``, the levels (low, high) of black and white.
 
-    of: Wanted
+    ``colours`` is the memory that ``image`` uses. It must live as long as the image.
+    """
+
+    request: PictureRequest
     span: tuple[float, float]
     image: QImage
-    colours: Colours  # what the image looks at
+    colours: Colours
 
-    def draw(self, painter: QPainter, place: QRectF | None = None) -> None:
-        """Draw it where it belongs, or scaled to a place of another size."""
-        part = self.of.part
-        if place is not None:
-            painter.drawImage(place, self.image)
+    def draw(self, painter: QPainter, target: QRectF | None = None) -> None:
+        """Draw the picture at its position, or scaled to the rectangle ``target``, screen px."""
+        part = self.request.part
+        if target is not None:
+            painter.drawImage(target, self.image)
             return
         painter.drawImage(QPointF(round(part.left), round(part.top)), self.image)
 
 
-class PictureWork(QObject):
-    """Works pictures out on a thread of its own, one at a time: some milliseconds for each frame.
+class PictureRenderer(QObject):
+    """Renderer of one picture at a time, on a separate thread.
 
-    ``done`` gets the picture on the window's thread.
+    Each picture takes some milliseconds. ``on_picture`` then receives it on the window's thread.
     """
 
-    _ended = Signal(object)
+    _finished = Signal(object)
 
-    def __init__(self, parent: QObject, done: Callable[[Picture], None]) -> None:
+    def __init__(self, parent: QObject, on_picture: Callable[[RenderedPicture], None]) -> None:
         super().__init__(parent)
         self.busy = False
-        self._done = done
+        self._on_picture = on_picture
         self._thread = ThreadPoolExecutor(1, thread_name_prefix="picture")
-        self._ended.connect(self._deliver)
+        self._finished.connect(self._deliver)
 
-    def begin(self, wanted: Wanted) -> None:
-        """Begin with a picture; not while it is busy."""
+    def start(self, request: PictureRequest) -> None:
+        """Start to render a picture. Must not be called while ``busy``."""
         self.busy = True
-        self._thread.submit(wanted.worked_out).add_done_callback(self._tell)
+        self._thread.submit(request.render).add_done_callback(self._report_finished)
 
-    def _tell(self, ended: Future[Picture]) -> None:
-        with suppress(RuntimeError):  # the view may be gone by now
-            self._ended.emit(ended)
+    def _report_finished(self, future: Future[RenderedPicture]) -> None:
+        # The view may have been deleted meanwhile.
+        with suppress(RuntimeError):
+            self._finished.emit(future)
 
-    def _deliver(self, ended: Future[Picture]) -> None:
+    def _deliver(self, future: Future[RenderedPicture]) -> None:
         self.busy = False
-        self._done(ended.result())
+        self._on_picture(future.result())

@@ -1,28 +1,38 @@
-"""Display of the picture: levels, gamma, colours, and overlays."""
+"""Display of the picture: levels, gamma, colours and overlays."""
 
 from dataclasses import replace
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QCheckBox, QLabel, QSlider
 
-from rotemina.app.microscope.status import MicroscopeStatus
-from rotemina.app.settings import Settings
-from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.theme import Theme
-from rotemina.app.widgets.controls import button, named, plain_tip
-from rotemina.app.widgets.section import Section
-from rotemina.app.widgets.wheel_safe import SteadyChoice
+from rotemina.app.language import translate_message
+from rotemina.app.microscope import MicroscopeStatus
+from rotemina.app.settings import UserSettings
+from rotemina.app.widgets.controls import (
+    WheelSafeComboBox,
+    make_button,
+    make_tooltip,
+    name_widget,
+)
+from rotemina.app.widgets.layout import Section
+from rotemina.app.widgets.style import Theme
 from rotemina.plugins.microscope import tr
-from rotemina.plugins.microscope.contrast import GAMMA, Contrast, Table, histogram
+from rotemina.plugins.microscope.contrast import (
+    GAMMA_RANGE,
+    ColourTable,
+    ContrastSettings,
+    compute_histogram,
+)
 from rotemina.plugins.microscope.histogram_view import HistogramView
-from rotemina.plugins.microscope.overlays import Layer
+from rotemina.plugins.microscope.overlays import OverlayLayer
 from rotemina.plugins.microscope.picture_view import PictureView
 
-_STEPS = 100.0  # of the slider, from the least gamma to the greatest, by its logarithm
+# Number of steps of the slider. Each step changes gamma by the same factor.
+_GAMMA_STEP_COUNT = 100.0
 
 
 class PictureSection(Section):
-    """Contrast by hand or by itself, and the histogram that it is read from."""
+    """Section with automatic or manual contrast, and the histogram."""
 
     def __init__(self, view: PictureView, theme: Theme) -> None:
         super().__init__(tr("Contrast"))
@@ -30,36 +40,40 @@ class PictureSection(Section):
         self.histogram = HistogramView(theme)
         self.histogram.moved.connect(self._set_levels)
         self.auto = QCheckBox(tr("automatic levels"))
-        self.auto.setToolTip(plain_tip(tr("Black and white at 0.1 and 99.9 % of the pixels")))
+        self.auto.setToolTip(make_tooltip(tr("Black and white at 0.1 and 99.9 % of the pixels")))
         self.auto.setChecked(True)
-        self.auto.toggled.connect(lambda on: self._change(auto=on))
-        self.whole = button(tr("Whole range"), lambda: self._set_levels(0.0, 1.0))
-        self.whole.setToolTip(plain_tip(tr("Black at 0, white at the largest number")))
-        self.gamma = named(QSlider(Qt.Orientation.Horizontal), tr("Gamma"))
-        self.gamma.setRange(0, int(_STEPS))
-        self.gamma.setValue(int(_STEPS / 2))
-        self.gamma.valueChanged.connect(lambda step: self._change(gamma=_gamma(step)))
+        self.auto.toggled.connect(lambda on: self._change_contrast(auto=on))
+        self.full_range_button = make_button(tr("Full range"), lambda: self._set_levels(0.0, 1.0))
+        self.full_range_button.setToolTip(
+            make_tooltip(tr("Black at 0, white at the largest number"))
+        )
+        self.gamma = name_widget(QSlider(Qt.Orientation.Horizontal), tr("Gamma"))
+        self.gamma.setRange(0, int(_GAMMA_STEP_COUNT))
+        self.gamma.setValue(int(_GAMMA_STEP_COUNT / 2))
+        self.gamma.valueChanged.connect(
+            lambda step: self._change_contrast(gamma=_compute_gamma(step))
+        )
         self._gamma_text = QLabel()
-        self.table = SteadyChoice(tr("Colours"), letters=6)
-        for table in Table:
-            self.table.addItem(spoken(table), table)
+        self.table = WheelSafeComboBox(tr("Colours"), letters=6)
+        for table in ColourTable:
+            self.table.addItem(translate_message(table), table)
         self.table.currentIndexChanged.connect(
-            lambda _: self._change(table=self.table.currentData())
+            lambda _: self._change_contrast(table=self.table.currentData())
         )
         self.column.addWidget(self.histogram)
         self.column.addWidget(self.auto)
-        self.column.addWidget(self.whole)
+        self.column.addWidget(self.full_range_button)
         self.add_row(self._gamma_text, self.gamma)
         self.column.addWidget(self.table)
-        self._change()
+        self._change_contrast()
 
     def refresh(self, status: MicroscopeStatus) -> None:
-        """Show the newest picture's histogram."""
+        """Show the histogram of the newest picture."""
         if status.feed.frame is not None:
-            self.histogram.show_counts(histogram(status.feed.frame), self._view.span)
+            self.histogram.show_counts(compute_histogram(status.feed.frame), self._view.span)
 
     def set_theme(self, theme: Theme) -> None:
-        """Change the colours."""
+        """Use the colours of a theme."""
         self.histogram.theme = theme
         self.histogram.update()
 
@@ -67,29 +81,32 @@ class PictureSection(Section):
         self.auto.blockSignals(True)
         self.auto.setChecked(False)
         self.auto.blockSignals(False)
-        self._change(auto=False, low=low, high=high)
+        self._change_contrast(auto=False, low=low, high=high)
 
-    def _change(self, **changes: object) -> None:
-        contrast: Contrast = replace(self._view.contrast, **changes)  # type: ignore[arg-type]
+    def _change_contrast(self, **changes: object) -> None:
+        contrast: ContrastSettings = replace(self._view.contrast, **changes)  # type: ignore[arg-type]
         if changes.get("auto") is False and "low" not in changes:
-            low, high = self._view.span  # by hand from where it is
+            # Manual levels start from the automatic ones.
+            low, high = self._view.span
             contrast = replace(contrast, low=low, high=high)
         self._view.set_contrast(contrast)
         self._gamma_text.setText(tr("gamma {gamma:.2f}").format(gamma=contrast.gamma))
-        tip = tr("{low:g} to {high:g}; 1: linear; smaller values brighten dark regions")
-        self.gamma.setToolTip(plain_tip(tip.format(low=GAMMA[0], high=GAMMA[1])))
+        tooltip = tr("{low:g} to {high:g}; 1: linear; smaller values brighten dark regions")
+        self.gamma.setToolTip(make_tooltip(tooltip.format(low=GAMMA_RANGE[0], high=GAMMA_RANGE[1])))
 
 
 class LayerSection(Section):
-    """What is shown over the picture."""
+    """Section with a check box for each layer over the picture."""
 
-    def __init__(self, view: PictureView, settings: Settings) -> None:
+    def __init__(self, view: PictureView, settings: UserSettings) -> None:
         super().__init__(tr("Over the picture"))
-        self.boxes: dict[Layer, QCheckBox] = {}
-        for layer in Layer:
-            box = QCheckBox(spoken(layer))
+        self.boxes: dict[OverlayLayer, QCheckBox] = {}
+        for layer in OverlayLayer:
+            box = QCheckBox(translate_message(layer))
             box.setToolTip(
-                plain_tip(tr("Show over the picture: {layer}").format(layer=spoken(layer)))
+                make_tooltip(
+                    tr("Show over the picture: {layer}").format(layer=translate_message(layer))
+                )
             )
             key = f"microscope.layer.{layer.name.lower()}"
             box.setChecked(bool(settings.get(key, layer in view.layers)))
@@ -100,6 +117,6 @@ class LayerSection(Section):
             self.column.addWidget(box)
 
 
-def _gamma(step: int) -> float:
-    low, high = GAMMA
-    return float(low * (high / low) ** (step / _STEPS))
+def _compute_gamma(step: int) -> float:
+    low, high = GAMMA_RANGE
+    return float(low * (high / low) ** (step / _GAMMA_STEP_COUNT))

@@ -5,103 +5,115 @@ from datetime import datetime
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QCheckBox
 
-from rotemina.app.cameras.video import VideoStatus
-from rotemina.app.microscope.microscope import Microscope
-from rotemina.app.microscope.status import MicroscopeStatus
+from rotemina.app.cameras import VideoStatus
+from rotemina.app.language import describe_error
+from rotemina.app.microscope import Microscope, MicroscopeStatus
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.engine_words import error_text
-from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.app.widgets.changing_button import ChangingButton
-from rotemina.app.widgets.controls import allow, button, plain_tip
-from rotemina.app.widgets.labels import show_text
-from rotemina.app.widgets.section import Section
+from rotemina.app.widgets.controls import (
+    ChangingButton,
+    enable_unless,
+    make_button,
+    make_tooltip,
+)
+from rotemina.app.widgets.layout import Section
+from rotemina.app.widgets.text import show_or_hide_text
+from rotemina.app.workbench import Level, Workbench
 from rotemina.plugins.microscope import tr
 from rotemina.plugins.microscope.picture_saving import (
-    STAMP,
+    TIME_STAMP_FORMAT,
     VideoCapture,
-    circumstances,
-    progress,
-    summary,
+    describe_video,
+    format_progress,
+    make_circumstances,
     write_pictures,
 )
 from rotemina.plugins.microscope.picture_view import PictureView
 from rotemina.sim.errors import InputError
 
-FOLLOWS = "microscope.video_with_recording"
+FOLLOW_SETTING = "microscope.video_with_recording"
 
 
 class SavingSection(Section):
-    """Snapshot and video; what is slow is done in the background."""
+    """Section to save snapshots and videos. Slow work is done in the background."""
 
-    _told = Signal(str)
+    _warning_raised = Signal(str)
 
     def __init__(self, workbench: Workbench, microscope: Microscope, view: PictureView) -> None:
         super().__init__(tr("Save"))
         self._workbench, self._view = workbench, view
-        data = workbench.operation.data
-        self._pictures = data / "pictures"
-        self._told.connect(lambda text: workbench.notify(Level.WARNING, text, about=self))
-        self.filming = VideoCapture(microscope, data / "videos", self._told.emit)
-        self.snapshot = button(tr("Snapshot"), self._snap)
-        self.record = ChangingButton(tr("● Video"), tr("■ End video"), run=self._toggle)
+        data_folder = workbench.operation.data
+        self._pictures = data_folder / "pictures"
+        self._warning_raised.connect(lambda text: workbench.notify(Level.WARNING, text, about=self))
+        self.video_capture = VideoCapture(
+            microscope, data_folder / "videos", self._warning_raised.emit
+        )
+        self.snapshot = make_button(tr("Snapshot"), self._save_snapshot)
+        self.record = ChangingButton(tr("● Video"), tr("■ End video"), run=self._toggle_video)
         self.add_row(self.snapshot, self.record)
-        self.said = self.add_text()
-        self.follows = QCheckBox(tr("video with each recording"))
-        self.follows.setToolTip(
-            plain_tip(
+        self.status_label = self.add_text()
+        self.follow_box = QCheckBox(tr("video with each recording"))
+        self.follow_box.setToolTip(
+            make_tooltip(
                 tr("Start and end a video with the recording of the session (panel Recorder)")
             )
         )
-        self.follows.setChecked(bool(workbench.settings.get(FOLLOWS, False)))
-        self.filming.follows = self.follows.isChecked()
-        self.follows.toggled.connect(self._follow)
-        self.column.addWidget(self.follows)
-        self._where = self.add_text()
-        self._where.setText(
-            tr("Files are saved to pictures and videos in {data}.").format(data=data)
+        self.follow_box.setChecked(bool(workbench.settings.get(FOLLOW_SETTING, False)))
+        self.video_capture.follows_recordings = self.follow_box.isChecked()
+        self.follow_box.toggled.connect(self._set_following)
+        self.column.addWidget(self.follow_box)
+        self._folder_label = self.add_text()
+        self._folder_label.setText(
+            tr("Files are saved to pictures and videos in {data}.").format(data=data_folder)
         )
         self._status, self._state = MicroscopeStatus(), workbench.session.snapshot()
         workbench.closing.connect(self._close)
 
     @property
-    def needed(self) -> bool:
-        """Whether a video runs, or one has to begin or end with a recording."""
-        filming, recorder = self.filming, self._workbench.operation.recording
-        return filming.video is not None or (filming.follows and recorder is not None)
+    def is_needed(self) -> bool:
+        """Whether a video is running, or must start with the current recording."""
+        capture, recorder = self.video_capture, self._workbench.operation.recording
+        return capture.video is not None or (capture.follows_recordings and recorder is not None)
 
     def refresh(self, status: MicroscopeStatus, state: SessionState) -> None:
-        """Show how a film does, and follow the recording."""
+        """Show the progress of the video, and start or end it with a recording."""
         self._status, self._state = status, state
-        due = self.filming.due(self._workbench.operation.recording)
-        if due is True:
-            self._begin()
-        elif due is False:
-            self._end()
-        video = self.filming.status
+        must_run = self.video_capture.follow_recording(self._workbench.operation.recording)
+        if must_run is True:
+            self._begin_video()
+        elif must_run is False:
+            self._end_video()
+        video = self.video_capture.status
         if video is not None and video.failure:
-            self._end()
+            self._end_video()
             video = None
-        none = tr("there is no picture") if status.feed.frame is None else None
-        allow(self.snapshot, none, tr("Save this picture: raw values as TIFF, the view as PNG"))
-        on = video is not None
-        self.record.show_meaning(tr("■ End video") if on else tr("● Video"))
-        tip = tr("End the video") if on else tr("Record every picture, with its time, as a BigTIFF")
-        allow(self.record, None if on else none, tip)
-        show_text(self.said, progress(video) if video is not None else "")
+        objection = tr("there is no picture") if status.feed.frame is None else None
+        enable_unless(
+            self.snapshot, objection, tr("Save this picture: raw values as TIFF, the view as PNG")
+        )
+        is_running = video is not None
+        self.record.show_meaning(tr("■ End video") if is_running else tr("● Video"))
+        tooltip = (
+            tr("End the video")
+            if is_running
+            else tr("Record every picture, with its time, as a BigTIFF")
+        )
+        enable_unless(self.record, None if is_running else objection, tooltip)
+        show_or_hide_text(self.status_label, format_progress(video) if video is not None else "")
 
-    def _snap(self) -> None:
+    def _save_snapshot(self) -> None:
         frame = self._view.frame
-        if frame is None:  # the camera was closed just before the press
+        if frame is None:
+            # The camera was closed just before the press.
             text = tr("No snapshot: there is no picture. Open a camera first.")
             self._workbench.notify(Level.WARNING, text, about=self)
             return
         now = datetime.now().astimezone()
         recorder = self._workbench.operation.recording
         recording = "" if recorder is None else recorder.writer.path.name
-        about = circumstances(self._status, self._state, now, recording)
-        contrast, name = self._view.contrast, now.strftime(STAMP)
+        metadata = make_circumstances(self._status, self._state, now, recording)
+        contrast, name = self._view.contrast, now.strftime(TIME_STAMP_FORMAT)
 
-        def done(paths: tuple[object, object]) -> None:
+        def on_saved(paths: tuple[object, object]) -> None:
             self._workbench.notify(
                 Level.GOOD, tr("Saved {tiff} and {png}.png").format(tiff=paths[0], png=name)
             )
@@ -109,38 +121,40 @@ class SavingSection(Section):
         self._workbench.work(
             f"snapshot {name}",
             tr("Writing a picture …"),
-            lambda: write_pictures(self._pictures, frame, contrast, about, name),
-            done,
+            lambda: write_pictures(self._pictures, frame, contrast, metadata, name),
+            on_saved,
         )
 
-    def _toggle(self) -> None:
-        if self.filming.video is None:
-            self._begin()
+    def _toggle_video(self) -> None:
+        if self.video_capture.video is None:
+            self._begin_video()
         else:
-            self._end()
+            self._end_video()
 
-    def _begin(self) -> None:
+    def _begin_video(self) -> None:
         recorder = self._workbench.operation.recording
-        self._workbench.ask(lambda: self.filming.begin(self._status, self._state, recorder))
+        self._workbench.run_request(
+            lambda: self.video_capture.begin(self._status, self._state, recorder)
+        )
 
-    def _end(self) -> None:
-        video = self.filming.end()
+    def _end_video(self) -> None:
+        video = self.video_capture.end()
 
-        def done(status: VideoStatus) -> None:
+        def on_ended(status: VideoStatus) -> None:
             level = Level.WARNING if status.failure or status.dropped else Level.GOOD
-            self._workbench.notify(level, summary(video.path, status))
+            self._workbench.notify(level, describe_video(video.path, status))
 
         self._workbench.work(
-            f"end of {video.path.name}", tr("Ending the video …"), video.close, done
+            f"end of {video.path.name}", tr("Ending the video …"), video.close, on_ended
         )
 
-    def _follow(self, on: bool) -> None:
-        self.filming.follows = on
-        self._workbench.settings.set(FOLLOWS, on)
+    def _set_following(self, on: bool) -> None:
+        self.video_capture.follows_recordings = on
+        self._workbench.settings.set(FOLLOW_SETTING, on)
 
     def _close(self) -> None:
-        if self.filming.video is not None:
+        if self.video_capture.video is not None:
             try:
-                self.filming.end().close()
+                self.video_capture.end().close()
             except InputError as error:
-                self._workbench.notify(Level.ERROR, error_text(error), about=error)
+                self._workbench.notify(Level.ERROR, describe_error(error), about=error)

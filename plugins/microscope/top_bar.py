@@ -1,18 +1,22 @@
-"""The bar above the picture: click modes, zoom, and tools."""
+"""Bar above the picture: click modes, zoom and tools."""
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QPushButton, QWidget
 
-from rotemina.app.widgets.controls import allow, button, plain_tip
-from rotemina.app.widgets.labels import plain_text
-from rotemina.app.widgets.layouts import in_row
-from rotemina.app.widgets.wheel_safe import SteadyChoice
-from rotemina.app.widgets.when_dressed import leave_room
+from rotemina.app.widgets.controls import (
+    WheelSafeComboBox,
+    enable_unless,
+    make_button,
+    make_tooltip,
+)
+from rotemina.app.widgets.layout import make_row
+from rotemina.app.widgets.style import reserve_width
+from rotemina.app.widgets.text import make_plain_label
 from rotemina.plugins.microscope import mark, tr
 from rotemina.plugins.microscope.picture_view import PictureView, PointerTool
-from rotemina.sim.quantities import fixed
+from rotemina.sim.messages import format_fixed
 
-TOOLS = {
+TOOL_TEXTS = {
     PointerTool.MOVE: (
         mark("Move"),
         mark("Click or drag: the tip moves there. Esc or any stop ends this mode"),
@@ -30,15 +34,17 @@ TOOLS = {
 }
 
 
-_WIDEST_ZOOM = "8888 %"
+_WIDEST_ZOOM_TEXT = "8888 %"
 
 
 class TopBar(QWidget):
-    """One button for each thing that a click can do, at most one of them pressed.
+    """Bar with a button for each click mode, zoom buttons and the choice of tools.
+
+    At most one click mode is active.
 
     Signals
     -------
-    chosen(PointerTool) : someone wants the left button to do this.
+    chosen(PointerTool) : the operator has chosen this mode.
     """
 
     chosen = Signal(object)
@@ -46,40 +52,42 @@ class TopBar(QWidget):
     def __init__(self, view: PictureView, tools: tuple[str, ...]) -> None:
         super().__init__()
         self.buttons: dict[PointerTool, QPushButton] = {}
-        row = in_row(on=self, margins=0, spacing=4)
-        for tool, (text, tip) in TOOLS.items():
-            made = QPushButton(tr(text))
-            made.setCheckable(True)
-            made.setToolTip(plain_tip(tr(tip)))
-            made.clicked.connect(
+        row = make_row(on=self, margins=0, spacing=4)
+        for tool, (text, tooltip) in TOOL_TEXTS.items():
+            tool_button = QPushButton(tr(text))
+            tool_button.setCheckable(True)
+            tool_button.setToolTip(make_tooltip(tr(tooltip)))
+            tool_button.clicked.connect(
                 lambda on, tool=tool: self.chosen.emit(tool if on else PointerTool.PAN)
             )
-            self.buttons[tool] = made
-            row.addWidget(made)
+            self.buttons[tool] = tool_button
+            row.addWidget(tool_button)
         row.addStretch(1)
-        self.zoom = plain_text()
+        self.zoom = make_plain_label()
         self.zoom.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-        self.fit = button(tr("Fit"), view.show_fitted, tr("Show all of the picture (F)"))
-        self.one = button("1:1", view.show_one_to_one, tr("One camera pixel per screen pixel (1)"))
-        self.tools = SteadyChoice(tr("Tools beside the picture"), letters=6)
+        self.fit = make_button(tr("Fit"), view.show_fitted, tr("Show all of the picture (F)"))
+        self.one_to_one = make_button(
+            "1:1", view.show_one_to_one, tr("One camera pixel per screen pixel (1)")
+        )
+        self.tools = WheelSafeComboBox(tr("Tools next to the picture"), letters=6)
         for name in tools:
             self.tools.addItem(name)
-        for widget in (self.zoom, self.fit, self.one, self.tools):
+        for widget in (self.zoom, self.fit, self.one_to_one, self.tools):
             row.addWidget(widget)
-        leave_room(self.zoom, _WIDEST_ZOOM)  # so that the first picture moves nothing
+        # Space is reserved so that the first picture does not shift the other widgets.
+        reserve_width(self.zoom, _WIDEST_ZOOM_TEXT)
         view.zoomed.connect(lambda: self._show_zoom(view))
 
     def _show_zoom(self, view: PictureView) -> None:
-        """Show how large the picture is; before the first one there is nothing to tell."""
-        shown = view.frame is not None
-        self.zoom.setText(f"{fixed(100.0 * view.viewport.zoom, 0)} %" if shown else "")
+        has_picture = view.frame is not None
+        self.zoom.setText(f"{format_fixed(100.0 * view.viewport.zoom, 0)} %" if has_picture else "")
 
     def show_tool(self, tool: PointerTool) -> None:
-        """Show what the left button does."""
-        for one, made in self.buttons.items():
-            made.setChecked(one is tool)
+        """Show the active click mode."""
+        for button_tool, tool_button in self.buttons.items():
+            tool_button.setChecked(button_tool is tool)
 
-    def refresh(self, against: dict[PointerTool, str | None]) -> None:
-        """Lock what cannot be done now, with the reason."""
-        for tool, made in self.buttons.items():
-            allow(made, against.get(tool), tr(TOOLS[tool][1]))
+    def refresh(self, objections: dict[PointerTool, str | None]) -> None:
+        """Disable the modes that are impossible now, with the reasons as tooltips."""
+        for tool, tool_button in self.buttons.items():
+            enable_unless(tool_button, objections.get(tool), tr(TOOL_TEXTS[tool][1]))

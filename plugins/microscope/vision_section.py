@@ -1,193 +1,198 @@
-"""Findings in the picture: tip, cell, focus, drift."""
+"""Image analysis: tip, cell, focus and drift."""
 
 from PySide6.QtWidgets import QCheckBox, QLineEdit
 
-from rotemina.app.microscope.errors import MicroscopeError
-from rotemina.app.microscope.microscope import Microscope
-from rotemina.app.microscope.status import Activity, MicroscopeStatus, TipState
+from rotemina.app.errors import MicroscopeError
+from rotemina.app.language import translate_message
+from rotemina.app.microscope import Microscope, MicroscopeActivity, MicroscopeStatus, TipState
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.controls import allow, button, plain_tip
-from rotemina.app.widgets.labels import show_text
-from rotemina.app.widgets.section import Section
-from rotemina.app.widgets.wheel_safe import SteadyChoice
-from rotemina.plugins.microscope import tr
-from rotemina.plugins.microscope.feed_notice import against_moving
-from rotemina.plugins.microscope.words import (
-    cell_text,
-    drift_text,
-    focus_name,
-    focus_text,
-    tip_text,
+from rotemina.app.widgets.controls import (
+    WheelSafeComboBox,
+    enable_unless,
+    make_button,
+    make_tooltip,
 )
-from rotemina.sim.quantities import parsed, rounded
+from rotemina.app.widgets.layout import Section
+from rotemina.app.widgets.text import show_or_hide_text
+from rotemina.app.workbench import Workbench
+from rotemina.plugins.microscope import tr
+from rotemina.plugins.microscope.feed_notice import find_motion_objection
+from rotemina.plugins.microscope.words import (
+    describe_cell,
+    describe_drift,
+    describe_focus,
+    describe_focus_axis,
+    describe_tip,
+)
+from rotemina.sim.messages import format_rounded, parse_number
 
-_PRESET_M = 50e-6  # each way from where it is
+# The autofocus searches this far on each side of the current position.
+_DEFAULT_SEARCH_DISTANCE_M = 50e-6
 
 
-class TipSection(Section):
-    """Tracking on or off, and what it says."""
+class TipTrackingSection(Section):
+    """Section to track the tip and to monitor drift."""
 
     def __init__(self, workbench: Workbench, microscope: Microscope) -> None:
         super().__init__(tr("Tip"))
         self.track = QCheckBox(tr("track the tip"))
         self.track.setToolTip(
-            plain_tip(
+            make_tooltip(
                 tr(
                     "Find the pipette tip in every picture; to help the search, click it with "
                     "Tip, above"
                 )
             )
         )
-        self.track.clicked.connect(lambda on: workbench.ask(lambda: microscope.track(on)))
-        self.background = button(
+        self.track.clicked.connect(lambda on: workbench.run_request(lambda: microscope.track(on)))
+        self.background = make_button(
             tr("Take background"),
-            lambda: workbench.ask(microscope.tracker.take_ground),
+            lambda: workbench.run_request(microscope.tracker.take_background),
             tr("Save the background without the tip in the picture"),
         )
         self.drift = QCheckBox(tr("monitor drift"))
-        self.drift.setToolTip(plain_tip(tr("Displacement of the background since it was taken")))
+        self.drift.setToolTip(make_tooltip(tr("Displacement of the background since it was taken")))
         self.drift.clicked.connect(
-            lambda on: workbench.ask(lambda: microscope.jobs.watch_drift(on))
+            lambda on: workbench.run_request(lambda: microscope.picture_jobs.watch_drift(on))
         )
         self.column.addWidget(self.track)
-        self.said = self.add_text()
+        self.status_label = self.add_text()
         self.column.addWidget(self.background)
         self.column.addWidget(self.drift)
-        self.drifted = self.add_text()
+        self.drift_label = self.add_text()
 
     def refresh(self, status: MicroscopeStatus) -> None:
-        """Show the tip's figures."""
-        on = status.tip.state is not TipState.OFF
-        if self.track.isChecked() != on:
-            self.track.setChecked(on)
-        looked, passed = status.frames_processed, status.frames_skipped
-        figures = (
+        """Show the position of the tip and the drift."""
+        is_on = status.tip.state is not TipState.OFF
+        if self.track.isChecked() != is_on:
+            self.track.setChecked(is_on)
+        counts_text = (
             tr("\n{looked} pictures evaluated, {passed} skipped").format(
-                looked=looked, passed=passed
+                looked=status.frames_processed, passed=status.frames_skipped
             )
-            if on
+            if is_on
             else ""
         )
-        show_text(self.said, tip_text(status.tip) + figures)
-        none = None if status.feed.frame is not None else tr("there is no picture")
-        about = tr("taken") if status.background else tr("not taken yet")
-        allow(
+        show_or_hide_text(self.status_label, describe_tip(status.tip) + counts_text)
+        objection = None if status.feed.frame is not None else tr("there is no picture")
+        background_state = tr("taken") if status.has_background else tr("not taken yet")
+        enable_unless(
             self.background,
-            none,
+            objection,
             tr(
                 "Save the background without the tip, so that cells do not disturb the "
                 "tracking; {about}"
-            ).format(about=about),
+            ).format(about=background_state),
         )
-        if self.drift.isChecked() != status.drift.watched:
-            self.drift.setChecked(status.drift.watched)
-        show_text(self.drifted, drift_text(status.drift))
+        if self.drift.isChecked() != status.drift.is_watched:
+            self.drift.setChecked(status.drift.is_watched)
+        show_or_hide_text(self.drift_label, describe_drift(status.drift))
 
 
 class CellSection(Section):
-    """The outline of a cell, and how far its membrane is."""
+    """Section with the size of the outlined cell and the distance of its membrane."""
 
     def __init__(self, workbench: Workbench, microscope: Microscope) -> None:
         super().__init__(tr("Cell"))
         self._guide = self.add_text()
         self._guide.setText(tr("With Cell, above the picture, a click outlines a cell."))
-        self.said = self.add_text()
-        self.forget = button(
+        self.status_label = self.add_text()
+        self.forget = make_button(
             tr("Remove cell"),
-            lambda: workbench.ask(microscope.jobs.forget),
+            lambda: workbench.run_request(microscope.picture_jobs.clear_outline),
             tr("Remove the outline"),
         )
         self.column.addWidget(self.forget)
 
     def refresh(self, status: MicroscopeStatus) -> None:
         """Show size and distance."""
-        show_text(self.said, cell_text(status))
-        none = tr("no cell is outlined") if status.cell.outline is None else None
-        allow(self.forget, none, tr("Remove the outline"))
+        show_or_hide_text(self.status_label, describe_cell(status))
+        objection = tr("no cell is outlined") if status.cell.outline is None else None
+        enable_unless(self.forget, objection, tr("Remove the outline"))
 
 
 class FocusSection(Section):
-    """Autofocus with the microscope's drive, or with an axis of the machine."""
+    """Section for autofocus with the focus drive or with an axis of the machine."""
 
     def __init__(self, workbench: Workbench, microscope: Microscope) -> None:
         super().__init__(tr("Focus"))
         self._workbench, self._microscope = workbench, microscope
         self._status = MicroscopeStatus()
-        self.place = SteadyChoice(tr("Drive for focusing"), letters=6)
-        self.reach = QLineEdit(rounded(1e6 * _PRESET_M))
+        self.drive_choice = WheelSafeComboBox(tr("Drive for focusing"), letters=6)
+        self.reach = QLineEdit(format_rounded(1e6 * _DEFAULT_SEARCH_DISTANCE_M))
         self.reach.setAccessibleName(tr("Search distance each way, µm"))
         self.reach.setToolTip(
-            plain_tip(tr("Search distance each way from the present position, above 0 µm"))
+            make_tooltip(tr("Search distance each way from the present position, above 0 µm"))
         )
-        self.search = button(
+        self.search = make_button(
             tr("Autofocus"), self._autofocus, tr("Find the sharpest focus and stay there")
         )
-        self.column.addWidget(self.place)
+        self.column.addWidget(self.drive_choice)
         self.add_row(self.reach, self.search)
         self.goal = QLineEdit()
         self.goal.setPlaceholderText(tr("focus at, µm"))
         self.goal.setAccessibleName(tr("Position of the focus drive, µm"))
-        self.goal.setToolTip(plain_tip(tr("Target of the drive, µm, within its range")))
-        self.move = button(
+        self.goal.setToolTip(make_tooltip(tr("Target of the drive, µm, within its range")))
+        self.move = make_button(
             tr("Move focus"), self._move, tr("Move the focus drive of the microscope")
         )
         self.goal.returnPressed.connect(self._move)
         self.add_row(self.goal, self.move)
-        self.said = self.add_text()
+        self.status_label = self.add_text()
 
     def refresh(self, status: MicroscopeStatus, state: SessionState) -> None:
-        """Show what can be focused with, and how the search goes."""
+        """Show the available drives and the progress of the search."""
         self._status = status
-        names = [one.name for one in status.focus_axes]
-        if names != [self.place.itemData(row) for row in range(self.place.count())]:
-            self.place.clear()
+        names = [axis.name for axis in status.focus_axes]
+        if names != [self.drive_choice.itemData(row) for row in range(self.drive_choice.count())]:
+            self.drive_choice.clear()
             for name in names:
-                self.place.addItem(name, name)
-        for row, one in enumerate(status.focus_axes):
-            self.place.setItemText(row, focus_name(one))
-        none = (
+                self.drive_choice.addItem(name, name)
+        for row, axis in enumerate(status.focus_axes):
+            self.drive_choice.setItemText(row, describe_focus_axis(axis))
+        drive_objection = (
             None
             if names
             else tr("no focus drive is available: open a camera or connect the machine")
         )
-        why = none or against_moving(status, state)
-        allow(self.search, why, tr("Find the sharpest focus and stay there"))
-        drive = None if "focus" in names else tr("this camera has no focus drive")
-        busy = (
+        search_objection = drive_objection or find_motion_objection(status, state)
+        enable_unless(self.search, search_objection, tr("Find the sharpest focus and stay there"))
+        no_drive = None if "focus" in names else tr("this camera has no focus drive")
+        busy_objection = (
             None
-            if status.activity is Activity.NONE
-            else tr("{activity} is running").format(activity=spoken(status.activity))
+            if status.activity is MicroscopeActivity.NONE
+            else tr("{activity} is running").format(activity=translate_message(status.activity))
         )
-        allow(self.move, drive or busy, tr("Move the focus drive of the microscope"))
-        show_text(self.said, focus_text(status.focusing))
+        enable_unless(
+            self.move, no_drive or busy_objection, tr("Move the focus drive of the microscope")
+        )
+        show_or_hide_text(self.status_label, describe_focus(status.focus_status))
 
     def _autofocus(self) -> None:
-        name = self.place.currentData()
-        chosen = next((one for one in self._status.focus_axes if one.name == name), None)
+        name = self.drive_choice.currentData()
+        drive = next((axis for axis in self._status.focus_axes if axis.name == name), None)
 
-        def begin() -> None:
-            reach_m = _micrometres(tr("search distance"), self.reach.text())
-            if chosen is None or chosen.position is None:
-                self._microscope.adjustments.autofocus(name)
+        def start() -> None:
+            reach_m = _parse_metres(tr("search distance"), self.reach.text())
+            if drive is None or drive.position is None:
+                self._microscope.procedures.autofocus(name)
                 return
             low, high = (
-                max(chosen.position - reach_m, chosen.low),
-                min(chosen.position + reach_m, chosen.high),
+                max(drive.position - reach_m, drive.low),
+                min(drive.position + reach_m, drive.high),
             )
-            self._microscope.adjustments.autofocus(name, low, high)
+            self._microscope.procedures.autofocus(name, low, high)
 
-        self._workbench.ask(begin)
+        self._workbench.run_request(start)
 
     def _move(self) -> None:
-        self._workbench.ask(
-            lambda: self._microscope.move_focus(_micrometres(tr("focus"), self.goal.text()))
+        self._workbench.run_request(
+            lambda: self._microscope.move_focus(_parse_metres(tr("focus"), self.goal.text()))
         )
 
 
-def _micrometres(name: str, text: str) -> float:
-    number = parsed(text)
+def _parse_metres(name: str, text: str) -> float:
+    number = parse_number(text)
     if number is None:
         raise MicroscopeError(
             tr("{name}: {text!r} is not a number; enter one in µm").format(

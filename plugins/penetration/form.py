@@ -1,4 +1,4 @@
-"""The parameters of a penetration as a form; typing in it moves nothing."""
+"""Form for the parameters of a penetration. Typing in it moves nothing."""
 
 from typing import Any
 
@@ -13,55 +13,57 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.display_units import label
-from rotemina.app.motion.penetration.parameters import (
-    Direction,
+from rotemina.app.language import describe_error, get_axis_label, translate_message
+from rotemina.app.motion.penetration import (
+    CellDirection,
+    InputShaping,
     PenetrationParameters,
-    Shaping,
     ThrustShape,
 )
-from rotemina.app.shell.engine_words import error_text, spoken
-from rotemina.app.widgets.controls import allow, plain_tip
-from rotemina.app.widgets.labels import heading
-from rotemina.app.widgets.layouts import in_column, in_grid, in_row
-from rotemina.app.widgets.scroll_areas import FittedScroll
-from rotemina.app.widgets.wheel_safe import SteadyChoice
+from rotemina.app.widgets.controls import WheelSafeComboBox, enable_unless, make_tooltip
+from rotemina.app.widgets.layout import (
+    FittedScrollArea,
+    make_column,
+    make_grid,
+    make_row,
+)
+from rotemina.app.widgets.text import make_heading
 from rotemina.plugins.penetration import mark, tr
-from rotemina.plugins.penetration.form_fields import NumberField
+from rotemina.plugins.penetration.form_fields import ParameterNumberField
 from rotemina.plugins.penetration.parameter_quantities import (
     QUANTITIES,
-    Group,
-    TypedError,
-    in_group,
+    ParameterGroup,
+    ParameterInputError,
+    find_quantities,
 )
-from rotemina.plugins.penetration.thrust_table_text import EXAMPLE, read_table, table_text
+from rotemina.plugins.penetration.thrust_table_text import EXAMPLE_TABLE, format_table, parse_table
 from rotemina.sim.errors import InputError
-from rotemina.sim.robot.model import Robot
+from rotemina.sim.robot import Robot
 
-_SHAPES = {
+_SHAPE_TEXTS = {
     ThrustShape.S_CURVE: mark("S-curve"),
     ThrustShape.MINIMUM_JERK: mark("minimum jerk"),
     ThrustShape.TABLE: mark("table"),
 }
-_SHAPINGS = {
-    Shaping.NONE: mark("none"),
-    Shaping.ZV: mark("ZV"),
-    Shaping.ZVD: mark("ZVD"),
-    Shaping.ZVDD: mark("ZVDD"),
-    Shaping.INVERSE: mark("inverse model"),
+_SHAPING_TEXTS = {
+    InputShaping.NONE: mark("none"),
+    InputShaping.ZV: mark("ZV"),
+    InputShaping.ZVD: mark("ZVD"),
+    InputShaping.ZVDD: mark("ZVDD"),
+    InputShaping.INVERSE: mark("inverse model"),
 }
-_TABLE_TIP = (
+_TABLE_TOOLTIP_LINES = (
     mark("Points of the thrust, one per line: time share, depth share."),
     mark("From 0, 0 to 1, 1; 2 to 200 points."),
 )
 
 
-class ParameterForm(FittedScroll):
-    """Fields by group; what they hold is taken when a field is left or Enter is pressed.
+class ParameterForm(FittedScrollArea):
+    """Form with the parameters by group. Leaving a field or pressing Enter reads all fields.
 
     Signals
     -------
-    changed() : ``parameters`` or ``complaint`` did.
+    changed() : ``parameters`` or ``complaint`` has changed.
     """
 
     changed = Signal()
@@ -76,9 +78,11 @@ class ParameterForm(FittedScroll):
         self._body = QWidget()
         self.load, self.save = QPushButton(tr("Load …")), QPushButton(tr("Save …"))
         self.save.setToolTip(tr("Save these parameters to a TOML file"))
-        self.fields = {key: NumberField(one, self) for key, one in QUANTITIES.items()}
+        self.fields = {
+            key: ParameterNumberField(quantity, self) for key, quantity in QUANTITIES.items()
+        }
         self._make_choices(robot)
-        self._make_more()
+        self._make_more_button()
         self._lay_out()
         self.show_parameters(parameters)
         self._connect()
@@ -90,58 +94,62 @@ class ParameterForm(FittedScroll):
             field.show_value(getattr(parameters, key))
         for key, choice in self.choices.items():
             value = str(getattr(parameters, key))
-            if choice.findData(value) < 0:  # an axis of another robot
+            # The parameters may name an axis of another robot.
+            if choice.findData(value) < 0:
                 choice.addItem(value, value)
             choice.select(value)
         self.table.blockSignals(True)
-        self.table.setPlainText(table_text(parameters.table or EXAMPLE))
+        self.table.setPlainText(format_table(parameters.table or EXAMPLE_TABLE))
         self.table.blockSignals(False)
-        self._show_what_counts()
+        self._update_shape_fields()
 
-    def take(self) -> None:
-        """Read every field; also one that is still being edited."""
-        before = self.parameters, self.complaint
-        wrong = [field.complaint() for field in self.fields.values()]
-        self.complaint = next((one for one in wrong if one is not None), "")
+    def read_fields(self) -> None:
+        """Read every field, including one that is still being edited."""
+        previous = self.parameters, self.complaint
+        problems = [field.check_text() for field in self.fields.values()]
+        self.complaint = next((problem for problem in problems if problem is not None), "")
         if not self.complaint:
             try:
-                self.parameters = self._read()
+                self.parameters = self._read_parameters()
             except InputError as error:
-                self.complaint = error_text(error)
-        self._show_what_counts()
-        if (self.parameters, self.complaint) != before:
+                self.complaint = describe_error(error)
+        self._update_shape_fields()
+        if (self.parameters, self.complaint) != previous:
             self.changed.emit()
 
-    def allow(self, why_not: str | None) -> None:
-        """Let the fields be changed, or say why not; they can be read all the same."""
-        allow(self._body, why_not, "")
-        allow(self.load, why_not, tr("Replace these parameters by those of a TOML file"))
-
-    # --- parts ------------------------------------------------------------------------------------
+    def allow_changes_unless(self, objection: str | None) -> None:
+        """Allow changes, unless there is an objection. The fields stay readable in any case."""
+        enable_unless(self._body, objection, "")
+        enable_unless(self.load, objection, tr("Replace these parameters by those of a TOML file"))
 
     def _lay_out(self) -> None:
-        in_column(*(self._section(group) for group in Group), on=self._body, margins=0, spacing=2)
-        files = in_row((self.load, 1), (self.save, 1), spacing=6)
+        make_column(
+            *(self._make_section(group) for group in ParameterGroup),
+            on=self._body,
+            margins=0,
+            spacing=2,
+        )
+        files = make_row((self.load, 1), (self.save, 1), spacing=6)
         content = QWidget()
-        in_column(self._body, files, 1, on=content, margins=(0, 0, 8, 4))
+        make_column(self._body, files, 1, on=content, margins=(0, 0, 8, 4))
         self.setWidget(content)
 
     def _make_choices(self, robot: Robot) -> None:
-        axis = SteadyChoice(
+        axis = WheelSafeComboBox(
             tr("Axis of the penetration"), tr("Axis that penetrates the cell"), letters=8
         )
         for name in robot.axes:
             if robot.unit(name) == "m":
-                axis.addItem(label(name), name)
-        direction = SteadyChoice(
+                axis.addItem(get_axis_label(name), name)
+        direction = WheelSafeComboBox(
             tr("Direction"),
             tr("Direction of the cell along the axis; down: towards smaller positions"),
             letters=8,
         )
-        shape = SteadyChoice(
+        shape = WheelSafeComboBox(
             tr("Shape of the thrust"), tr("Speed profile of the thrust"), letters=8
         )
-        shaping = SteadyChoice(
+        shaping = WheelSafeComboBox(
             tr("Input shaping"),
             tr(
                 "Suppresses the resonance of the axis in the robot file. ZV, ZVD, ZVDD: "
@@ -149,50 +157,50 @@ class ParameterForm(FittedScroll):
             ),
             letters=8,
         )
-        for direct in Direction:
-            direction.addItem(spoken(direct), str(direct))
-        for form, text in _SHAPES.items():
-            shape.addItem(tr(text), str(form))
-        for kind, text in _SHAPINGS.items():
-            shaping.addItem(tr(text), str(kind))
+        for cell_direction in CellDirection:
+            direction.addItem(translate_message(cell_direction), str(cell_direction))
+        for thrust_shape, text in _SHAPE_TEXTS.items():
+            shape.addItem(tr(text), str(thrust_shape))
+        for input_shaping, text in _SHAPING_TEXTS.items():
+            shaping.addItem(tr(text), str(input_shaping))
         self.choices = {"axis": axis, "direction": direction, "shape": shape, "shaping": shaping}
         self.table = QPlainTextEdit()
         self.table.setAccessibleName(tr("Table of the thrust: time share, depth share"))
-        self.table.setToolTip(plain_tip(*_table_tip()))
+        self.table.setToolTip(make_tooltip(*_get_table_tooltip()))
         self.table.setTabChangesFocus(True)
         self.table.setFixedHeight(86)
 
-    def _make_more(self) -> None:
-        self.more = QToolButton()
-        self.more.setText(tr("More ▸"))
-        self.more.setCheckable(True)
-        self.more.setAccessibleName(tr("More settings of the contact detection"))
-        self.more.setToolTip(
+    def _make_more_button(self) -> None:
+        self.more_button = QToolButton()
+        self.more_button.setText(tr("More ▸"))
+        self.more_button.setCheckable(True)
+        self.more_button.setAccessibleName(tr("More settings of the contact detection"))
+        self.more_button.setToolTip(
             tr("Settings that distinguish contact from noise, hysteresis and creep")
         )
-        self._detection = QWidget()
-        self._detection.hide()
+        self._detection_fields = QWidget()
+        self._detection_fields.hide()
 
-    def _section(self, group: Group) -> QWidget:
+    def _make_section(self, group: ParameterGroup) -> QWidget:
         section, body = QWidget(), QWidget()
-        column = in_column(on=section, margins=(0, 0, 0, 2), spacing=2)
-        column.addWidget(heading(tr(group)))
-        if group is Group.CONTACT:
-            body = self._detection
-            column.addWidget(self.more, 0, Qt.AlignmentFlag.AlignLeft)
+        column = make_column(on=section, margins=(0, 0, 0, 2), spacing=2)
+        column.addWidget(make_heading(tr(group)))
+        if group is ParameterGroup.CONTACT:
+            body = self._detection_fields
+            column.addWidget(self.more_button, 0, Qt.AlignmentFlag.AlignLeft)
         column.addWidget(body)
-        grid = in_grid(on=body, margins=0, spacing=(8, 3), stretched=0)
-        if group is Group.APPROACH:
+        grid = make_grid(on=body, margins=0, spacing=(8, 3), stretched=0)
+        if group is ParameterGroup.APPROACH:
             self._add_choice(grid, tr("Axis"), "axis")
             self._add_choice(grid, tr("Cell is"), "direction")
-        if group is Group.THRUST:
+        if group is ParameterGroup.THRUST:
             self._add_choice(grid, tr("Shape"), "shape")
             self._add_choice(grid, tr("Shaping"), "shaping")
-        for quantity in in_group(group):
+        for quantity in find_quantities(group):
             field, row = self.fields[quantity.key], grid.rowCount()
-            for place, widget in enumerate((field.title, field.edit, field.unit)):
-                grid.addWidget(widget, row, place)
-        if group is Group.THRUST:
+            for grid_column, widget in enumerate((field.title, field.edit, field.unit)):
+                grid.addWidget(widget, row, grid_column)
+        if group is ParameterGroup.THRUST:
             self._table_title = QLabel(tr("Time share, depth share"))
             grid.addWidget(self._table_title, grid.rowCount(), 0, 1, 3)
             grid.addWidget(self.table, grid.rowCount(), 0, 1, 3)
@@ -206,37 +214,35 @@ class ParameterForm(FittedScroll):
 
     def _connect(self) -> None:
         for field in self.fields.values():
-            field.changed.connect(self.take)
+            field.changed.connect(self.read_fields)
         for choice in self.choices.values():
-            choice.activated.connect(lambda _: self.take())
-        self.table.textChanged.connect(self.take)
-        self.more.toggled.connect(self._show_more)
+            choice.activated.connect(lambda _: self.read_fields())
+        self.table.textChanged.connect(self.read_fields)
+        self.more_button.toggled.connect(self._show_more)
 
-    # --- inside -----------------------------------------------------------------------------------
+    def _read_parameters(self) -> PenetrationParameters:
+        values: dict[str, Any] = {key: field.value for key, field in self.fields.items()}
+        values |= {key: choice.currentData() for key, choice in self.choices.items()}
+        has_table = values["shape"] == ThrustShape.TABLE
+        values["table"] = parse_table(self.table.toPlainText()) if has_table else ()
+        return PenetrationParameters(**values)
 
-    def _read(self) -> PenetrationParameters:
-        asked: dict[str, Any] = {key: field.value for key, field in self.fields.items()}
-        asked |= {key: choice.currentData() for key, choice in self.choices.items()}
-        tabled = asked["shape"] == ThrustShape.TABLE
-        asked["table"] = read_table(self.table.toPlainText()) if tabled else ()
-        return PenetrationParameters(**asked)
-
-    def _show_what_counts(self) -> None:
+    def _update_shape_fields(self) -> None:
         shape = self.choices["shape"].currentData()
         self.fields["ramp"].set_visible(shape == ThrustShape.S_CURVE)
         for widget in (self._table_title, self.table):
             widget.setVisible(shape == ThrustShape.TABLE)
         try:
-            read_table(self.table.toPlainText())
-            wrong = ""
-        except TypedError as error:
-            wrong = error_text(error)
-        self.table.setToolTip(plain_tip(*_table_tip(), wrong))
+            parse_table(self.table.toPlainText())
+            problem = ""
+        except ParameterInputError as error:
+            problem = describe_error(error)
+        self.table.setToolTip(make_tooltip(*_get_table_tooltip(), problem))
 
-    def _show_more(self, shown: bool) -> None:
-        self.more.setText(tr("Less ▾") if shown else tr("More ▸"))
-        self._detection.setVisible(shown)
+    def _show_more(self, is_shown: bool) -> None:
+        self.more_button.setText(tr("Less ▾") if is_shown else tr("More ▸"))
+        self._detection_fields.setVisible(is_shown)
 
 
-def _table_tip() -> list[str]:
-    return [tr(line) for line in _TABLE_TIP]
+def _get_table_tooltip() -> list[str]:
+    return [tr(line) for line in _TABLE_TOOLTIP_LINES]

@@ -1,76 +1,81 @@
-"""Fields of the form: numbers with units, and choices that ignore the wheel."""
+"""Number with its unit in the form of parameters."""
 
 from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QLabel, QLineEdit
 
-from rotemina.app.shell.engine_words import error_text
-from rotemina.app.widgets.controls import named, plain_tip, set_property
-from rotemina.plugins.penetration.parameter_quantities import Quantity, TypedError
+from rotemina.app.language import describe_error
+from rotemina.app.widgets.controls import (
+    make_tooltip,
+    name_widget,
+    set_property,
+)
+from rotemina.plugins.penetration.parameter_quantities import ParameterInputError, ParameterQuantity
 
 
-class NumberField(QObject):
-    """One number: its title, its field and its unit.
+class ParameterNumberField(QObject):
+    """Number in the form: title, edit field and unit.
 
     Signals
     -------
-    changed() : another text was entered.
+    changed() : the operator has entered another text.
     """
 
     changed = Signal()
 
-    def __init__(self, quantity: Quantity, parent: QObject) -> None:
+    def __init__(self, quantity: ParameterQuantity, parent: QObject) -> None:
         super().__init__(parent)
         self.quantity = quantity
-        self._value: float | None = None
-        self._read = ""
+        self._shown_value: float | None = None
+        self._shown_text = ""
         self.title, self.unit = QLabel(quantity.shown_title), QLabel(quantity.unit)
         self.unit.setProperty("quiet", True)
-        self.edit = named(QLineEdit(), quantity.name)
+        self.edit = name_widget(QLineEdit(), quantity.name)
         self.edit.setAlignment(Qt.AlignmentFlag.AlignRight)
         self.edit.setMinimumWidth(54)
         self.edit.setMaximumWidth(90)
         self.title.setBuddy(self.edit)
         for widget in (self.title, self.edit, self.unit):
-            widget.setToolTip(plain_tip(*quantity.tip))
-        self.edit.editingFinished.connect(self._enter)
+            widget.setToolTip(make_tooltip(*quantity.tip))
+        self.edit.editingFinished.connect(self._on_edited)
 
     @property
     def value(self) -> float:
-        """What the field means, SI.
+        """The value of the field, SI.
 
         Raises
         ------
-        TypedError
-            If that is no number within the bounds.
+        ParameterInputError
+            If the text is not a number within the bounds.
         """
         text = self.edit.text()
-        if self._value is not None and text == self._read:
-            return self._value  # what is shown has fewer digits than what is meant
-        return self.quantity.value(text)
+        if self._shown_value is not None and text == self._shown_text:
+            # The displayed text has fewer digits than the value.
+            return self._shown_value
+        return self.quantity.parse_value(text)
 
     def show_value(self, value: float) -> None:
         """Show a value, SI."""
-        self._value, self._read = value, self.quantity.number(value)
-        self.edit.setText(self._read)
+        self._shown_value, self._shown_text = value, self.quantity.format_number(value)
+        self.edit.setText(self._shown_text)
         self.edit.setCursorPosition(0)
-        self.complaint()
+        self.check_text()
 
-    def complaint(self) -> str | None:
-        """Return the problem of the text and mark the field, or None."""
-        wrong = None
+    def check_text(self) -> str | None:
+        """Return the problem of the text, or None, and mark the field accordingly."""
+        problem = None
         try:
-            self.value  # noqa: B018 (whether it can be read)
-        except TypedError as error:
-            wrong = error_text(error)
-        set_property(self.edit, "bad", wrong is not None)
-        self.edit.setToolTip(plain_tip(*self.quantity.tip, wrong or ""))
-        return wrong
+            self.value  # noqa: B018 (only to see whether it raises)
+        except ParameterInputError as error:
+            problem = describe_error(error)
+        set_property(self.edit, "bad", problem is not None)
+        self.edit.setToolTip(make_tooltip(*self.quantity.tip, problem or ""))
+        return problem
 
     def set_visible(self, visible: bool) -> None:
-        """Show the row, or hide it."""
+        """Show or hide the row."""
         for widget in (self.title, self.edit, self.unit):
             widget.setVisible(visible)
 
-    def _enter(self) -> None:
-        if self.edit.text() != self._read:
+    def _on_edited(self) -> None:
+        if self.edit.text() != self._shown_text:
             self.changed.emit()

@@ -1,18 +1,18 @@
-"""Numbers of a penetration as typed by an operator: unit, bounds, effect."""
+"""Numerical parameters of a penetration on the screen: unit, bounds and meaning."""
 
 from dataclasses import dataclass
 from enum import StrEnum
 
-from rotemina.app.motion.penetration.parameters import BOUNDS, PenetrationParameters
+from rotemina.app.motion.penetration import PARAMETER_BOUNDS, PenetrationParameters
 from rotemina.plugins.penetration import mark, tr
 from rotemina.sim.errors import InputError
-from rotemina.sim.quantities import parsed, rounded
+from rotemina.sim.messages import format_rounded, parse_number
 
-_PRESETS = PenetrationParameters()
+_DEFAULT_PARAMETERS = PenetrationParameters()
 
 
-class Group(StrEnum):
-    """What belongs together on the screen."""
+class ParameterGroup(StrEnum):
+    """Group of parameters on the screen."""
 
     APPROACH = mark("Approach")
     CONTACT = mark("Contact detection")
@@ -22,33 +22,33 @@ class Group(StrEnum):
     LIMITS = mark("Limits")
 
 
-class TypedError(InputError):
-    """What was typed is no number, or out of bounds."""
+class ParameterInputError(InputError):
+    """Typed text that is not a number, or a number out of bounds."""
 
 
 @dataclass(frozen=True, slots=True)
-class Quantity:
-    """One number.
+class ParameterQuantity:
+    """Numerical parameter as it is displayed.
 
     Attributes
     ----------
     key : str
-        Its name among the parameters.
+        Its name in :class:`PenetrationParameters`.
     title, unit : str
-        As an English screen has them.
+        English title, and unit on the screen.
     per_si : float
-        How many of the unit make one SI unit.
-    group : Group
-    about : str
-        What it does, in a sentence without its full stop.
+        Number of screen units in one SI unit.
+    group : ParameterGroup
+    description : str
+        Meaning, as an English sentence without its full stop.
     """
 
     key: str
     title: str
     unit: str
     per_si: float
-    group: Group
-    about: str
+    group: ParameterGroup
+    description: str
 
     @property
     def shown_title(self) -> str:
@@ -57,7 +57,7 @@ class Quantity:
 
     @property
     def name(self) -> str:
-        """Title and unit, for those who hear the screen."""
+        """Title and unit, for screen readers."""
         return (
             tr("{title}, {unit}").format(title=self.shown_title, unit=self.unit)
             if self.unit
@@ -66,57 +66,60 @@ class Quantity:
 
     @property
     def tip(self) -> tuple[str, str]:
-        """What it does, and its bounds and preset."""
-        bound, preset = BOUNDS[self.key], getattr(_PRESETS, self.key)
-        least, most = self.number(bound.least), self.text(bound.most)
-        about = tr(self.about)
+        """Lines of the tooltip: meaning, then bounds and default."""
+        bound, preset = PARAMETER_BOUNDS[self.key], getattr(_DEFAULT_PARAMETERS, self.key)
+        minimum, maximum = self.format_number(bound.minimum), self.format_value(bound.maximum)
+        description = tr(self.description)
         bounds = tr("{least} to {most}; preset {preset}")
-        return f"{about}.", bounds.format(least=least, most=most, preset=self.text(preset))
+        return f"{description}.", bounds.format(
+            least=minimum, most=maximum, preset=self.format_value(preset)
+        )
 
-    def number(self, value: float) -> str:
-        """Return a value (SI) as digits in the unit."""
-        return rounded(value * self.per_si, 6)
+    def format_number(self, value: float) -> str:
+        """Return a value (SI) as digits in the screen unit."""
+        return format_rounded(value * self.per_si, 6)
 
-    def text(self, value: float) -> str:
-        """Return a value (SI) with its unit."""
-        return f"{self.number(value)} {self.unit}".rstrip()
+    def format_value(self, value: float) -> str:
+        """Return a value (SI) as digits with the screen unit."""
+        return f"{self.format_number(value)} {self.unit}".rstrip()
 
-    def value(self, typed: str) -> float:
-        """Return what a text means, SI.
+    def parse_value(self, typed: str) -> float:
+        """Return the value (SI) of a text that the operator has typed.
 
         Raises
         ------
-        TypedError
-            With the text and the bounds.
+        ParameterInputError
+            If the text is not a number within the bounds.
         """
         text = typed.strip()
-        number = parsed(text)
+        number = parse_number(text)
         if number is None:
             unit = f" in {self.unit}" if self.unit else ""
-            raise TypedError(
+            raise ParameterInputError(
                 tr(
                     "{title}: {text!r} is not a number; enter one{unit} with a decimal point"
                 ).format(title=self.shown_title, text=text, unit=unit)
             )
-        value, bound = number / self.per_si, BOUNDS[self.key]
-        for end in bound.least, bound.most:
-            if self.number(value) == self.number(end):
-                value = end  # typed as it is shown: rounding must not put it beyond
-        if not bound.least <= value <= bound.most:
-            raise TypedError(
+        value, bound = number / self.per_si, PARAMETER_BOUNDS[self.key]
+        for limit in bound.minimum, bound.maximum:
+            if self.format_number(value) == self.format_number(limit):
+                # The displayed bound is rounded. If it is typed, it must be accepted.
+                value = limit
+        if not bound.minimum <= value <= bound.maximum:
+            raise ParameterInputError(
                 tr("{title}: {value} must be {least} to {most}").format(
                     title=self.shown_title,
                     value=f"{text} {self.unit}".rstrip(),
-                    least=self.number(bound.least),
-                    most=self.text(bound.most),
+                    least=self.format_number(bound.minimum),
+                    most=self.format_value(bound.maximum),
                 )
             )
         return value
 
 
-_PER_SI = {"µm": 1e6, "µm/s": 1e6, "ms": 1e3, "%": 1e2}
-_TABLE = {
-    Group.APPROACH: (
+_UNITS_PER_SI = {"µm": 1e6, "µm/s": 1e6, "ms": 1e3, "%": 1e2}
+_ROWS_BY_GROUP = {
+    ParameterGroup.APPROACH: (
         ("approach_speed", mark("Speed"), "µm/s", mark("Speed of the approach")),
         (
             "approach_distance",
@@ -125,7 +128,7 @@ _TABLE = {
             mark("Without contact within this distance the run fails and the tip retracts"),
         ),
     ),
-    Group.CONTACT: (
+    ParameterGroup.CONTACT: (
         (
             "false_alarms_per_hour",
             mark("False alarms"),
@@ -147,9 +150,14 @@ _TABLE = {
             "µm",
             mark("Distance over which that slope may change by the same amount"),
         ),
-        ("contact_pause_s", mark("Pause"), "ms", mark("At rest on the membrane before the thrust")),
+        (
+            "contact_pause_s",
+            mark("Pause"),
+            "ms",
+            mark("Time at rest on the membrane before the thrust"),
+        ),
     ),
-    Group.THRUST: (
+    ParameterGroup.THRUST: (
         (
             "depth",
             mark("Depth"),
@@ -164,7 +172,7 @@ _TABLE = {
             mark("S-curve: share of the time for acceleration, and the same for deceleration"),
         ),
     ),
-    Group.HOLD: (
+    ParameterGroup.HOLD: (
         ("hold_s", mark("Hold"), "ms", mark("Time at depth before the tool is switched on")),
         ("inject_s", mark("Inject"), "ms", mark("Time with the tool on; 0: the tool stays off")),
         (
@@ -174,10 +182,10 @@ _TABLE = {
             mark("Time at depth after the tool is switched off"),
         ),
     ),
-    Group.RETRACT: (
+    ParameterGroup.RETRACT: (
         ("retract_speed", mark("Return speed"), "µm/s", mark("Speed of the retraction")),
     ),
-    Group.LIMITS: (
+    ParameterGroup.LIMITS: (
         (
             "depth_tolerance",
             mark("Depth tolerance"),
@@ -205,12 +213,12 @@ _TABLE = {
     ),
 }
 QUANTITIES = {
-    key: Quantity(key, title, unit, _PER_SI.get(unit, 1.0), group, about)
-    for group, rows in _TABLE.items()
-    for key, title, unit, about in rows
+    key: ParameterQuantity(key, title, unit, _UNITS_PER_SI.get(unit, 1.0), group, description)
+    for group, rows in _ROWS_BY_GROUP.items()
+    for key, title, unit, description in rows
 }
 
 
-def in_group(group: Group) -> tuple[Quantity, ...]:
-    """Return the numbers of a group, in order."""
-    return tuple(one for one in QUANTITIES.values() if one.group is group)
+def find_quantities(group: ParameterGroup) -> tuple[ParameterQuantity, ...]:
+    """Return the numerical parameters of a group, in order."""
+    return tuple(quantity for quantity in QUANTITIES.values() if quantity.group is group)

@@ -1,4 +1,4 @@
-"""Arm, the main button, and the strip of phases, always visible."""
+"""Bar with the arm button, the main button and the phases. It is always visible."""
 
 import time
 from collections.abc import Callable
@@ -6,125 +6,136 @@ from collections.abc import Callable
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QLabel, QPushButton, QSizePolicy, QWidget
 
-from rotemina.app.motion.penetration.status import UNDER_WAY, PenetrationStatus, Phase
+from rotemina.app.language import translate_message
+from rotemina.app.motion.penetration import (
+    RUNNING_PHASES,
+    PenetrationPhase,
+    PenetrationStatus,
+)
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.state_tone import Tone, set_tone
-from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.app.widgets.changing_button import ChangingButton
-from rotemina.app.widgets.controls import allow, named
-from rotemina.app.widgets.labels import plain_text
-from rotemina.app.widgets.layouts import in_row
-from rotemina.app.widgets.when_dressed import leave_room
-from rotemina.drivers.clock import Clock
-from rotemina.plugins.connection.unavailable_reasons import in_motion
+from rotemina.app.widgets.controls import ChangingButton, enable_unless, name_widget
+from rotemina.app.widgets.layout import make_row
+from rotemina.app.widgets.style import reserve_width
+from rotemina.app.widgets.text import make_plain_label
+from rotemina.app.workbench import Level, StateTone, Workbench, set_tone
+from rotemina.drivers.contract import Clock
+from rotemina.plugins.connection import find_rest_objection
 from rotemina.plugins.penetration import tr
 from rotemina.plugins.penetration.words import (
-    STRIP,
-    Light,
-    against_button,
-    arm_tip,
-    arm_word,
-    button_tip,
-    button_word,
-    counts,
-    headline,
-    lights,
+    STRIP_PHASES,
+    PhaseLight,
+    find_arm_text,
+    find_arm_tip,
+    find_button_objection,
+    find_button_text,
+    find_button_tip,
+    find_lights,
+    format_headline,
+    is_press_valid,
 )
 
-_TONES = {
-    Light.OFF: Tone.QUIET,
-    Light.PASSED: Tone.GOOD,
-    Light.PRESENT: Tone.BUSY,
-    Light.HELD: Tone.WARNING,
+_LIGHT_TONES = {
+    PhaseLight.OFF: StateTone.QUIET,
+    PhaseLight.PASSED: StateTone.GOOD,
+    PhaseLight.PRESENT: StateTone.BUSY,
+    PhaseLight.HELD: StateTone.WARNING,
 }
-_HEADLINES = {
-    Phase.DISARMED: Tone.QUIET,
-    Phase.ARMED: Tone.WARNING,
-    Phase.DONE: Tone.GOOD,
-    Phase.ABORTED: Tone.WARNING,
-    Phase.FAILED: Tone.DANGER,
-    Phase.HELD: Tone.DANGER,
+_HEADLINE_TONES = {
+    PenetrationPhase.DISARMED: StateTone.QUIET,
+    PenetrationPhase.ARMED: StateTone.WARNING,
+    PenetrationPhase.DONE: StateTone.GOOD,
+    PenetrationPhase.ABORTED: StateTone.WARNING,
+    PenetrationPhase.FAILED: StateTone.DANGER,
+    PenetrationPhase.HELD: StateTone.DANGER,
 }
 
 
 class RunButtons(QWidget):
-    """Two buttons whose words follow the phase, and the phase; subclasses lay them out.
+    """Two buttons whose labels depend on the phase, and a label with the phase.
 
-    They act as they were labelled when they were pressed, or not at all.
+    Subclasses lay them out. A press does what the label says, or nothing if the phase has changed.
     """
 
     def __init__(self, workbench: Workbench, clock: Clock) -> None:
         super().__init__()
         self._workbench, self._operation = workbench, workbench.operation
-        self._clock, self._pressed_s = clock, float("-inf")
-        self._shown = Phase.DISARMED
-        words = dict.fromkeys(map(arm_word, (self._shown, *Phase)))
-        self.arm = ChangingButton(*map(tr, words), run=self._arm)
-        self.button = QPushButton(tr(button_word(self._shown)))
-        self.button.setProperty("primary", True)
-        # By Tab alone: no space bar that follows a click may start or end anything.
-        self.button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-        # On pressing, not on release: what stops must not wait for the finger to lift.
-        self.button.pressed.connect(self._press)
-        self.phase = named(QLabel(), tr("Phase of the penetration"))
+        self._clock, self._last_press_s = clock, float("-inf")
+        self._shown_phase = PenetrationPhase.DISARMED
+        labels = dict.fromkeys(map(find_arm_text, (self._shown_phase, *PenetrationPhase)))
+        self.arm = ChangingButton(*map(tr, labels), run=self._on_arm_pressed)
+        self.main_button = QPushButton(tr(find_button_text(self._shown_phase)))
+        self.main_button.setProperty("primary", True)
+        # Only Tab gives it the focus, so that the space bar cannot press it again after a click.
+        self.main_button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        # It acts when it is pressed, because a stop must not wait for the release.
+        self.main_button.pressed.connect(self._on_main_pressed)
+        self.phase = name_widget(QLabel(), tr("Phase of the penetration"))
         self.phase.setAlignment(Qt.AlignmentFlag.AlignCenter)
 
     def show_status(
-        self, status: PenetrationStatus, state: SessionState, why_not: Callable[[], str | None]
+        self,
+        status: PenetrationStatus,
+        state: SessionState,
+        find_arming_objection: Callable[[], str | None],
     ) -> str | None:
-        """Show a moment; return why the first button cannot act: ``why_not`` says it of arming."""
-        self._shown = phase = status.phase
-        against = None
-        if phase in UNDER_WAY:
-            running = tr("the penetration is running ({phase}); stop it first")
-            against = running.format(phase=spoken(phase))
-        elif arm_word(phase) == "Arm":
-            against = why_not()
-        self.arm.show_meaning(tr(arm_word(phase)))
-        allow(self.arm, against, tr(arm_tip(phase)))
-        self.button.setText(tr(button_word(phase)))
-        allow(self.button, against_button(status, state), tr(button_tip(phase)))
-        self.phase.setText(headline(status))
-        set_tone(self.phase, _HEADLINES.get(phase, Tone.BUSY))
-        return against
+        """Show the status. Return why the arm button cannot act, or None if it can.
+
+        ``find_arming_objection`` returns why arming is impossible, or None if it is possible.
+        """
+        self._shown_phase = phase = status.phase
+        objection = None
+        if phase in RUNNING_PHASES:
+            template = tr("the penetration is running ({phase}); stop it first")
+            objection = template.format(phase=translate_message(phase))
+        elif find_arm_text(phase) == "Arm":
+            objection = find_arming_objection()
+        self.arm.show_meaning(tr(find_arm_text(phase)))
+        enable_unless(self.arm, objection, tr(find_arm_tip(phase)))
+        self.main_button.setText(tr(find_button_text(phase)))
+        enable_unless(
+            self.main_button, find_button_objection(status, state), tr(find_button_tip(phase))
+        )
+        self.phase.setText(format_headline(status))
+        set_tone(self.phase, _HEADLINE_TONES.get(phase, StateTone.BUSY))
+        return objection
 
     def _ask_to_arm(self) -> None:
         raise NotImplementedError
 
-    def _arm(self) -> None:
-        penetration, word = self._operation.penetration, arm_word(self._shown)
-        if word != arm_word(penetration.status.phase):
-            self._report_change()  # it acts as it was labelled, or not at all
-        elif word == "Arm":
+    def _on_arm_pressed(self) -> None:
+        penetration, label = self._operation.penetration, find_arm_text(self._shown_phase)
+        if label != find_arm_text(penetration.status.phase):
+            # The phase changed just before the press.
+            self._report_change()
+        elif label == "Arm":
             self._ask_to_arm()
         else:
-            self._workbench.ask(penetration.disarm)
+            self._workbench.run_request(penetration.disarm)
 
-    def _press(self) -> None:
+    def _on_main_pressed(self) -> None:
         now_s = self._clock()
-        phase, since_s = self._operation.penetration.status.phase, now_s - self._pressed_s
-        self._pressed_s = now_s
-        if button_word(self._shown) != button_word(phase):
+        phase, since_s = self._operation.penetration.status.phase, now_s - self._last_press_s
+        self._last_press_s = now_s
+        if find_button_text(self._shown_phase) != find_button_text(phase):
             self._report_change()
-        elif counts(self._shown, phase, since_s):
-            self._workbench.ask(self._operation.press_penetration)
+        elif is_press_valid(self._shown_phase, phase, since_s):
+            self._workbench.run_request(self._operation.press_penetration)
 
     def _report_change(self) -> None:
         text = tr(
-            "Nothing was done: the penetration went on just before the press. Read the button, "
-            "then press again."
+            "Nothing was done: the penetration entered another phase just before you pressed. "
+            "Read the button, then press again."
         )
         self._workbench.notify(Level.WARNING, text, about=self)
 
 
 class RunBar(RunButtons):
-    """The buttons beside the strip of phases.
+    """Bar with the two buttons and the phases.
 
     Signals
     -------
-    arm_asked() : the parameters are to be armed.
-    prepare_asked() : the nano stage is to be moved back for them.
+    arm_asked() : the operator wants to arm the parameters.
+    prepare_asked() : the operator wants to move the nano stage back, to gain travel for them.
     """
 
     arm_asked = Signal()
@@ -136,27 +147,33 @@ class RunBar(RunButtons):
         self.prepare = QPushButton(tr("Prepare"))
         self.prepare.clicked.connect(lambda _: self.prepare_asked.emit())
         self.prepare.hide()
-        self.button.setObjectName("penetration")
-        self.button.setMinimumSize(140, 34)
-        widest = tr("armed, {left_s:.0f} s").format(left_s=600)
-        leave_room(self.phase, widest, beside=30)
-        self.strip = {one: _chip(spoken(one)) for one in STRIP}
-        parts = self.arm, self.prepare, self.button, self.phase
-        in_row(*parts, 1, *self.strip.values(), 1, on=self, margins=0, spacing=4)
+        self.main_button.setObjectName("penetration")
+        self.main_button.setMinimumSize(140, 34)
+        widest_text = tr("armed, {left_s:.0f} s").format(left_s=600)
+        reserve_width(self.phase, widest_text, extra_px=30)
+        self.strip = {phase: _make_chip(translate_message(phase)) for phase in STRIP_PHASES}
+        parts = self.arm, self.prepare, self.main_button, self.phase
+        make_row(*parts, 1, *self.strip.values(), 1, on=self, margins=0, spacing=4)
 
-    def refresh(self, status: PenetrationStatus, state: SessionState, why_not: str | None) -> None:
-        """Show a moment; ``why_not`` is why it cannot be armed now."""
-        self.show_status(status, state, lambda: None if why_not is None else spoken(why_not))
-        for chip, light in zip(self.strip.values(), lights(status), strict=True):
-            set_tone(chip, _TONES[light])
-            chip.setAccessibleDescription(spoken(light))
+    def refresh(
+        self, status: PenetrationStatus, state: SessionState, arming_objection: str | None
+    ) -> None:
+        """Show the status. ``arming_objection`` says why arming is impossible, or is None."""
+        self.show_status(
+            status,
+            state,
+            lambda: None if arming_objection is None else translate_message(arming_objection),
+        )
+        for chip, light in zip(self.strip.values(), find_lights(status), strict=True):
+            set_tone(chip, _LIGHT_TONES[light])
+            chip.setAccessibleDescription(translate_message(light))
 
-    def offer_preparing(self, lacks: bool, state: SessionState) -> None:
-        """Offer to move the nano stage back where the way ``lacks`` room."""
-        self.prepare.setVisible(lacks)
-        allow(
+    def offer_preparation(self, lacks_room: bool, state: SessionState) -> None:
+        """Offer to move the nano stage back if it lacks travel."""
+        self.prepare.setVisible(lacks_room)
+        enable_unless(
             self.prepare,
-            state.locked or in_motion(state),
+            state.lock_reason or find_rest_objection(state),
             tr("Move Z nano back as far as needed; Z compensates, so the tip stays in place"),
         )
 
@@ -164,9 +181,11 @@ class RunBar(RunButtons):
         self.arm_asked.emit()
 
 
-def _chip(text: str) -> QLabel:
-    chip = plain_text(text, quiet=False)
-    chip.setStyleSheet("padding: 1px 3px;")  # six of them in one row
-    chip.setMinimumWidth(16)  # in a narrow dock they are cut; the phase stands before them
+def _make_chip(text: str) -> QLabel:
+    chip = make_plain_label(text, quiet=False)
+    # Six chips share one row. A narrow dock cuts them off, but the phase on their left stays
+    # readable.
+    chip.setStyleSheet("padding: 1px 3px;")
+    chip.setMinimumWidth(16)
     chip.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
     return chip

@@ -1,30 +1,43 @@
-"""Text about a penetration, and the present function of its two buttons."""
+"""Texts about a penetration, and labels of its two buttons in each phase."""
 
 from enum import StrEnum
 
-from rotemina.app.motion.penetration.run_log import Verdict
-from rotemina.app.motion.penetration.status import UNDER_WAY, PenetrationStatus, Phase
+from rotemina.app.language import translate_message
+from rotemina.app.motion.penetration import (
+    RUNNING_PHASES,
+    PenetrationPhase,
+    PenetrationStatus,
+    PenetrationVerdict,
+)
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.engine_words import spoken
 from rotemina.plugins.penetration import mark, tr
-from rotemina.plugins.penetration.plan_preview import speed_text, way_text
+from rotemina.plugins.penetration.plan_preview import format_distance, format_speed
 
-#: The phases of the strip, in their order.
-STRIP = (Phase.APPROACH, Phase.CONTACT, Phase.THRUST, Phase.HOLD, Phase.INJECT, Phase.RETRACT)
-SETTLE_S = 0.5  # a second press in alarm must not stop the way back, nor begin one
-#: Phases in which the parameters are those of a run.
-FIXED = UNDER_WAY | {Phase.ARMED, Phase.HELD}
+#: The phases shown in the bar, in their order.
+STRIP_PHASES = (
+    PenetrationPhase.APPROACH,
+    PenetrationPhase.CONTACT,
+    PenetrationPhase.THRUST,
+    PenetrationPhase.HOLD,
+    PenetrationPhase.INJECT,
+    PenetrationPhase.RETRACT,
+)
+#: A second press within this time is ignored. An alarmed operator may press twice, and the second
+#: press must neither stop nor start a retraction.
+MIN_PRESS_INTERVAL_S = 0.5
+#: Phases in which the parameters belong to a run and cannot be changed.
+LOCKED_PHASES = RUNNING_PHASES | {PenetrationPhase.ARMED, PenetrationPhase.HELD}
 
-_DOING = {
-    Phase.APPROACH: mark("The tip approaches until it touches the membrane."),
-    Phase.CONTACT: mark("Contact. The tip rests on the membrane; the thrust follows."),
-    Phase.THRUST: mark("The device executes the thrust."),
-    Phase.HOLD: mark("The tip holds at its depth."),
-    Phase.INJECT: mark("The tool is on."),
-    Phase.HOLD_AFTER: mark("The tool is off; the tip holds at its depth."),
-    Phase.RETRACT: mark("The tip returns to its start."),
+_PHASE_SENTENCES = {
+    PenetrationPhase.APPROACH: mark("The tip approaches until it touches the membrane."),
+    PenetrationPhase.CONTACT: mark("Contact. The tip rests on the membrane; the thrust follows."),
+    PenetrationPhase.THRUST: mark("The device executes the thrust."),
+    PenetrationPhase.HOLD: mark("The tip holds at its depth."),
+    PenetrationPhase.INJECT: mark("The tool is on."),
+    PenetrationPhase.HOLD_AFTER: mark("The tool is off; the tip holds at its depth."),
+    PenetrationPhase.RETRACT: mark("The tip returns to its start."),
 }
-# What the buttons do, in English here: translated where it is shown.
+# Keys and texts are English here, and are translated where they are displayed.
 _BUTTON_TIPS = {
     mark("Hold"): mark("Stop the retraction; the tip stays in place"),
     mark("Retract"): mark("Return the tip to the start of the run"),
@@ -38,8 +51,8 @@ _ARM_TIPS = {
 }
 
 
-class Light(StrEnum):
-    """How a phase of the strip is lit."""
+class PhaseLight(StrEnum):
+    """Light of a phase in the bar."""
 
     OFF = "off"
     PASSED = "passed"
@@ -47,119 +60,143 @@ class Light(StrEnum):
     HELD = "held"
 
 
-def button_word(phase: Phase) -> str:
-    """Return what the one button does in a phase."""
-    if phase is Phase.RETRACT:
+def find_button_text(phase: PenetrationPhase) -> str:
+    """Return the English label of the main button in a phase."""
+    if phase is PenetrationPhase.RETRACT:
         return "Hold"
-    if phase is Phase.HELD:
+    if phase is PenetrationPhase.HELD:
         return "Retract"
-    return "Stop and retract" if phase in UNDER_WAY else "Start"
+    return "Stop and retract" if phase in RUNNING_PHASES else "Start"
 
 
-def button_tip(phase: Phase) -> str:
-    """Return what that means."""
-    return _BUTTON_TIPS[button_word(phase)]
+def find_button_tip(phase: PenetrationPhase) -> str:
+    """Return the English tooltip of the main button in a phase."""
+    return _BUTTON_TIPS[find_button_text(phase)]
 
 
-def against_button(status: PenetrationStatus, state: SessionState) -> str | None:
-    """Return why the button cannot act now; None: it can."""
-    if status.phase is Phase.HELD:
-        return state.locked
-    return None if status.phase in FIXED else tr("the penetration is not armed; arm it first")
+def find_button_objection(status: PenetrationStatus, state: SessionState) -> str | None:
+    """Return why the main button cannot act now, or None if it can."""
+    if status.phase is PenetrationPhase.HELD:
+        return state.lock_reason
+    return (
+        None if status.phase in LOCKED_PHASES else tr("the penetration is not armed; arm it first")
+    )
 
 
-def counts(shown: Phase, now: Phase, since_press_s: float) -> bool:
-    """Whether a press on the button is to act: as it was labelled, and not by a second click.
+def is_press_valid(
+    shown_phase: PenetrationPhase, phase: PenetrationPhase, since_press_s: float
+) -> bool:
+    """Return whether a press on the main button acts.
 
-    What stops a run always acts.
+    The label must still be right, and the press must not be the second of a double press. A press
+    that stops a run always acts.
     """
-    if button_word(shown) != button_word(now):
+    if find_button_text(shown_phase) != find_button_text(phase):
         return False
-    return button_word(now) == "Stop and retract" or since_press_s >= SETTLE_S
+    return find_button_text(phase) == "Stop and retract" or since_press_s >= MIN_PRESS_INTERVAL_S
 
 
-def arm_word(phase: Phase) -> str:
-    """Return what the other button does in a phase."""
-    return {Phase.ARMED: "Disarm", Phase.HELD: "Free the axes"}.get(phase, "Arm")
+def find_arm_text(phase: PenetrationPhase) -> str:
+    """Return the English label of the arm button in a phase."""
+    return {PenetrationPhase.ARMED: "Disarm", PenetrationPhase.HELD: "Free the axes"}.get(
+        phase, "Arm"
+    )
 
 
-def arm_tip(phase: Phase) -> str:
-    """Return what that means."""
-    return _ARM_TIPS[arm_word(phase)]
+def find_arm_tip(phase: PenetrationPhase) -> str:
+    """Return the English tooltip of the arm button in a phase."""
+    return _ARM_TIPS[find_arm_text(phase)]
 
 
-def lights(status: PenetrationStatus) -> tuple[Light, ...]:
-    """Return how each phase of the strip is lit."""
+def find_lights(status: PenetrationStatus) -> tuple[PhaseLight, ...]:
+    """Return the light of each phase in the bar."""
     phase = status.phase
-    if phase in UNDER_WAY:
-        present = Phase.HOLD if phase is Phase.HOLD_AFTER else phase
-        return tuple(Light.PRESENT if one is present else Light.OFF for one in STRIP)
+    if phase in RUNNING_PHASES:
+        current_phase = PenetrationPhase.HOLD if phase is PenetrationPhase.HOLD_AFTER else phase
+        return tuple(
+            PhaseLight.PRESENT if strip_phase is current_phase else PhaseLight.OFF
+            for strip_phase in STRIP_PHASES
+        )
     run = status.run
-    if run is None or phase in (Phase.DISARMED, Phase.ARMED):
-        return (Light.OFF,) * len(STRIP)
-    passed = [name for name, _ in run.phases]
-    last = next((one for one in reversed(passed) if one != str(Phase.HELD)), "")
-    last = str(Phase.HOLD) if last == str(Phase.HOLD_AFTER) else last
-    found = []
-    for one in STRIP:
-        light = Light.PASSED if str(one) in passed else Light.OFF
-        found.append(Light.HELD if phase is Phase.HELD and str(one) == last else light)
-    return tuple(found)
+    if run is None or phase in (PenetrationPhase.DISARMED, PenetrationPhase.ARMED):
+        return (PhaseLight.OFF,) * len(STRIP_PHASES)
+    passed_phases = [name for name, _ in run.phases]
+    last_phase = next(
+        (name for name in reversed(passed_phases) if name != str(PenetrationPhase.HELD)), ""
+    )
+    if last_phase == str(PenetrationPhase.HOLD_AFTER):
+        last_phase = str(PenetrationPhase.HOLD)
+    lights = []
+    for strip_phase in STRIP_PHASES:
+        light = PhaseLight.PASSED if str(strip_phase) in passed_phases else PhaseLight.OFF
+        lights.append(
+            PhaseLight.HELD
+            if phase is PenetrationPhase.HELD and str(strip_phase) == last_phase
+            else light
+        )
+    return tuple(lights)
 
 
-def headline(status: PenetrationStatus) -> str:
-    """Return the phase in a word or two, with the time that is left when armed."""
-    if status.phase is Phase.ARMED and status.armed_left_s is not None:
-        return tr("armed, {left_s:.0f} s").format(left_s=status.armed_left_s)
-    return spoken(status.phase)
+def format_headline(status: PenetrationStatus) -> str:
+    """Return the phase in a word or two. If armed, add the remaining time."""
+    if status.phase is PenetrationPhase.ARMED and status.armed_remaining_s is not None:
+        return tr("armed, {left_s:.0f} s").format(left_s=status.armed_remaining_s)
+    return translate_message(status.phase)
 
 
-def message(status: PenetrationStatus, why_not: str | None) -> str:
+def describe_status(status: PenetrationStatus, arming_objection: str | None) -> str:
     """Return the running phase, or the latest outcome and whether arming is possible."""
     phase = status.phase
-    if phase in UNDER_WAY:
-        return tr(_DOING[phase]) + (
-            tr(" Why: {reason}.").format(reason=spoken(status.reason)) if status.reason else ""
-        )
-    if phase is Phase.HELD:
-        return tr(
-            "Held: {reason}. The tip stays in place; press Retract to return it, or "
-            "Free the axes to move it manually."
-        ).format(reason=spoken(status.reason))
-    if phase is Phase.ARMED:
-        return tr("Armed: all axes are reserved. Nothing moves until you press Start.")
-    came = _came_of(status)
-    may = (
-        tr("Ready to arm.")
-        if why_not is None
-        else tr("Cannot be armed now: {why_not}").format(why_not=_stopped(spoken(why_not)))
-    )
-    return f"{came} {may}".lstrip()
-
-
-def _came_of(status: PenetrationStatus) -> str:
-    run = status.run
-    if status.phase is Phase.DISARMED or run is None:
-        return (
-            tr("Disarmed: {reason}").format(reason=_stopped(spoken(status.reason)))
+    if phase in RUNNING_PHASES:
+        return tr(_PHASE_SENTENCES[phase]) + (
+            tr(" Reason: {reason}.").format(reason=translate_message(status.reason))
             if status.reason
             else ""
         )
-    if run.verdict is Verdict.DONE and run.thrust is not None:
+    if phase is PenetrationPhase.HELD:
+        return tr(
+            "Held: {reason}. The tip stays in place; press Retract to return it, or "
+            "Free the axes to move it manually."
+        ).format(reason=translate_message(status.reason))
+    if phase is PenetrationPhase.ARMED:
+        return tr("Armed: all axes are reserved. Nothing moves until you press Start.")
+    outcome = _describe_outcome(status)
+    readiness = (
+        tr("Ready to arm.")
+        if arming_objection is None
+        else tr("Cannot be armed now: {why_not}").format(
+            why_not=_end_with_full_stop(translate_message(arming_objection))
+        )
+    )
+    return f"{outcome} {readiness}".lstrip()
+
+
+def _describe_outcome(status: PenetrationStatus) -> str:
+    run = status.run
+    if status.phase is PenetrationPhase.DISARMED or run is None:
+        return (
+            tr("Disarmed: {reason}").format(
+                reason=_end_with_full_stop(translate_message(status.reason))
+            )
+            if status.reason
+            else ""
+        )
+    if run.verdict is PenetrationVerdict.DONE and run.thrust is not None:
         thrust = run.thrust
         return tr(
             "Done: depth {depth}, maximum speed {speed}, error {error} from the profile."
         ).format(
-            depth=way_text(thrust.depth),
-            speed=speed_text(thrust.peak_speed),
-            error=way_text(thrust.error),
+            depth=format_distance(thrust.depth),
+            speed=format_speed(thrust.peak_speed),
+            error=format_distance(thrust.error),
         )
-    verdict = spoken(run.verdict)
+    verdict = translate_message(run.verdict)
     return tr("{verdict}: {reason} The tip is retracted.").format(
-        verdict=verdict[:1].upper() + verdict[1:], reason=_stopped(spoken(run.reason))
+        verdict=verdict[:1].upper() + verdict[1:],
+        reason=_end_with_full_stop(translate_message(run.reason)),
     )
 
 
-def _stopped(sentence: str) -> str:
-    said = spoken(sentence)
-    return said if said.endswith(".") else f"{said}."
+def _end_with_full_stop(sentence: str) -> str:
+    translated = translate_message(sentence)
+    return translated if translated.endswith(".") else f"{translated}."

@@ -1,8 +1,9 @@
-"""The holding plate in 3-D.
+"""Panel with the holding plate in 3-D: stress, deformation and modes.
 
-Stress, deformation and modes over the range of motion.
+``background_solution`` solves a plate, and ``rasteriser`` draws it without OpenGL. The finite
+elements are in ``sim/plate``.
 """
 
-from rotemina.app.shell.language import texts_of
+from rotemina.app.language import make_text_functions
 
-tr, mark = texts_of("plate")
+tr, mark = make_text_functions("plate")

@@ -1,24 +1,24 @@
-"""Solution of a plate in the background."""
+"""Solver of a plate in the background."""
 
 from PySide6.QtCore import QObject, Signal
 
-from rotemina.app.shell.background_job import Job, Tell
+from rotemina.app.workbench import BackgroundJob, ReportProgress
 from rotemina.plugins.plate import mark
 from rotemina.plugins.plate.coloured_quantities import QUANTITIES
-from rotemina.plugins.plate.solution import Solved, solved
-from rotemina.plugins.plate.surface_drawing import View, drawn
-from rotemina.plugins.plate.surface_picture import static_picture
-from rotemina.sim.robot.model import Robot
+from rotemina.plugins.plate.solution import SolvedPlate, solve_plate
+from rotemina.plugins.plate.surface_drawing import OrbitView, draw_surface
+from rotemina.plugins.plate.surface_picture import make_static_picture
+from rotemina.sim.robot import Robot
 
 
-class Solving(QObject):
-    """Solves one plate at a time; an end is requested between its stages.
+class BackgroundPlateSolver(QObject):
+    """Solver of one plate at a time. A stop takes effect at the end of a stage.
 
     Signals
     -------
-    progressed(str) : the stage that runs now.
-    finished(Solved)
-    failed(str)
+    progressed(str) : name of the stage that has begun.
+    finished(SolvedPlate) : the solution.
+    failed(str) : message of the error.
     """
 
     progressed = Signal(str)
@@ -27,40 +27,39 @@ class Solving(QObject):
 
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
-        self._job = Job(self)
-        self._job.told.connect(self._tell)
+        self._job = BackgroundJob(self)
+        self._job.progressed.connect(self._on_progress)
         self._job.finished.connect(self.finished)
         self._job.failed.connect(self.failed)
 
     @property
     def running(self) -> bool:
-        """Whether an answer is awaited."""
+        """Whether a plate is being solved."""
         return self._job.running
 
     def start(self, robot: Robot, divisions: int) -> None:
-        """Solve a robot's plate; what ran before is stopped."""
+        """Solve the plate of a robot. A computation that is still running is stopped."""
 
-        def work(tell: Tell) -> Solved:
-            def stage(name: str) -> None:
-                tell(name, 0.0, None)
+        def work(report: ReportProgress) -> SolvedPlate:
+            def report_stage(name: str) -> None:
+                report(name, 0.0, None)
 
-            answer = solved(robot, divisions, stage)
-            stage(mark("drawing"))
-            # The first time this loads or compiles the loop over pixels: not on the window's
-            # thread.
-            picture = static_picture(answer, answer.ranges[:, 1], QUANTITIES[0], 1.0)
-            drawn(picture.surface, View(), (8, 8), (0, 0, 0), (0, 0, 0), None)
-            return answer
+            solved = solve_plate(robot, divisions, report_stage)
+            report_stage(mark("drawing"))
+            # The first drawing compiles the rasteriser, which would block the window.
+            picture = make_static_picture(solved, solved.ranges[:, 1], QUANTITIES[0], 1.0)
+            draw_surface(picture.surface, OrbitView(), (8, 8), (0, 0, 0), (0, 0, 0), None)
+            return solved
 
         self._job.start(work)
 
     def stop(self) -> None:
-        """Discard the answer without waiting for the thread."""
+        """Stop, without waiting for the thread."""
         self._job.stop()
 
     def close(self) -> None:
-        """Stop, and wait until the thread is free."""
+        """Stop, and wait until the thread has ended."""
         self._job.close()
 
-    def _tell(self, stage: str, _share: float, _news: object) -> None:
+    def _on_progress(self, stage: str, _share: float, _report: object) -> None:
         self.progressed.emit(stage)

@@ -1,4 +1,4 @@
-"""The drawing of the plate: drag to rotate, wheel to zoom, with a colour bar."""
+"""Widget that draws the plate with a colour bar; drag to rotate, wheel to zoom."""
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
@@ -14,68 +14,71 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from rotemina.app.shell.theme import Theme
+from rotemina.app.widgets.style import Theme
 from rotemina.plugins.plate import mark, tr
-from rotemina.plugins.plate.surface_drawing import View, colours, drawn
-from rotemina.plugins.plate.surface_picture import Picture
-from rotemina.sim.quantities import rounded
+from rotemina.plugins.plate.surface_drawing import OrbitView, draw_surface, make_colour_table
+from rotemina.plugins.plate.surface_picture import PlatePicture
+from rotemina.sim.messages import format_rounded
 
 _DEGREES_PER_PIXEL = 0.5
-_KEY_DEGREES = 5.0
+_DEGREES_PER_KEY = 5.0
 _ZOOM_PER_STEP = 1.15
-_TURNS = {
-    Qt.Key.Key_Left: (-_KEY_DEGREES, 0.0),
-    Qt.Key.Key_Right: (_KEY_DEGREES, 0.0),
-    Qt.Key.Key_Up: (0.0, -_KEY_DEGREES),
-    Qt.Key.Key_Down: (0.0, _KEY_DEGREES),
+_KEY_ROTATIONS = {
+    Qt.Key.Key_Left: (-_DEGREES_PER_KEY, 0.0),
+    Qt.Key.Key_Right: (_DEGREES_PER_KEY, 0.0),
+    Qt.Key.Key_Up: (0.0, -_DEGREES_PER_KEY),
+    Qt.Key.Key_Down: (0.0, _DEGREES_PER_KEY),
 }
-_ZOOMS = {Qt.Key.Key_Plus: _ZOOM_PER_STEP, Qt.Key.Key_Minus: 1.0 / _ZOOM_PER_STEP}
-_BAR_WIDTH = 14
-_STOPS = 16
-_BAR_ROOM = 92  # on the right, for the bar and its numbers
-TIP = mark("Drag to rotate, use the wheel to zoom, double-click to reset; also arrow keys, + and −")
+_KEY_ZOOMS = {Qt.Key.Key_Plus: _ZOOM_PER_STEP, Qt.Key.Key_Minus: 1.0 / _ZOOM_PER_STEP}
+_BAR_WIDTH_PX = 14
+_GRADIENT_STOP_COUNT = 16
+
+# Width of the space at the right for the colour bar and its numbers.
+_BAR_SPACE_PX = 92
+
+CANVAS_TIP = mark(
+    "Drag to rotate, use the wheel to zoom, double-click to reset; also arrow keys, + and −"
+)
 
 
-class Canvas(QWidget):
-    """A picture in 3-D without OpenGL."""
+class PlateCanvas(QWidget):
+    """Widget that shows a picture in 3-D without OpenGL."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
-        self.view = View()
-        self.picture: Picture | None = None
+        self.view = OrbitView()
+        self.picture: PlatePicture | None = None
         self.with_mesh = False
         self.hint = ""
         self._theme = theme
-        self._grabbed: QPointF | None = None
+        self._drag_position: QPointF | None = None
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setMinimumSize(260, 180)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setAccessibleName(tr("The plate in 3-D"))
-        self.setToolTip(tr(TIP))
+        self.setToolTip(tr(CANVAS_TIP))
 
     def set_theme(self, theme: Theme) -> None:
-        """Draw in other colours."""
+        """Change all colours."""
         self._theme = theme
         self.update()
 
-    def show_picture(self, picture: Picture | None, hint: str = "") -> None:
-        """Draw another picture, or words in its place."""
+    def show_picture(self, picture: PlatePicture | None, hint: str = "") -> None:
+        """Draw another picture, or the hint if ``picture`` is None."""
         self.picture, self.hint = picture, hint
         self.update()
 
     def show_mesh(self, with_mesh: bool) -> None:
-        """Draw the mesh's lines, or leave them out."""
+        """Draw the lines of the mesh, or hide them."""
         self.with_mesh = with_mesh
         self.update()
 
     def sizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
-        """Ask for a size at which a plate can be seen."""
+        """Return a size at which the plate is well visible."""
         return QSize(520, 300)
 
-    # --- drawing ----------------------------------------------------------------------------------
-
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
-        """Draw the picture and its bar."""
+        """Draw the picture and its colour bar, or the hint."""
         painter = QPainter(self)
         painter.fillRect(self.rect(), QColor(self._theme.surface))
         painter.setPen(QColor(self._theme.quiet))
@@ -86,85 +89,86 @@ class Canvas(QWidget):
             self._draw(painter, self.picture)
         painter.end()
 
-    def _draw(self, painter: QPainter, picture: Picture) -> None:
+    def _draw(self, painter: QPainter, picture: PlatePicture) -> None:
         ratio = self.devicePixelRatioF()
-        width, height = max(self.width() - _BAR_ROOM, 1), self.height()
+        width, height = max(self.width() - _BAR_SPACE_PX, 1), self.height()
         size = max(round(width * ratio), 1), max(round(height * ratio), 1)
         theme = self._theme
-        image = drawn(
+        image = draw_surface(
             picture.surface,
             self.view,
             size,
-            _rgb(theme.surface),
-            _rgb(theme.command),
-            _rgb(theme.line) if self.with_mesh else None,
+            _to_rgb(theme.surface),
+            _to_rgb(theme.command),
+            _to_rgb(theme.line) if self.with_mesh else None,
         )
-        painter.drawImage(QRectF(0, 0, width, height), _as_image(image))
+        painter.drawImage(QRectF(0, 0, width, height), _to_image(image))
         self._draw_bar(painter, picture)
 
-    def _draw_bar(self, painter: QPainter, picture: Picture) -> None:
-        left, top = self.width() - _BAR_ROOM + 6, 30
+    def _draw_bar(self, painter: QPainter, picture: PlatePicture) -> None:
+        left, top = self.width() - _BAR_SPACE_PX + 6, 30
         bottom = self.height() - 14
         bar = QLinearGradient(left, bottom, left, top)
-        for share in np.linspace(0.0, 1.0, _STOPS):
-            bar.setColorAt(share, QColor(*colours()[round(share * 255)].tolist()))
-        painter.fillRect(QRectF(left, top, _BAR_WIDTH, bottom - top), bar)
+        for fraction in np.linspace(0.0, 1.0, _GRADIENT_STOP_COUNT):
+            bar.setColorAt(fraction, QColor(*make_colour_table()[round(fraction * 255)].tolist()))
+        painter.fillRect(QRectF(left, top, _BAR_WIDTH_PX, bottom - top), bar)
         painter.setPen(QColor(self._theme.text))
         painter.drawText(QPointF(left, 18), picture.unit or tr("relative"))
-        for share in (0.0, 0.25, 0.5, 0.75, 1.0):
-            value = picture.low + share * (picture.high - picture.low)
-            y = bottom - share * (bottom - top) + 5
-            painter.drawText(QPointF(left + _BAR_WIDTH + 5, y), rounded(value, 3))
-
-    # --- turning ----------------------------------------------------------------------------------
+        for fraction in (0.0, 0.25, 0.5, 0.75, 1.0):
+            value = picture.low + fraction * (picture.high - picture.low)
+            y = bottom - fraction * (bottom - top) + 5
+            painter.drawText(QPointF(left + _BAR_WIDTH_PX + 5, y), format_rounded(value, 3))
 
     def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
-        """Begin to turn."""
-        self._grabbed = event.position()
+        """Start a rotation."""
+        self._drag_position = event.position()
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
-        """Turn."""
-        if self._grabbed is not None:
-            moved = event.position() - self._grabbed
-            self._grabbed = event.position()
-            self._look(
-                self.view.turned(_DEGREES_PER_PIXEL * moved.x(), _DEGREES_PER_PIXEL * moved.y())
+        """Rotate the view."""
+        if self._drag_position is not None:
+            distance = event.position() - self._drag_position
+            self._drag_position = event.position()
+            self._set_view(
+                self.view.with_rotation(
+                    _DEGREES_PER_PIXEL * distance.x(), _DEGREES_PER_PIXEL * distance.y()
+                )
             )
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
-        """Leave it as it is."""
-        self._grabbed = None
+        """End the rotation."""
+        self._drag_position = None
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
-        """Show it as at first."""
-        self._look(View())
+        """Reset the view."""
+        self._set_view(OrbitView())
 
     def wheelEvent(self, event: QWheelEvent) -> None:  # noqa: N802 (Qt's name)
-        """Zoom."""
-        self._look(self.view.zoomed(_ZOOM_PER_STEP ** (event.angleDelta().y() / 120.0)))
+        """Zoom the view."""
+        self._set_view(self.view.with_zoom(_ZOOM_PER_STEP ** (event.angleDelta().y() / 120.0)))
         event.accept()
 
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
-        """Turn and zoom by keys."""
+        """Rotate with the arrow keys, zoom with + and −."""
         key = Qt.Key(event.key())
-        if key in _TURNS:
-            self._look(self.view.turned(*_TURNS[key]))
-        elif key in _ZOOMS:
-            self._look(self.view.zoomed(_ZOOMS[key]))
+        if key in _KEY_ROTATIONS:
+            self._set_view(self.view.with_rotation(*_KEY_ROTATIONS[key]))
+        elif key in _KEY_ZOOMS:
+            self._set_view(self.view.with_zoom(_KEY_ZOOMS[key]))
         else:
             super().keyPressEvent(event)
 
-    def _look(self, view: View) -> None:
+    def _set_view(self, view: OrbitView) -> None:
         self.view = view
         self.update()
 
 
-def _rgb(colour: str) -> tuple[int, int, int]:
-    one = QColor(colour)
-    return one.red(), one.green(), one.blue()
+def _to_rgb(colour: str) -> tuple[int, int, int]:
+    q_colour = QColor(colour)
+    return q_colour.red(), q_colour.green(), q_colour.blue()
 
 
-def _as_image(pixels: np.ndarray) -> QImage:
+def _to_image(pixels: np.ndarray) -> QImage:
     height, width, _ = pixels.shape
     image = QImage(pixels.data, width, height, 4 * width, QImage.Format.Format_RGB32)
-    return image.copy()  # the array goes when it is drawn
+    # The image uses the memory of the array, which is freed after this call.
+    return image.copy()

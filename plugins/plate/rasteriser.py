@@ -4,12 +4,15 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-_ONE, _TINY, _NONE = np.float32(1.0), np.float32(1e-9), np.float32(-1e9)
-_OUT = np.float32(-5e-3)  # rounding must leave no gaps between neighbours
+_ONE, _TINY, _NO_LINE_PX = np.float32(1.0), np.float32(1e-9), np.float32(-1e9)
+
+# A pixel belongs to a triangle if its three barycentric coordinates exceed this. With zero,
+# rounding would leave gaps between adjacent triangles.
+_MIN_BARYCENTRIC = np.float32(-5e-3)
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
-def fill(
+def fill_triangles(
     image: NDArray[np.uint32],
     depth: NDArray[np.float32],
     pixels: NDArray[np.float32],
@@ -17,26 +20,27 @@ def fill(
     colours: NDArray[np.uint32],
     line: np.uint32,
     line_width: np.float32,
-    lined: int,
+    lined_count: int,
 ) -> None:
-    """Fill triangles where they are nearer than what is there.
+    """Draw triangles into an image, where they are nearer than its content.
 
     Parameters
     ----------
     image : (height, width) array of colours
-        Written.
+        Changed in place.
     depth : (height, width) array
-        How near each pixel is, written; larger is nearer.
+        Nearness of each pixel, changed in place. A larger value is nearer.
     pixels : (3, n) array
-        Right, down, near of the points.
+        Position of the points to the right and down in pixels, and their nearness.
     triangles : (3, t) array
+        Indices of the corners.
     colours : (t,) array
     line : colour
-        Of the triangles' sides.
+        Colour of the sides of the triangles.
     line_width : float
-        Pixels, of which each triangle draws half.
-    lined : int
-        So many of the triangles, the first ones, have lines at their sides.
+        Width of the lines in pixels. Each of two adjacent triangles draws half of it.
+    lined_count : int
+        Number of triangles, from the first one, whose sides are drawn.
     """
     height, width = depth.shape
     for t in range(triangles.shape[1]):
@@ -49,27 +53,32 @@ def fill(
             continue
         first_x, last_x = max(0, int(min(ax, bx, cx))), min(width - 1, int(max(ax, bx, cx)) + 1)
         first_y, last_y = max(0, int(min(ay, by, cy))), min(height - 1, int(max(ay, by, cy)) + 1)
-        half_line = np.float32(0.5) * line_width if t < lined else _NONE
-        share = _ONE / area
-        # The shares u, v, w of the corners are linear: one addition from pixel to pixel.
-        u_x, v_x = (by - cy) * share, (cy - ay) * share
-        # Distance in pixels of a side that lies opposite a corner, per share of that corner.
+        half_line = np.float32(0.5) * line_width if t < lined_count else _NO_LINE_PX
+        inverse_area = _ONE / area
+        # The barycentric coordinates u, v, w are linear in x, so one addition per pixel is enough.
+        u_x, v_x = (by - cy) * inverse_area, (cy - ay) * inverse_area
+        # Heights of the triangle in pixels. The barycentric coordinate of a corner times its height
+        # is the distance from the opposite side.
         ha = abs(area) / max(np.hypot(cx - bx, cy - by), _TINY)
         hb = abs(area) / max(np.hypot(ax - cx, ay - cy), _TINY)
         hc = abs(area) / max(np.hypot(bx - ax, by - ay), _TINY)
         for y in range(first_y, last_y + 1):
-            down = np.float32(y)
-            right = np.float32(first_x)
-            u = ((bx - right) * (cy - down) - (by - down) * (cx - right)) * share - u_x
-            v = ((cx - right) * (ay - down) - (cy - down) * (ax - right)) * share - v_x
+            pixel_y = np.float32(y)
+            pixel_x = np.float32(first_x)
+            u = (
+                (bx - pixel_x) * (cy - pixel_y) - (by - pixel_y) * (cx - pixel_x)
+            ) * inverse_area - u_x
+            v = (
+                (cx - pixel_x) * (ay - pixel_y) - (cy - pixel_y) * (ax - pixel_x)
+            ) * inverse_area - v_x
             for x in range(first_x, last_x + 1):
                 u += u_x
                 v += v_x
                 w = _ONE - u - v
-                if u < _OUT or v < _OUT or w < _OUT:
+                if u < _MIN_BARYCENTRIC or v < _MIN_BARYCENTRIC or w < _MIN_BARYCENTRIC:
                     continue
-                near = u * az + v * bz + w * cz
-                if near > depth[y, x]:
-                    depth[y, x] = near
-                    on_side = min(u * ha, v * hb, w * hc) < half_line
-                    image[y, x] = line if on_side else colours[t]
+                nearness = u * az + v * bz + w * cz
+                if nearness > depth[y, x]:
+                    depth[y, x] = nearness
+                    is_on_side = min(u * ha, v * hb, w * hc) < half_line
+                    image[y, x] = line if is_on_side else colours[t]

@@ -1,4 +1,4 @@
-"""A solved plate, with data for drawing."""
+"""Solution of a plate, with the quantities that the drawing needs."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -7,43 +7,52 @@ from itertools import product
 import numpy as np
 
 from rotemina.plugins.plate import mark
-from rotemina.plugins.plate.coloured_quantities import largest_values
+from rotemina.plugins.plate.coloured_quantities import find_largest_values
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.plate.mesh import PlateMesh
-from rotemina.sim.plate.modes import Modes, eigenmodes
-from rotemina.sim.plate.pin import pin_length
-from rotemina.sim.plate.statics import UnitSolutions, hold, solve
-from rotemina.sim.plate.stress import Safety, least_safety, motion_ranges
-from rotemina.sim.robot.model import Robot
+from rotemina.sim.plate import (
+    PlateMesh,
+    PlateModes,
+    UnitSolutions,
+    YieldSafety,
+    clamp_plate,
+    compute_eigenmodes,
+    find_min_safety,
+    motion_ranges,
+    pin_length,
+    solve_unit_motions,
+)
+from rotemina.sim.robot import Robot
 
-MODES = 10
+MODE_COUNT = 10
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Solved:
-    """A solved plate: unit solutions, modes, and the range of motion of its hub.
+class SolvedPlate:
+    """Solved plate: unit solutions, modes, and the range of motion (3, 2) of its hub.
 
-    ``hub_lid`` are triangles that close the hub, with the point after the mesh's last one in its
-    middle. ``largest`` is the largest size of each quantity that can be shown, SI.
+    ``lowest_safety`` is the lowest safety against yield over the range of motion. ``hub_lid``
+    contains the triangles (3, t) that close the hub. Their common corner is the centre of the hub,
+    whose index follows the last point of the mesh.
+    ``largest`` has the largest absolute value of each quantity, SI.
     """
 
     solutions: UnitSolutions
-    modes: Modes
+    modes: PlateModes
     ranges: FloatArray
-    least: Safety
+    lowest_safety: YieldSafety
     pin_length_m: float
     hub_lid: np.ndarray
     largest: tuple[float, ...]
 
     @property
     def mesh(self) -> PlateMesh:
-        """The plate's mesh."""
-        return self.solutions.held.mesh
+        """Mesh of the plate."""
+        return self.solutions.clamped.mesh
 
     @property
     def radius(self) -> float:
         """Radius of the rim, m."""
-        return self.solutions.held.plate.rim_radius
+        return self.solutions.clamped.plate.rim_radius
 
     @property
     def largest_deflection(self) -> float:
@@ -51,36 +60,39 @@ class Solved:
         return self.largest[-1]
 
 
-def solved(robot: Robot, divisions: int, stage: Callable[[str], None]) -> Solved:
-    """Solve a robot's plate; ``stage`` is told what comes next (a marked text), and may raise.
+def solve_plate(robot: Robot, divisions: int, report_stage: Callable[[str], None]) -> SolvedPlate:
+    """Solve the plate of a robot.
+
+    ``report_stage`` is called with the name of the next stage, a marked text. An exception that it
+    raises stops the solution.
 
     Raises
     ------
     PlateError
-        If the plate cannot be computed, or the robot does not have the axes that it carries.
+        If the plate cannot be computed, or the robot lacks the axes that the plate carries.
     """
     ranges, length = motion_ranges(robot), pin_length(robot)
-    stage(mark("meshing"))
-    held = hold(robot.plate, divisions)
-    stage(mark("solving"))
-    solutions = solve(held)
-    stage(mark("modes"))
-    modes = eigenmodes(held, length, MODES)
-    stage(mark("range of motion"))
-    return Solved(
+    report_stage(mark("meshing"))
+    clamped_plate = clamp_plate(robot.plate, divisions)
+    report_stage(mark("solving"))
+    solutions = solve_unit_motions(clamped_plate)
+    report_stage(mark("modes"))
+    modes = compute_eigenmodes(clamped_plate, length, MODE_COUNT)
+    report_stage(mark("range of motion"))
+    return SolvedPlate(
         solutions=solutions,
         modes=modes,
         ranges=ranges,
-        least=least_safety(solutions, ranges),
+        lowest_safety=find_min_safety(solutions, ranges),
         pin_length_m=length,
-        hub_lid=_lid(held.mesh),
-        largest=largest_values(solutions, np.array(list(product(*ranges)))),
+        hub_lid=_make_hub_lid(clamped_plate.mesh),
+        largest=find_largest_values(solutions, np.array(list(product(*ranges)))),
     )
 
 
-def _lid(mesh: PlateMesh) -> np.ndarray:
-    """Return triangles from the hub's circle to a point after the last one, its middle."""
-    around = np.flatnonzero(mesh.hub)
-    around = around[np.argsort(np.arctan2(*mesh.points[::-1, around]))]
-    middle = np.full(around.size, mesh.points.shape[1])
-    return np.stack([middle, around, np.roll(around, -1)])
+def _make_hub_lid(mesh: PlateMesh) -> np.ndarray:
+    """Return triangles from the circle of the hub to its centre, a point after the mesh points."""
+    circle = np.flatnonzero(mesh.hub)
+    circle = circle[np.argsort(np.arctan2(*mesh.points[::-1, circle]))]
+    centre = np.full(circle.size, mesh.points.shape[1])
+    return np.stack([centre, circle, np.roll(circle, -1)])

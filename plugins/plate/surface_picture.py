@@ -1,88 +1,97 @@
-"""The plate as a coloured surface, with its hub moved or vibrating in a mode."""
+"""The plate as a coloured surface, with a moved hub or vibrating in a mode."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
 from rotemina.plugins.plate import tr
-from rotemina.plugins.plate.coloured_quantities import QUANTITIES, Quantity
-from rotemina.plugins.plate.solution import Solved
-from rotemina.plugins.plate.surface_drawing import Surface
+from rotemina.plugins.plate.coloured_quantities import QUANTITIES, ColouredQuantity
+from rotemina.plugins.plate.solution import SolvedPlate
+from rotemina.plugins.plate.surface_drawing import ColouredSurface
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.plate.stress import deflection
+from rotemina.sim.plate import deflection
 
-_HEIGHT = 0.25  # of the rim's radius is the largest deflection drawn at scale 1
+# At scale 1, the largest deflection is drawn with this height, relative to the radius of the rim.
+_DRAWN_DEFLECTION_RATIO = 0.25
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Picture:
-    """A surface with the ends of its colour scale in the quantity's unit."""
+class PlatePicture:
+    """Surface with a title and a colour scale from ``low`` to ``high``, in ``unit``.
 
-    surface: Surface
+    ``magnification`` is the ratio of the drawn to the real deflection.
+    """
+
+    surface: ColouredSurface
     title: str
     unit: str
     low: float
     high: float
-    magnified: float  # how many times the deflection is drawn larger than it is
+    magnification: float
 
 
-def static_picture(solved: Solved, pose: FloatArray, quantity: Quantity, scale: float) -> Picture:
-    """Return the plate with its hub moved; ``scale`` 1 draws the range of motion well visible.
+def make_static_picture(
+    solved: SolvedPlate, pose: FloatArray, quantity: ColouredQuantity, scale: float
+) -> PlatePicture:
+    """Return the plate with a moved hub. At ``scale`` 1 the range of motion is clearly visible.
 
-    The ends of the colour scale are those of the whole range of motion: a colour means the same
-    wherever the hub is.
+    The colour scale covers the whole range of motion, so a colour has the same meaning at every
+    pose.
     """
     largest = solved.largest[QUANTITIES.index(quantity)]
-    low = -largest if quantity.signed else 0.0
-    magnified = scale * _HEIGHT * solved.radius / solved.largest_deflection
-    surface = _surface(
+    low = -largest if quantity.is_signed else 0.0
+    magnification = scale * _DRAWN_DEFLECTION_RATIO * solved.radius / solved.largest_deflection
+    surface = _make_surface(
         solved,
-        deflection(solved.solutions, pose) * magnified,
-        quantity.at(solved.solutions, pose),
+        deflection(solved.solutions, pose) * magnification,
+        quantity.compute(solved.solutions, pose),
         (low, largest),
-        pose * magnified,
+        pose * magnification,
     )
-    factor = quantity.per_si
-    title = tr(quantity.title)
-    return Picture(surface, title, quantity.unit, low * factor, largest * factor, magnified)
+    per_si = quantity.per_si
+    return PlatePicture(
+        surface, tr(quantity.title), quantity.unit, low * per_si, largest * per_si, magnification
+    )
 
 
-def mode_picture(solved: Solved, number: int, phase: float, scale: float) -> Picture:
-    """Return a mode at a phase (rad) of its vibration; its size means nothing."""
-    shape = solved.modes.deflection[number]
-    swing = np.sin(phase)
-    size = scale * _HEIGHT * solved.radius
-    hub = solved.modes.hub[number] * swing * size
-    surface = _surface(solved, shape * swing * size, shape * swing, (-1.0, 1.0), hub)
-    frequency = solved.modes.frequencies_hz[number]
+def make_mode_picture(solved: SolvedPlate, index: int, phase: float, scale: float) -> PlatePicture:
+    """Return a mode at a phase (rad) of its vibration. The amplitude is arbitrary."""
+    shape = solved.modes.deflection[index]
+    phase_factor = np.sin(phase)
+    amplitude = scale * _DRAWN_DEFLECTION_RATIO * solved.radius
+    hub = solved.modes.hub[index] * phase_factor * amplitude
+    surface = _make_surface(
+        solved, shape * phase_factor * amplitude, shape * phase_factor, (-1.0, 1.0), hub
+    )
+    frequency = solved.modes.frequencies_hz[index]
     title = tr("Mode {number}, {frequency:.0f} Hz")
-    title = title.format(number=number + 1, frequency=frequency)
-    return Picture(surface, title, "", -1.0, 1.0, 1.0)
+    title = title.format(number=index + 1, frequency=frequency)
+    return PlatePicture(surface, title, "", -1.0, 1.0, 1.0)
 
 
-def _surface(
-    solved: Solved,
+def _make_surface(
+    solved: SolvedPlate,
     height: FloatArray,
     values: FloatArray,
-    ends: tuple[float, float],
+    value_range: tuple[float, float],
     hub: FloatArray,
-) -> Surface:
-    low, high = ends
+) -> ColouredSurface:
+    low, high = value_range
     span = high - low if high > low else 1.0
     triangles = solved.mesh.triangles
-    coloured = (values[triangles].mean(axis=0) - low) / span
+    colour_values = (values[triangles].mean(axis=0) - low) / span
     plane = np.concatenate([solved.mesh.points, np.zeros((2, 1))], axis=1)
     zn, thx, thy = hub
     points = np.concatenate([plane, [np.append(height, zn)]])
     lid = solved.hub_lid
-    # The pin stands on the hub, drawn as much steeper as the plate is drawn higher.
+    # The pin is fixed to the hub. Its tilt is magnified like the deflection of the plate.
     length = min(solved.pin_length_m, 2.0 * solved.radius)
-    tip = [-thy * length, thx * length, zn - length]
-    return Surface(
+    pin_end = [-thy * length, thx * length, zn - length]
+    return ColouredSurface(
         points=points,
         triangles=np.concatenate([triangles, lid], axis=1),
-        values=np.append(coloured, np.full(lid.shape[1], np.nan)),
+        values=np.append(colour_values, np.full(lid.shape[1], np.nan)),
         radius=solved.radius,
-        rod=np.array([[0.0, tip[0]], [0.0, tip[1]], [zn, tip[2]]]),
-        rod_radius=solved.solutions.held.plate.pin.diameter / 2.0,
+        pin_axis=np.array([[0.0, pin_end[0]], [0.0, pin_end[1]], [zn, pin_end[2]]]),
+        pin_radius=solved.solutions.clamped.plate.pin.diameter / 2.0,
     )

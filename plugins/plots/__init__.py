@@ -1,8 +1,9 @@
-"""Live plots of each axis.
+"""The Plots panel: live plots of command, model and measurement of each axis.
 
-Command, model and measurement over time.
+``plot_grid`` arranges the plots, and ``axis_plot`` is one of them. A second run can be drawn over
+the first (``overlay_…``). The plot widget for all panels is in ``app/widgets/drawing``.
 """
 
-from rotemina.app.shell.language import texts_of
+from rotemina.app.language import make_text_functions
 
-tr, mark = texts_of("plots")
+tr, mark = make_text_functions("plots")

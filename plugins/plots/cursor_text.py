@@ -1,4 +1,4 @@
-"""Values of two cursors: positions, differences, and their inverse."""
+"""Texts about two cursors: positions, differences, and the inverse of a difference."""
 
 from enum import StrEnum
 from typing import NamedTuple
@@ -7,11 +7,11 @@ import numpy as np
 
 from rotemina.plugins.plots import tr
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.quantities import rounded
+from rotemina.sim.messages import format_rounded
 
 
-class Shown(StrEnum):
-    """What the plots draw."""
+class PlotKind(StrEnum):
+    """Kind of plot: position or gap over time, loop over the command, or spectrum."""
 
     POSITION = "position"
     GAP = "gap"
@@ -19,42 +19,50 @@ class Shown(StrEnum):
     SPECTRUM = "spectrum"
 
 
-class Reading(NamedTuple):
-    """What cursors say above a plot, and all of it in the tooltip."""
+class CursorReading(NamedTuple):
+    """Text with the values at the cursors: short above a plot, full in its tooltip."""
 
     short: str
     full: str
 
 
-def nearest(x: FloatArray, y: FloatArray, at: float) -> float | None:
-    """Return the value of the sample that is nearest to a place; x (n,) increases."""
-    if len(x) == 0 or not x[0] <= at <= x[-1]:
+def find_nearest_value(x: FloatArray, y: FloatArray, cursor_x: float) -> float | None:
+    """Return the y of the sample nearest to the cursor, or None outside of all samples.
+
+    ``x`` and ``y`` are (n,), and ``x`` must increase.
+    """
+    if len(x) == 0 or not x[0] <= cursor_x <= x[-1]:
         return None
-    right = min(int(np.searchsorted(x, at)), len(x) - 1)
+    right = min(int(np.searchsorted(x, cursor_x)), len(x) - 1)
     left = max(right - 1, 0)
-    return float(y[left] if at - x[left] <= x[right] - at else y[right])
+    return float(y[left] if cursor_x - x[left] <= x[right] - cursor_x else y[right])
 
 
-def across_text(shown: Shown, a: float, b: float) -> str:
-    """Return what the cursors say of time or frequency, for all plots together."""
-    if shown is Shown.LOOP:
+def describe_cursors(kind: PlotKind, a: float, b: float) -> str:
+    """Return the times or frequencies of the cursors, which all plots have in common."""
+    if kind is PlotKind.LOOP:
         return tr("Cursors: Δx and Δy of each loop appear above it.")
-    unit, inverse = ("Hz", "s") if shown is Shown.SPECTRUM else ("s", "Hz")
+    unit, inverse = ("Hz", "s") if kind is PlotKind.SPECTRUM else ("s", "Hz")
     difference = b - a
-    text = f"A {rounded(a)} {unit}  B {rounded(b)} {unit}  Δ {rounded(difference)} {unit}"
-    return text if difference == 0.0 else f"{text}  1/Δ {rounded(1.0 / difference)} {inverse}"
+    first, second, delta = (f"{format_rounded(value)} {unit}" for value in (a, b, difference))
+    text = f"A {first}  B {second}  Δ {delta}"
+    return (
+        text if difference == 0.0 else f"{text}  1/Δ {format_rounded(1.0 / difference)} {inverse}"
+    )
 
 
-def values_text(a: float | None, b: float | None, unit: str) -> Reading:
-    """Return what a signal has at the cursors, and the difference."""
+def describe_values(a: float | None, b: float | None, unit: str) -> CursorReading:
+    """Return the values of a signal at the cursors, and their difference."""
     if a is None or b is None:
-        return Reading(tr("cursor outside"), tr("a cursor is where nothing was measured"))
-    short = f"Δ {rounded(b - a)} {unit}"
-    return Reading(short, f"A {rounded(a, 7)} {unit}, B {rounded(b, 7)} {unit}, {short}")
+        return CursorReading(tr("cursor outside"), tr("a cursor is outside the measured samples"))
+    short = f"Δ {format_rounded(b - a)} {unit}"
+    return CursorReading(
+        short, f"A {format_rounded(a, 7)} {unit}, B {format_rounded(b, 7)} {unit}, {short}"
+    )
 
 
-def loop_text(a: tuple[float, float], b: tuple[float, float], unit: str) -> Reading:
-    """Return the differences of two points of a loop, and their ratio."""
+def describe_loop(a: tuple[float, float], b: tuple[float, float], unit: str) -> CursorReading:
+    """Return the differences between two points of a loop, and their ratio."""
     dx, dy = b[0] - a[0], b[1] - a[1]
-    short = f"Δx {rounded(dx)}  Δy {rounded(dy)} {unit}"
-    return Reading(short, short if dx == 0.0 else f"{short}, Δy/Δx {rounded(dy / dx)}")
+    short = f"Δx {format_rounded(dx)}  Δy {format_rounded(dy)} {unit}"
+    return CursorReading(short, short if dx == 0.0 else f"{short}, Δy/Δx {format_rounded(dy / dx)}")

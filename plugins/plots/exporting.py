@@ -1,4 +1,4 @@
-"""Pictures of the plots."""
+"""Export of the plots as pictures."""
 
 from pathlib import Path
 
@@ -7,13 +7,13 @@ from PySide6.QtGui import QPainter
 from PySide6.QtSvg import QSvgGenerator
 from PySide6.QtWidgets import QWidget
 
-from rotemina.app.files import write_text
+from rotemina.app.settings import write_text
 from rotemina.plugins.plots import tr
-from rotemina.sim.whole_files import FileWriteError
+from rotemina.sim.errors import FileWriteError
 
 
 def save_picture(widget: QWidget, path: Path) -> None:
-    """Draw a widget into a file: as lines for ``.svg``, else as pixels (``.png``).
+    """Save a picture of a widget: vector graphics for ``.svg``, otherwise pixels (``.png``).
 
     Raises
     ------
@@ -29,14 +29,14 @@ def save_picture(widget: QWidget, path: Path) -> None:
 
 
 def _save_svg(widget: QWidget, path: Path) -> None:
-    drawn = QBuffer()
-    drawn.open(QBuffer.OpenModeFlag.WriteOnly)
+    buffer = QBuffer()
+    buffer.open(QBuffer.OpenModeFlag.WriteOnly)
     generator = QSvgGenerator()
-    generator.setOutputDevice(drawn)
+    generator.setOutputDevice(buffer)
     generator.setSize(QSize(widget.width(), widget.height()))
     generator.setViewBox(widget.rect())
     generator.setTitle(tr("Plots of the axes"))
     painter = QPainter(generator)
     widget.render(painter, QPoint())
     painter.end()
-    write_text(path, drawn.data().toStdString())
+    write_text(path, buffer.data().toStdString())

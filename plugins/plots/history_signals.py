@@ -1,81 +1,105 @@
-"""The data of the plots: a stretch of the live history. Free of Qt."""
+"""Data of the plots, computed from a window of the live history. Does not use Qt."""
 
 from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
-from rotemina.app.motion.recent_history import LiveWindow
+from rotemina.app.motion.device import HistoryWindow
 from rotemina.plugins.plots import tr
 from rotemina.sim.arrays import BoolArray, FloatArray
-from rotemina.sim.comparison.gap import GapFigure, gap_course, gap_figure, moving
+from rotemina.sim.comparison import (
+    GapFigure,
+    compute_gap_course,
+    compute_gap_figure,
+    find_moving_samples,
+)
 from rotemina.sim.errors import InputError
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.model import Robot
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot import Robot
 
-SHORT_S = 0.5  # what each value of a gap's course looks back
-_COURSE_STEPS = 200  # of a course, at most
+# Each value of a gap history is the rms gap over this time.
+GAP_WINDOW_S = 0.5
+_MAX_GAP_STEPS = 200
 
 
 class NothingShownError(InputError):
-    """A picture without samples, of which nothing can be saved or kept."""
+    """The plots show no samples that could be saved or kept."""
 
 
-def latest(window: LiveWindow, span_s: float) -> LiveWindow:
-    """Return the last seconds of a window."""
+def cut_latest(window: HistoryWindow, span_s: float) -> HistoryWindow:
+    """Return the last ``span_s`` seconds of a window."""
     time_s = window.device_time_s
     if len(time_s) == 0:
         return window
-    first = int(np.searchsorted(time_s, time_s[-1] - span_s, side="left"))
+    first_row = int(np.searchsorted(time_s, time_s[-1] - span_s, side="left"))
     names = ("device_time_s", "command", "model", "measured", "nominal", "doubt")
-    return replace(window, **{name: getattr(window, name)[first:] for name in names})
+    return replace(window, **{name: getattr(window, name)[first_row:] for name in names})
 
 
-def gaps_of(window: LiveWindow) -> dict[str, GapFigure | None]:
-    """Return the gap of each axis in a window, from where the model in use is the one that is."""
-    counted = _counted(window)
+def compute_gaps(window: HistoryWindow) -> dict[str, GapFigure | None]:
+    """Return the gap of each axis in the part of a window that the current model predicted."""
+    is_counted = _find_counted_samples(window)
     return {
-        axis: gap_figure(
-            counted, window.measured[:, column], window.model[:, column], window.nominal[:, column]
+        axis: compute_gap_figure(
+            is_counted,
+            window.measured[:, column],
+            window.model[:, column],
+            window.nominal[:, column],
         )
         for column, axis in enumerate(window.axes)
     }
 
 
-def _counted(window: LiveWindow) -> BoolArray:
-    """Return which samples (n,) count: something moves, and the model in use is the present one."""
-    counted = moving(window.device_time_s, window.command)
-    return counted & (window.device_time_s > window.gap_since_s)
+def _find_counted_samples(window: HistoryWindow) -> BoolArray:
+    """Return whether each sample (n,) counts: an axis moves, and the current model predicted it."""
+    is_moving = find_moving_samples(window.device_time_s, window.command)
+    return is_moving & (window.device_time_s > window.gap_since_s)
 
 
 class GapHistory(NamedTuple):
-    """The gap (m, axes), m or rad, of the half second before each of some device times (m,), s."""
+    """Gap over time.
+
+    Attributes
+    ----------
+    time_s : (m,)
+        Device times.
+    gap : (m, axes)
+        The rms gap of the half second before each time, m or rad. NaN where nothing moved.
+    """
 
     time_s: FloatArray
     gap: FloatArray
 
     @classmethod
-    def of(cls, window: LiveWindow, span_s: float) -> "GapHistory":
-        """Return the course of a window, its times at whole steps so that it does not flicker."""
+    def from_window(cls, window: HistoryWindow, span_s: float) -> "GapHistory":
+        """Return the gap history of a window.
+
+        The times are multiples of a fixed step, so that the curve does not flicker.
+        """
         time_s = window.device_time_s
-        step_s = max(span_s / _COURSE_STEPS, SHORT_S / 5)
+        step_s = max(span_s / _MAX_GAP_STEPS, GAP_WINDOW_S / 5)
         if len(time_s) == 0:
             return cls(np.empty(0), np.empty((0, len(window.axes))))
-        first, last = np.ceil(time_s[0] / step_s), np.floor(time_s[-1] / step_s)
-        ends_s = step_s * np.arange(first, last + 1)
+        first_step, last_step = np.ceil(time_s[0] / step_s), np.floor(time_s[-1] / step_s)
+        ends_s = step_s * np.arange(first_step, last_step + 1)
         gap = window.measured - window.model
-        return cls(ends_s, gap_course(time_s, _counted(window), gap, ends_s, SHORT_S))
+        return cls(
+            ends_s,
+            compute_gap_course(time_s, _find_counted_samples(window), gap, ends_s, GAP_WINDOW_S),
+        )
 
 
-def as_record(window: LiveWindow, robot: Robot) -> Record:
-    """Return what is shown as a record, its time from 0: commands and readings of every axis.
+def to_record(window: HistoryWindow, robot: Robot) -> Record:
+    """Return a window as a record with the commands and readings of all axes, from time 0.
 
-    The model is left out: it is computed from the commands wherever the record is opened.
+    The record does not include the model, which is computed from the commands when the record is
+    opened.
 
     Raises
     ------
     NothingShownError
-        If nothing is.
+        If the window has no samples.
     """
     if len(window) == 0:
         raise NothingShownError(tr("plots: there are no samples to save"))
@@ -85,5 +109,5 @@ def as_record(window: LiveWindow, robot: Robot) -> Record:
         signals[axis, Tap.CMD] = window.command[:, column]
         signals[axis, Tap.MEAS] = window.measured[:, column]
     units = {axis: robot.axes[axis].unit or "m" for axis in window.axes}
-    # It was cut out of a motion: nobody knows what came before.
+    # The motion before the window is not in the record, so the history of the axes is unknown.
     return Record.from_signals(time_s, signals, units, {"history": "unknown"})

@@ -1,33 +1,38 @@
-"""Another run beside the live plots: its data, and the time shift of the best match.
+"""Data of the second run in the plots, and the time shift that best aligns it with the first.
 
-Free of Qt.
+Does not use Qt.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from rotemina.app.motion.recent_history import LiveWindow
+from rotemina.app.motion.device import HistoryWindow
 from rotemina.plugins.plots import tr
 from rotemina.plugins.plots.history_signals import NothingShownError
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.records.record import Channel, Record, Tap
-from rotemina.sim.robot.model import Robot
+from rotemina.sim.records import (
+    Record,
+    RecordChannel,
+    Tap,
+)
+from rotemina.sim.robot import Robot
 
-_LEAST_SAMPLES = 20  # below that a match of two runs means nothing
+# A match between shorter runs might be accidental.
+_MIN_SAMPLES = 20
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class OtherRun:
-    """A run that is drawn beside the present one.
+class OverlayRun:
+    """Second run, drawn together with the current one.
 
     Attributes
     ----------
     name : str
     time_s : (n,)
-        Its own.
+        The times of the run, without the time shift.
     command, measured : (n, axes)
-        In the robot's order, m or rad; NaN where it has none.
+        Signals of the axes in the order of the robot, m or rad. NaN for an axis without data.
     """
 
     name: str
@@ -36,64 +41,73 @@ class OtherRun:
     measured: FloatArray
 
     @classmethod
-    def of_record(cls, name: str, record: Record, robot: Robot) -> "OtherRun":
-        """Return the run that a record holds."""
+    def from_record(cls, name: str, record: Record, robot: Robot) -> "OverlayRun":
+        """Return the run in a record."""
         signals = []
         for tap in (Tap.CMD, Tap.MEAS):
             values = np.full((len(record.time_s), len(robot.axes)), np.nan)
             for column, axis in enumerate(robot.axes):
-                channel = Channel(axis, tap)
+                channel = RecordChannel(axis, tap)
                 if channel in record.columns:
                     values[:, column] = record.values[:, record.columns.index(channel)]
             signals.append(values)
         return cls(name, record.time_s, *signals)
 
     @classmethod
-    def of_window(cls, name: str, window: LiveWindow) -> "OtherRun":
-        """Return the run that is shown now.
+    def from_window(cls, name: str, window: HistoryWindow) -> "OverlayRun":
+        """Return the run in a window of the live history.
 
         Raises
         ------
         NothingShownError
-            If nothing is.
+            If the window has no samples.
         """
         if len(window) == 0:
             raise NothingShownError(tr("plots: there are no samples, so no run to keep"))
         return cls(name, window.device_time_s, window.command, window.measured)
 
 
-def alignment(window: LiveWindow, other: OtherRun) -> float | None:
-    """Return what to add to another run's time so that its commands are best those of the window.
+def find_time_shift(window: HistoryWindow, other: OverlayRun) -> float | None:
+    """Return the time shift of a second run at which its commands best match those of a window.
 
-    The shorter of the two is moved along the longer one; the place with the least squares of the
-    difference of the commands counts, each axis by its own way. None where nothing moves in it.
+    The shorter of the two is shifted along the longer one. The best shift has the smallest sum of
+    squared differences between the commands, each axis divided by its stroke in the second run.
+    Returns None if nothing moves in the second run, or if one of them is too short.
     """
-    if min(len(window), len(other.time_s)) < _LEAST_SAMPLES:
+    if min(len(window), len(other.time_s)) < _MIN_SAMPLES:
         return None
     period_s = float(np.median(np.diff(window.device_time_s)))
-    here, there = (
-        _even(time_s, command, period_s)
+    window_commands, overlay_commands = (
+        _resample_evenly(time_s, command, period_s)
         for time_s, command in (
             (window.device_time_s, window.command),
             (other.time_s, other.command),
         )
     )
-    way = np.ptp(there, axis=0)
-    moving = np.isfinite(way) & (way > 0.0)
-    if not moving.any():
+    stroke = np.ptp(overlay_commands, axis=0)
+    is_moving = np.isfinite(stroke) & (stroke > 0.0)
+    if not is_moving.any():
         return None
-    here, there = here[:, moving] / way[moving], there[:, moving] / way[moving]
-    swapped = len(there) > len(here)
-    long, short = (there, here) if swapped else (here, there)
-    middle = short.mean(axis=0)
-    rows = _best_start(long - middle, short - middle)
-    offset_s = (-rows if swapped else rows) * period_s
+    window_commands, overlay_commands = (
+        window_commands[:, is_moving] / stroke[is_moving],
+        overlay_commands[:, is_moving] / stroke[is_moving],
+    )
+    is_overlay_longer = len(overlay_commands) > len(window_commands)
+    long, short = (
+        (overlay_commands, window_commands)
+        if is_overlay_longer
+        else (window_commands, overlay_commands)
+    )
+    mean = short.mean(axis=0)
+    best_row = _find_best_row(long - mean, short - mean)
+    offset_s = (-best_row if is_overlay_longer else best_row) * period_s
     return float(window.device_time_s[0] - other.time_s[0]) + offset_s
 
 
-def _best_start(long: FloatArray, short: FloatArray) -> int:
+def _find_best_row(long: FloatArray, short: FloatArray) -> int:
     """Return the row of ``long`` (n, a) at which ``short`` (m, a) fits best by least squares."""
-    from scipy.signal import correlate  # only here: it takes half a second
+    # Imported only when needed, because the import takes half a second.
+    from scipy.signal import correlate
 
     count = len(short)
     cost = np.zeros(len(long) - count + 1)
@@ -104,6 +118,6 @@ def _best_start(long: FloatArray, short: FloatArray) -> int:
     return int(np.argmin(cost))
 
 
-def _even(time_s: FloatArray, values: FloatArray, period_s: float) -> FloatArray:
+def _resample_evenly(time_s: FloatArray, values: FloatArray, period_s: float) -> FloatArray:
     grid = np.arange(time_s[0], time_s[-1] + 0.5 * period_s, period_s)
     return np.stack([np.interp(grid, time_s, column) for column in values.T], axis=1)

@@ -1,4 +1,4 @@
-"""A plot of any curve, with two cursors."""
+"""Plot of any curve, with two cursors."""
 
 from collections.abc import Callable, Sequence
 
@@ -7,109 +7,121 @@ import pyqtgraph as pg
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
 
-from rotemina.app.shell.plot import SignalPlot
-from rotemina.app.shell.theme import Theme
-from rotemina.plugins.plots.spectra_and_loops import thinned_loop
+from rotemina.app.widgets.drawing import SignalPlot
+from rotemina.app.widgets.style import Theme
+from rotemina.plugins.plots.spectra_and_loops import thin_loop
 from rotemina.sim.arrays import FloatArray
 
-_SHRINK, _MARGIN = 0.35, 0.08
+# The horizontal scale shrinks if the curves fill less than this fraction of it.
+_MIN_FILLED_FRACTION = 0.35
+# Margin on either side of the curves, relative to their width.
+_MARGIN_RATIO = 0.08
 
 
 class ViewPlot(SignalPlot):
-    """Signals over time, loops, or spectra on logarithmic scales; cursors A and B on demand.
+    """Plot of signals over time, loops, or spectra on logarithmic scales, with cursors A and B.
 
-    Cursors are places on the axes as they are drawn, so logarithms on a logarithmic scale.
+    The positions of the cursors are in the coordinates of the axes, which are logarithms on a
+    logarithmic scale.
     """
 
-    def __init__(self, theme: Theme, moved: Callable[["ViewPlot"], None]) -> None:
-        self._lines: tuple[pg.InfiniteLine, ...] = ()
-        self._across: tuple[float, float] | None = None
+    def __init__(self, theme: Theme, on_cursor_moved: Callable[["ViewPlot"], None]) -> None:
+        self._cursor_lines: tuple[pg.InfiniteLine, ...] = ()
+        self._x_range: tuple[float, float] | None = None
         super().__init__(theme)
-        self._moved = moved
-        self._lines = tuple(pg.InfiniteLine(angle=angle, movable=True) for angle in (90, 90, 0, 0))
-        for line in self._lines:
+        self._on_cursor_moved = on_cursor_moved
+        self._cursor_lines = tuple(
+            pg.InfiniteLine(angle=angle, movable=True) for angle in (90, 90, 0, 0)
+        )
+        for line in self._cursor_lines:
             line.setVisible(False)
-            line.sigPositionChanged.connect(self._tell)
+            line.sigPositionChanged.connect(self._report_cursor_move)
             self.addItem(line, ignoreBounds=True)
-        self._colour_lines()
+        self._colour_cursor_lines()
 
     def set_theme(self, theme: Theme) -> None:
         """Change all colours."""
         super().set_theme(theme)
-        self._colour_lines()
+        self._colour_cursor_lines()
 
     def show_scales(self, label: str, *, logarithmic: bool, numbers: bool) -> None:
-        """Say what is across, and how both scales count."""
+        """Set the label of the horizontal axis, and whether both scales are logarithmic."""
         item = self.getPlotItem()
         item.getAxis("bottom").setLogMode(x=logarithmic)
         item.getAxis("left").setLogMode(y=logarithmic)
         self.show_times(numbers)
         item.getAxis("bottom").setLabel(label if numbers else "")
         item.getAxis("bottom").showLabel(numbers and bool(label))
-        self._scale = self._across = None
+        self._scale = self._x_range = None
 
     def show_loop(self, name: str, x: FloatArray, y: FloatArray) -> None:
-        """Draw a curve through points (n,), thinned to what the plot can show.
+        """Draw a curve through points (n,), thinned to the resolution of the plot.
 
-        A wide line is thinned further: it hides what is narrower than itself.
+        A wide line is thinned further, because it hides details narrower than the line.
         """
-        width = self._pens[name].width
-        self._draw(name, *thinned_loop(x, y, max(self.width(), 200) // (2 * width)))
+        width = self._line_styles[name].width
+        self._draw(name, *thin_loop(x, y, max(self.width(), 200) // (2 * width)))
 
-    def follow_across(self, low: float, high: float, least: float) -> None:
-        """Make the horizontal scale fit, as :meth:`follow` does the vertical one."""
-        middle, width = (low + high) / 2, max(high - low, least)
-        if self._across is not None:
-            left, right = self._across
-            if left <= low and high <= right and width > _SHRINK * (right - left):
+    def fit_horizontal_scale(self, low: float, high: float, min_width: float) -> None:
+        """Fit the horizontal scale to the curves, as :meth:`fit_scale` fits the vertical one."""
+        centre, width = (low + high) / 2, max(high - low, min_width)
+        if self._x_range is not None:
+            left, right = self._x_range
+            if left <= low and high <= right and width > _MIN_FILLED_FRACTION * (right - left):
                 return
-        half = width * (0.5 + _MARGIN)
-        self._across = (middle - half, middle + half)
-        self.setXRange(*self._across, padding=0.0)
+        half_width = width * (0.5 + _MARGIN_RATIO)
+        self._x_range = (centre - half_width, centre + half_width)
+        self.setXRange(*self._x_range, padding=0.0)
 
-    # --- cursors ----------------------------------------------------------------------------------
+    def show_cursors(self, *, vertical: bool, horizontal: bool) -> None:
+        """Show or hide the vertical and the horizontal lines of the cursors.
 
-    def show_cursors(self, *, across: bool, along: bool) -> None:
-        """Show the upright and the level cursors anew, at a third of what is in sight, or hide."""
+        The lines are placed at about one third and two thirds of the visible range.
+        """
         (left, right), (bottom, top) = self.viewRange()
-        places = [
-            low + share * (high - low)
+        positions = [
+            low + fraction * (high - low)
             for low, high in ((left, right), (bottom, top))
-            for share in (0.35, 0.65)
+            for fraction in (0.35, 0.65)
         ]
-        self._place(places)
-        for line, shown in zip(self._lines, (across, across, along, along), strict=True):
-            line.setVisible(shown)
+        self._place_lines(positions)
+        visibilities = (vertical, vertical, horizontal, horizontal)
+        for line, is_visible in zip(self._cursor_lines, visibilities, strict=True):
+            line.setVisible(is_visible)
 
     def place_cursors(self, a: float, b: float) -> None:
-        """Move the upright cursors."""
-        self._place((a, b))
+        """Move the vertical lines of cursors A and B."""
+        self._place_lines((a, b))
 
-    def _place(self, places: Sequence[float]) -> None:
-        """Move lines; only an operator's hand is told."""
-        for line, at in zip(self._lines, places, strict=False):
-            blocked = line.blockSignals(True)
-            line.setValue(at)
-            line.blockSignals(blocked)
+    def _place_lines(self, positions: Sequence[float]) -> None:
+        """Move lines without their signal, which reports only moves by the operator."""
+        for line, position in zip(self._cursor_lines, positions, strict=False):
+            were_signals_blocked = line.blockSignals(True)
+            line.setValue(position)
+            line.blockSignals(were_signals_blocked)
 
     @property
     def cursors(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Places (across, along) of A and B."""
-        values = [float(line.value()) for line in self._lines]
+        """The positions (x, y) of A and B."""
+        values = [float(line.value()) for line in self._cursor_lines]
         return (values[0], values[2]), (values[1], values[3])
 
-    def _tell(self) -> None:
-        self._moved(self)
+    def _report_cursor_move(self) -> None:
+        self._on_cursor_moved(self)
 
-    def _colour_lines(self) -> None:
-        for number, line in enumerate(self._lines):
-            style = Qt.PenStyle.DashLine if number % 2 else Qt.PenStyle.SolidLine
+    def _colour_cursor_lines(self) -> None:
+        for index, line in enumerate(self._cursor_lines):
+            style = Qt.PenStyle.DashLine if index % 2 else Qt.PenStyle.SolidLine
             line.setPen(pg.mkPen(QColor(self._theme.text), width=1, style=style))
             line.setHoverPen(pg.mkPen(QColor(self._theme.accent), width=2))
 
 
-def logarithm(values: FloatArray) -> FloatArray:
-    """Return log10 of values; what is not above 0 gets the least that is, or NaN."""
+def compute_log10(values: FloatArray) -> FloatArray:
+    """Return log10 of values.
+
+    A value that is not positive is replaced by the smallest positive one. If no value is positive,
+    all results are NaN.
+    """
     positive = values[values > 0.0]
     if len(positive) == 0:
         return np.full_like(values, np.nan)

@@ -1,8 +1,9 @@
-"""Session recordings and library.
+"""Panel to record sessions, and to recover, list, export and replay recordings.
 
-Record, recover, list, export and replay sessions.
+Each part of the panel is one module. The recordings themselves are in ``app/motion/recording``, and
+the library of records is in ``app/records``.
 """
 
-from rotemina.app.shell.language import texts_of
+from rotemina.app.language import make_text_functions
 
-tr, mark = texts_of("recorder")
+tr, mark = make_text_functions("recorder")

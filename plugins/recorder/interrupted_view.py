@@ -1,4 +1,4 @@
-"""Interrupted recordings, and the button that recovers them."""
+"""Box with the interrupted recordings and the button that recovers them."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -6,20 +6,20 @@ from pathlib import Path
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QFrame, QPushButton
 
-from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.app.widgets.labels import plain_text
-from rotemina.app.widgets.layouts import in_row
+from rotemina.app.widgets.layout import make_row
+from rotemina.app.widgets.text import make_plain_label
+from rotemina.app.workbench import Level, Workbench
 from rotemina.plugins.recorder import tr
-from rotemina.plugins.recorder.interrupted_files import Unfinished, recovered
-from rotemina.plugins.recorder.words import listed, unfinished_text
+from rotemina.plugins.recorder.interrupted_files import InterruptedRecording, recover_all
+from rotemina.plugins.recorder.words import describe_interrupted, join_names
 
 
-class UnfinishedBox(QFrame):
-    """Names what was not ended; unseen where there is nothing.
+class InterruptedRecordingsBox(QFrame):
+    """Box that names interrupted recordings. It is hidden if there are none.
 
     Signals
     -------
-    recovered() : what could be recovered is there now.
+    recovered() : the recovery has finished.
     """
 
     recovered = Signal()
@@ -28,45 +28,49 @@ class UnfinishedBox(QFrame):
         super().__init__()
         self.setObjectName("question")
         self._workbench = workbench
-        self._waiting: tuple[Path, ...] = ()
-        self._doing = False
-        self.text = plain_text(quiet=False, wrap=True)
+        self._recoverable_paths: tuple[Path, ...] = ()
+        self._is_recovering = False
+        self.text = make_plain_label(quiet=False, wrap=True)
         self.recover = QPushButton(tr("Recover"))
         self.recover.setToolTip(tr("Complete interrupted recordings with the data on the disk"))
         self.recover.clicked.connect(self._recover)
-        in_row((self.text, 1), self.recover, on=self, margins=(8, 4, 8, 4))
+        make_row((self.text, 1), self.recover, on=self, margins=(8, 4, 8, 4))
         self.hide()
 
-    def show_unfinished(self, unfinished: Sequence[Unfinished]) -> None:
+    def show_interrupted(self, recordings: Sequence[InterruptedRecording]) -> None:
         """Show the interrupted recordings."""
-        self._waiting = tuple(one.path for one in unfinished if not one.busy)
-        self.text.setText(unfinished_text(unfinished))
-        self.setVisible(bool(unfinished))
-        self._show()
+        self._recoverable_paths = tuple(
+            recording.path for recording in recordings if not recording.busy
+        )
+        self.text.setText(describe_interrupted(recordings))
+        self.setVisible(bool(recordings))
+        self._update_button()
 
-    def _show(self) -> None:
-        self.recover.setVisible(bool(self._waiting))
-        self.recover.setEnabled(not self._doing)
-        self.recover.setText(tr("Recovering …") if self._doing else tr("Recover"))
+    def _update_button(self) -> None:
+        self.recover.setVisible(bool(self._recoverable_paths))
+        self.recover.setEnabled(not self._is_recovering)
+        self.recover.setText(tr("Recovering …") if self._is_recovering else tr("Recover"))
 
     def _recover(self) -> None:
-        self._doing = True
-        self._show()
-        waiting = self._waiting
-        names = listed([path.name for path in waiting])
-        doing = tr("Recovering {names} …").format(names=names)
-        self._workbench.work("recover", doing, lambda: recovered(waiting), self._take, self._end)
+        self._is_recovering = True
+        self._update_button()
+        paths = self._recoverable_paths
+        names = join_names([path.name for path in paths])
+        activity = tr("Recovering {names} …").format(names=names)
+        self._workbench.work(
+            "recover", activity, lambda: recover_all(paths), self._on_recovered, self._on_finished
+        )
 
-    def _take(self, answer: tuple[tuple[Path, ...], tuple[str, ...]]) -> None:
-        done, refused = answer
-        if done:
-            names = listed([path.name for path in done])
+    def _on_recovered(self, answer: tuple[tuple[Path, ...], tuple[str, ...]]) -> None:
+        results, problems = answer
+        if results:
+            names = join_names([path.name for path in results])
             self._workbench.notify(Level.GOOD, tr("Recovered {names}").format(names=names))
-        for reason in refused:
-            self._workbench.notify(Level.ERROR, reason, about=self)
-        self._end()
+        for problem in problems:
+            self._workbench.notify(Level.ERROR, problem, about=self)
+        self._on_finished()
 
-    def _end(self) -> None:
-        self._doing = False
-        self._show()
+    def _on_finished(self) -> None:
+        self._is_recovering = False
+        self._update_button()
         self.recovered.emit()

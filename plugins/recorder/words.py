@@ -1,55 +1,63 @@
-"""Text of the recorder panel, and parsing of a typed time span."""
+"""Texts of the recorder panel, and parsing of a typed section."""
 
 from collections.abc import Sequence
 
-from rotemina.app.display_units import size_text
+from rotemina.app.language import format_file_size
 from rotemina.plugins.recorder import mark, tr
-from rotemina.plugins.recorder.interrupted_files import Unfinished
+from rotemina.plugins.recorder.interrupted_files import InterruptedRecording
 from rotemina.sim.errors import InputError
-from rotemina.sim.quantities import parsed
+from rotemina.sim.messages import parse_number
 
-BEGIN, END = mark("start"), mark("end")
+SECTION_START, SECTION_END = mark("start"), mark("end")
 
 
 class SpanError(InputError):
-    """An invalid time span of a recording."""
+    """Invalid section of a recording."""
 
 
-def unfinished_text(unfinished: Sequence[Unfinished]) -> str:
-    """Return what a crash has left, and what other programs record; "" for nothing."""
+def describe_interrupted(recordings: Sequence[InterruptedRecording]) -> str:
+    """Return a text about interrupted recordings, and about those that other programs make."""
     lines = []
-    waiting = [f"{one.path.name} ({size_text(one.size)})" for one in unfinished if not one.busy]
-    if waiting:
+    interrupted = [
+        f"{recording.path.name} ({format_file_size(recording.size)})"
+        for recording in recordings
+        if not recording.busy
+    ]
+    if interrupted:
         lines.append(
             tr("Interrupted because the program or the computer stopped: {names}.").format(
-                names=listed(waiting)
+                names=join_names(interrupted)
             )
         )
     lines += [
-        tr("Another program is recording {name}.").format(name=one.path.name)
-        for one in unfinished
-        if one.busy
+        tr("Another program is recording {name}.").format(name=recording.path.name)
+        for recording in recordings
+        if recording.busy
     ]
     return "\n".join(lines)
 
 
-def listed(names: Sequence[str]) -> str:
-    """Return names one behind the other; of many, the first."""
-    most = 3
-    more = tr(" and {n} more").format(n=len(names) - most) if len(names) > most else ""
-    return ", ".join(names[:most]) + more
+def join_names(names: Sequence[str]) -> str:
+    """Return up to three names as a list, and how many more there are."""
+    max_count = 3
+    more_text = (
+        tr(" and {n} more").format(n=len(names) - max_count) if len(names) > max_count else ""
+    )
+    return ", ".join(names[:max_count]) + more_text
 
 
-def span(begin: str, end: str, duration_s: float) -> tuple[float, float]:
-    """Return the stretch that someone typed, s from the begin; nothing means begin or end.
+def parse_section(begin: str, end: str, duration_s: float) -> tuple[float, float]:
+    """Return the typed section as start and end, s from the start of the recording.
+
+    An empty text means the start or the end of the recording.
 
     Raises
     ------
     SpanError
-        If it is none.
+        If a text is not a valid time, or the section is empty or outside the recording.
     """
-    begin_s = _seconds(begin, 0.0, BEGIN)
-    end_s = _seconds(end, duration_s, END)
+    begin_s = _parse_seconds(begin, 0.0, SECTION_START)
+    end_s = _parse_seconds(end, duration_s, SECTION_END)
     if not begin_s < end_s:
         raise SpanError(
             tr("from {begin:g} s to {end:g} s: the end must be later than the start").format(
@@ -65,16 +73,16 @@ def span(begin: str, end: str, duration_s: float) -> tuple[float, float]:
     return begin_s, end_s
 
 
-def _seconds(text: str, otherwise: float, what: str) -> float:
+def _parse_seconds(text: str, default_s: float, field_name: str) -> float:
     text = text.strip()
     if not text:
-        return otherwise
-    number = parsed(text)
+        return default_s
+    number = parse_number(text)
     if number is None or not 0.0 <= number < float("inf"):
         raise SpanError(
             tr(
                 "{what}: {text!r} is not valid. Enter seconds from the start of the "
                 "recording, 0 or more, with a decimal point, or leave the field empty."
-            ).format(text=text, what=tr(what))
+            ).format(text=text, what=tr(field_name))
         )
     return number

@@ -1,8 +1,13 @@
-"""Teleoperation, with an on-screen pad.
+"""Panel for teleoperation: the device in control, mode, scaling, and an on-screen pad.
 
-Mode, scaling and the device in control.
+``virtual_stick`` turns keys and pointer into deflections, and ``scale_editor`` changes the scales.
+The folder exports texts about the device in control, which other panels show as well.
 """
 
-from rotemina.app.shell.language import texts_of
+import lazy_loader
 
-tr, mark = texts_of("teleoperation")
+from rotemina.app.language import make_text_functions
+
+tr, mark = make_text_functions("teleoperation")
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -1,87 +1,91 @@
-"""Buttons for mode, law and step preset, with the active ones."""
+"""Buttons for mode and scaling, and the step preset."""
 
 from collections.abc import Callable, Iterable
 from typing import Generic, TypeVar
 
 from PySide6.QtWidgets import QButtonGroup, QLabel, QPushButton, QWidget
 
-from rotemina.app.motion.teleoperation.intent import Intent
-from rotemina.app.motion.teleoperation.scaling import STEP_PRESETS
-from rotemina.app.motion.teleoperation.teleoperation_state import TeleoperationState
-from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.controls import named, plain_tip
-from rotemina.app.widgets.labels import heading, plain_text
-from rotemina.app.widgets.layouts import in_grid, in_row
-from rotemina.app.widgets.section import Section
-from rotemina.app.widgets.wheel_safe import SteadyChoice
+from rotemina.app.motion.inputs import Intent
+from rotemina.app.motion.teleoperation import STEP_PRESETS, TeleoperationState
+from rotemina.app.widgets.controls import WheelSafeComboBox, make_tooltip, name_widget
+from rotemina.app.widgets.layout import Section, make_grid, make_row
+from rotemina.app.widgets.text import make_heading, make_plain_label
+from rotemina.app.workbench import Workbench
 from rotemina.plugins.teleoperation import tr, wording
-from rotemina.plugins.teleoperation.wording import Choice
-from rotemina.sim.quantities import rounded
+from rotemina.plugins.teleoperation.wording import ButtonTexts
+from rotemina.sim.messages import format_rounded
 
 T = TypeVar("T")
 
 
-class Buttons(QWidget, Generic[T]):
-    """One button for each of several choices, of which one is taken."""
+class ChoiceButtons(QWidget, Generic[T]):
+    """Buttons for several choices, exactly one of which is active."""
 
     def __init__(
-        self, what: str, choices: Iterable[tuple[T, Choice]], columns: int, use: Callable[[T], None]
+        self,
+        name: str,
+        choices: Iterable[tuple[T, ButtonTexts]],
+        columns: int,
+        on_chosen: Callable[[T], None],
     ) -> None:
         super().__init__()
-        grid = in_grid(on=self, margins=0, spacing=6)
+        grid = make_grid(on=self, margins=0, spacing=6)
         self.buttons: dict[T, QPushButton] = {}
         group = QButtonGroup(self)
-        for number, (value, choice) in enumerate(choices):
-            one = named(QPushButton(choice.text), f"{what} {choice.text}", plain_tip(choice.tip))
-            one.setCheckable(True)
-            one.clicked.connect(lambda _, value=value: use(value))
-            group.addButton(one)
-            grid.addWidget(one, *divmod(number, columns))
-            self.buttons[value] = one
+        for index, (value, texts) in enumerate(choices):
+            choice_button = name_widget(
+                QPushButton(texts.text), f"{name} {texts.text}", make_tooltip(texts.tip)
+            )
+            choice_button.setCheckable(True)
+            choice_button.clicked.connect(lambda _, value=value: on_chosen(value))
+            group.addButton(choice_button)
+            grid.addWidget(choice_button, *divmod(index, columns))
+            self.buttons[value] = choice_button
 
     def show_choice(self, value: T) -> None:
-        """Show which one is taken."""
+        """Show which choice is active."""
         self.buttons[value].setChecked(True)
 
 
-class ChoiceSection(Section):
-    """How the stick moves the robot."""
+class ModeSection(Section):
+    """Section to choose how the stick moves the robot."""
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(tr("Mode"))
-        steered = workbench.operation.teleoperator
-        self.modes = Buttons(
+        teleoperator = workbench.operation.teleoperator
+        self.modes = ChoiceButtons(
             tr("Mode"),
-            [(name, wording.mode_choice(name)) for name in steered.modes.names],
+            [(name, wording.make_mode_texts(name)) for name in teleoperator.modes.names],
             3,
-            lambda name: workbench.ask(lambda: steered.use_mode(name)),
+            lambda name: workbench.run_request(lambda: teleoperator.use_mode(name)),
         )
-        self.laws = Buttons(
+        self.laws = ChoiceButtons(
             tr("Scaling"),
-            wording.law_choices(),
+            wording.list_law_texts(),
             3,
-            lambda kind: workbench.ask(lambda: steered.use_law(kind)),
+            lambda kind: workbench.run_request(lambda: teleoperator.use_law(kind)),
         )
-        self.preset = SteadyChoice(
+        self.preset = WheelSafeComboBox(
             tr("Step preset"), tr("Factor on distance, speed and force of every coordinate")
         )
         for factor in STEP_PRESETS:
-            self.preset.addItem(f"× {rounded(factor, 6)}", factor)
-        self.preset.activated.connect(lambda _: steered.use_preset(self.preset.currentData()))
-        self.factor = named(plain_text(), tr("Present factor"))
-        self.clutch = plain_text(lines=2)
+            self.preset.addItem(f"× {format_rounded(factor, 6)}", factor)
+        self.preset.activated.connect(lambda _: teleoperator.use_preset(self.preset.currentData()))
+        self.factor = name_widget(make_plain_label(), tr("Present factor"))
+        self.clutch = make_plain_label(lines=2)
         self.column.addWidget(self.modes)
-        self.column.addWidget(heading(tr("Scaling")))
+        self.column.addWidget(make_heading(tr("Scaling")))
         self.column.addWidget(self.laws)
-        row = in_row(QLabel(tr("Step")), self.preset, (self.factor, 1), spacing=8)
+        row = make_row(QLabel(tr("Step")), self.preset, (self.factor, 1), spacing=8)
         self.column.addLayout(row)
         self.column.addWidget(self.clutch)
 
     def refresh(self, state: TeleoperationState, intent: Intent) -> None:
-        """Show what acts now."""
+        """Show the active choices."""
         self.modes.show_choice(state.mode)
         self.laws.show_choice(state.law)
-        if not self.preset.view().isVisible():  # somebody is choosing
+        # The list must not change while the operator is choosing from it.
+        if not self.preset.view().isVisible():
             self.preset.select(state.preset)
-        self.factor.setText(wording.factor_text(state.factor, intent.held))
-        self.clutch.setText(wording.clutch_text(state.law, intent.held))
+        self.factor.setText(wording.format_factor(state.factor, intent.held))
+        self.clutch.setText(wording.describe_clutch(state.law, intent.held))

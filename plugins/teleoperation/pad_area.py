@@ -1,4 +1,4 @@
-"""The on-screen pad: a cross for x and y, a slider for z, and keys; all spring back."""
+"""On-screen pad: a cross for x and y, a slider for z, and keys. All spring back."""
 
 from collections.abc import Mapping
 
@@ -15,31 +15,40 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from rotemina.app.motion.teleoperation.axis_calibration import DEAD_ZONE
-from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.motion.inputs import DEFAULT_DEAD_ZONE
+from rotemina.app.widgets.controls import make_tooltip
+from rotemina.app.workbench import Workbench
 from rotemina.plugins.teleoperation import mark, tr
-from rotemina.plugins.teleoperation.virtual_stick import Key, VirtualStick
+from rotemina.plugins.teleoperation.virtual_stick import PadKey, VirtualStick
 
-RENEW_MS = 100  # well within the lease of the pad
-_KEYS = {
-    Qt.Key.Key_Left: Key.LEFT,
-    Qt.Key.Key_Right: Key.RIGHT,
-    Qt.Key.Key_Down: Key.NEAR,
-    Qt.Key.Key_Up: Key.AWAY,
-    Qt.Key.Key_PageDown: Key.LOWER,
-    Qt.Key.Key_PageUp: Key.RAISE,
-    Qt.Key.Key_Space: Key.CLUTCH,
+#: When its lease expires, the pad releases everything. Renewals are therefore much more frequent.
+RENEWAL_INTERVAL_MS = 100
+_PAD_KEYS = {
+    Qt.Key.Key_Left: PadKey.LEFT,
+    Qt.Key.Key_Right: PadKey.RIGHT,
+    Qt.Key.Key_Down: PadKey.NEAR,
+    Qt.Key.Key_Up: PadKey.AWAY,
+    Qt.Key.Key_PageDown: PadKey.LOWER,
+    Qt.Key.Key_PageUp: PadKey.RAISE,
+    Qt.Key.Key_Space: PadKey.CLUTCH,
 }
-_SHIFT, _CONTROL = Qt.KeyboardModifier.ShiftModifier, Qt.KeyboardModifier.ControlModifier
-_SCALING = {Qt.Key.Key_Shift: _SHIFT, Qt.Key.Key_Control: _CONTROL}
-_FOREIGN = Qt.KeyboardModifier.AltModifier | Qt.KeyboardModifier.MetaModifier
+_COARSE_MODIFIER, _FINE_MODIFIER = (
+    Qt.KeyboardModifier.ShiftModifier,
+    Qt.KeyboardModifier.ControlModifier,
+)
+_SCALING_KEYS = {Qt.Key.Key_Shift: _COARSE_MODIFIER, Qt.Key.Key_Control: _FINE_MODIFIER}
+_FOREIGN_MODIFIERS = Qt.KeyboardModifier.AltModifier | Qt.KeyboardModifier.MetaModifier
 _FOREIGN_KEYS = (Qt.Key.Key_Alt, Qt.Key.Key_AltGr, Qt.Key.Key_Meta)
-# After these nobody can be sure that a release will be told.
-_LEFT = (QEvent.Type.WindowDeactivate, QEvent.Type.WindowBlocked, QEvent.Type.UngrabMouse)
-_SIDE, _SLIDER, _GAP, _KNOB = 124, 44, 8, 9
-_CAPTION = 18
-_TIP = (
+# After these events Qt may not report the release of a key or button.
+_RELEASING_EVENTS = (
+    QEvent.Type.WindowDeactivate,
+    QEvent.Type.WindowBlocked,
+    QEvent.Type.UngrabMouse,
+)
+# Side of the cross, width of the slider, gap between them, and radius of a knob.
+_CROSS_SIDE_PX, _SLIDER_WIDTH_PX, _GAP_PX, _KNOB_RADIUS_PX = 124, 44, 8, 9
+_CAPTION_HEIGHT_PX = 18
+_TOOLTIP_LINES = (
     mark("Press and drag: the cross moves x and y, the slider z; both spring back when released."),
     mark(
         "Keyboard, when the pad has the focus: arrows x and y, page up and down z, "
@@ -49,168 +58,173 @@ _TIP = (
 
 
 class PadArea(QWidget):
-    """Where the pointer and the keys of the pad act; only with the focus, and only in sight."""
+    """Area of the pad for pointer and keys. It acts only while it is visible and has the focus."""
 
     def __init__(self, workbench: Workbench, stick: VirtualStick) -> None:
         super().__init__()
         self._workbench, self._stick = workbench, stick
-        self._why_not: str | None = None
-        self._names: Mapping[str, str] = {}
+        self._objection: str | None = None
+        self._coordinate_names: Mapping[str, str] = {}
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         self.setAccessibleName(tr("Pad for x, y and z"))
-        self._renewing = QTimer(self, interval=RENEW_MS)
-        self._renewing.timeout.connect(self._renew)
+        self._renewal_timer = QTimer(self, interval=RENEWAL_INTERVAL_MS)
+        self._renewal_timer.timeout.connect(self._renew)
 
     def sizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
-        """Return the size of cross, slider, frame and captions."""
-        return QSize(_SIDE + _GAP + _SLIDER + 4, _SIDE + _CAPTION + 4)
+        """Return the size of cross, slider, frames and captions."""
+        return QSize(
+            _CROSS_SIDE_PX + _GAP_PX + _SLIDER_WIDTH_PX + 4, _CROSS_SIDE_PX + _CAPTION_HEIGHT_PX + 4
+        )
 
-    def show_state(self, why_not: str | None, names: Mapping[str, str]) -> None:
-        """Act, or say why not; ``names`` says what x, y and z of the pad move."""
-        if (why_not, names) != (self._why_not, self._names):
-            self._why_not, self._names = why_not, names
+    def show_state(self, objection: str | None, names: Mapping[str, str]) -> None:
+        """Enable the pad, or disable it if there is an objection.
+
+        ``names`` are the names of the coordinates that x, y and z of the pad move.
+        """
+        if (objection, names) != (self._objection, self._coordinate_names):
+            self._objection, self._coordinate_names = objection, names
             self.setToolTip(
-                plain_tip(
-                    *(tr(line) for line in _TIP),
-                    tr("Not now: {why_not}").format(why_not=why_not) if why_not else "",
+                make_tooltip(
+                    *(tr(line) for line in _TOOLTIP_LINES),
+                    tr("Not now: {why_not}").format(why_not=objection) if objection else "",
                 )
             )
             self.update()
-            if why_not is not None:
+            if objection is not None:
                 self.release()
-        if self._stick.busy and not self._in_sight():
+        if self._stick.busy and not self._is_exposed():
             self.release()
 
     def release(self) -> None:
-        """Release everything."""
-        self._renewing.stop()
+        """Release all keys and the pointer."""
+        self._renewal_timer.stop()
         self._stick.release_all()
         self.update()
 
-    # --- keys -------------------------------------------------------------------------------------
-
     def event(self, event: QEvent) -> bool:
-        """Keep the pad's keys from being shortcuts; let go when the window is left."""
+        """Keep the pad keys from acting as shortcuts. Release all keys when the window is left."""
         if event.type() == QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent):
-            if event.key() in _KEYS:
+            if event.key() in _PAD_KEYS:
                 event.accept()
                 return True
-        elif event.type() in _LEFT and self._stick.busy:
+        elif event.type() in _RELEASING_EVENTS and self._stick.busy:
             self.release()
         return super().event(event)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
-        """Hold a key; its repetitions are none."""
+        """Hold a key. Automatic repetitions are ignored."""
         key = event.key()
         if key in _FOREIGN_KEYS:
             self.release()
-        elif key in _SCALING:
-            self._scale(event.modifiers() | _SCALING[key])
-        elif key not in _KEYS or event.modifiers() & _FOREIGN:
+        elif key in _SCALING_KEYS:
+            self._update_scaling(event.modifiers() | _SCALING_KEYS[key])
+        elif key not in _PAD_KEYS or event.modifiers() & _FOREIGN_MODIFIERS:
             super().keyPressEvent(event)
         elif not event.isAutoRepeat():
-            self._scale(event.modifiers())
-            if self._acts():
-                self._stick.press(_KEYS[key])
-        self._follow()
+            self._update_scaling(event.modifiers())
+            if self._can_act():
+                self._stick.press(_PAD_KEYS[key])
+        self._update_renewal()
 
     def keyReleaseEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
         """Release a key."""
         key = event.key()
-        if key in _SCALING:
-            self._scale(event.modifiers() & ~_SCALING[key])
-        elif key not in _KEYS:
+        if key in _SCALING_KEYS:
+            self._update_scaling(event.modifiers() & ~_SCALING_KEYS[key])
+        elif key not in _PAD_KEYS:
             super().keyReleaseEvent(event)
         elif not event.isAutoRepeat():
-            self._stick.release(_KEYS[key])
-        self._follow()
-
-    # --- pointer ----------------------------------------------------------------------------------
+            self._stick.release(_PAD_KEYS[key])
+        self._update_renewal()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
-        """Take the cross or the slider."""
+        """Begin to drag the cross or the slider."""
         if event.button() is not Qt.MouseButton.LeftButton:
             return
         self.setFocus(Qt.FocusReason.MouseFocusReason)
-        self._scale(event.modifiers())
-        self._in_cross = event.position().x() <= _SIDE + 0.5 * _GAP
+        self._update_scaling(event.modifiers())
+        self._is_cross_pressed = event.position().x() <= _CROSS_SIDE_PX + 0.5 * _GAP_PX
         self._drag(event.position())
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
-        """Move what was taken; what was released meanwhile has to be taken again."""
+        """Continue a drag. If it was released meanwhile, a new press is required."""
         if event.buttons() & Qt.MouseButton.LeftButton and self._stick.dragging:
             self._drag(event.position())
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
-        """Spring back."""
+        """End the drag. Cross and slider spring back."""
         if event.button() is Qt.MouseButton.LeftButton:
-            self._stick.drop()
-            self._follow()
+            self._stick.release_pointer()
+            self._update_renewal()
 
-    def _drag(self, place: QPointF) -> None:
-        if not self._acts():
+    def _drag(self, position: QPointF) -> None:
+        if not self._can_act():
             return
-        half = 0.5 * _SIDE
-        ways = {"x": (place.x() - half - 2) / half, "y": (half + 2 - place.y()) / half}
-        if not self._in_cross:
-            ways = {"z": ways["y"]}
+        half_side = 0.5 * _CROSS_SIDE_PX
+        deflections = {
+            "x": (position.x() - half_side - 2) / half_side,
+            "y": (half_side + 2 - position.y()) / half_side,
+        }
+        if not self._is_cross_pressed:
+            deflections = {"z": deflections["y"]}
         self._stick.drag(
-            **{axis: 0.0 if abs(way) < DEAD_ZONE else way for axis, way in ways.items()}
+            **{
+                axis: 0.0 if abs(deflection) < DEFAULT_DEAD_ZONE else deflection
+                for axis, deflection in deflections.items()
+            }
         )
-        self._follow()
-
-    # --- letting go -------------------------------------------------------------------------------
+        self._update_renewal()
 
     def focusInEvent(self, event: QFocusEvent) -> None:  # noqa: N802 (Qt's name)
-        """Show that keys act now."""
+        """Show that the keys act now."""
         super().focusInEvent(event)
         self.update()
 
     def focusOutEvent(self, event: QFocusEvent) -> None:  # noqa: N802 (Qt's name)
-        """Release everything, whatever took the focus."""
+        """Release everything when another widget takes the focus."""
         self.release()
         super().focusOutEvent(event)
 
     def hideEvent(self, event: QHideEvent) -> None:  # noqa: N802 (Qt's name)
-        """Release everything."""
+        """Release everything when the pad is hidden."""
         self.release()
         super().hideEvent(event)
 
-    def _scale(self, modifiers: Qt.KeyboardModifier) -> None:
-        self._stick.modify(fine=bool(modifiers & _CONTROL), coarse=bool(modifiers & _SHIFT))
+    def _update_scaling(self, modifiers: Qt.KeyboardModifier) -> None:
+        self._stick.set_scaling(
+            fine=bool(modifiers & _FINE_MODIFIER), coarse=bool(modifiers & _COARSE_MODIFIER)
+        )
 
-    def _acts(self) -> bool:
-        return self._why_not is None and self.hasFocus() and self._in_sight()
+    def _can_act(self) -> bool:
+        return self._objection is None and self.hasFocus() and self._is_exposed()
 
-    def _in_sight(self) -> bool:
-        # A dock behind another one is not hidden for Qt, only moved away.
+    def _is_exposed(self) -> bool:
+        # Qt considers a dock behind another one visible, so the visible region is checked.
         return not self.visibleRegion().isEmpty()
 
-    def _follow(self) -> None:
-        """Say from time to time that what is held still is, and draw it."""
+    def _update_renewal(self) -> None:
+        """Renew the lease periodically while the pointer or a key is held, and redraw."""
         if not self._stick.busy:
-            self._renewing.stop()
-        elif not self._renewing.isActive():
-            self._renewing.start()
+            self._renewal_timer.stop()
+        elif not self._renewal_timer.isActive():
+            self._renewal_timer.start()
         self.update()
 
     def _renew(self) -> None:
         self._stick.renew()
-        self._follow()
-
-    # --- picture ----------------------------------------------------------------------------------
+        self._update_renewal()
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
-        """Draw the cross and the slider with their knobs."""
+        """Draw cross and slider with captions and knobs."""
         theme = self._workbench.theme
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         frame = QPen(QColor(theme.accent if self.hasFocus() else theme.line))
         frame.setWidthF(2.0 if self.hasFocus() else 1.0)
-        found = self._stick.deflections
-        cross = QRectF(2, 2, _SIDE, _SIDE)
-        slider = QRectF(2 + _SIDE + _GAP, 2, _SLIDER, _SIDE)
+        deflections = self._stick.deflections
+        cross = QRectF(2, 2, _CROSS_SIDE_PX, _CROSS_SIDE_PX)
+        slider = QRectF(2 + _CROSS_SIDE_PX + _GAP_PX, 2, _SLIDER_WIDTH_PX, _CROSS_SIDE_PX)
         for area in (cross, slider):
             painter.setPen(frame)
             painter.setBrush(QColor(theme.raised))
@@ -219,26 +233,29 @@ class PadArea(QWidget):
             middle = area.center()
             painter.drawLine(QPointF(area.left(), middle.y()), QPointF(area.right(), middle.y()))
             painter.drawLine(QPointF(middle.x(), area.top()), QPointF(middle.x(), area.bottom()))
-        self._name(painter, cross, slider)
-        self._knob(painter, cross, found["x"], found["y"])
-        self._knob(painter, slider, 0.0, found["z"])
+        self._draw_captions(painter, cross, slider)
+        self._draw_knob(painter, cross, deflections["x"], deflections["y"])
+        self._draw_knob(painter, slider, 0.0, deflections["z"])
         painter.end()
 
-    def _name(self, painter: QPainter, cross: QRectF, slider: QRectF) -> None:
-        """Write under cross and slider what they move."""
+    def _draw_captions(self, painter: QPainter, cross: QRectF, slider: QRectF) -> None:
         painter.setPen(QColor(self._workbench.theme.quiet))
-        x, y, z = (self._names.get(axis, axis) for axis in ("x", "y", "z"))
-        below = QRectF(cross.left(), cross.bottom() + 2, slider.right() - cross.left(), _CAPTION)
-        middle = Qt.AlignmentFlag.AlignVCenter
-        painter.drawText(below, int(middle | Qt.AlignmentFlag.AlignLeft), f"→ {x}   ↑ {y}")
-        painter.drawText(below, int(middle | Qt.AlignmentFlag.AlignRight), f"↑ {z}")
+        x, y, z = (self._coordinate_names.get(axis, axis) for axis in ("x", "y", "z"))
+        caption_area = QRectF(
+            cross.left(), cross.bottom() + 2, slider.right() - cross.left(), _CAPTION_HEIGHT_PX
+        )
+        alignment = Qt.AlignmentFlag.AlignVCenter
+        painter.drawText(
+            caption_area, int(alignment | Qt.AlignmentFlag.AlignLeft), f"→ {x}   ↑ {y}"
+        )
+        painter.drawText(caption_area, int(alignment | Qt.AlignmentFlag.AlignRight), f"↑ {z}")
 
-    def _knob(self, painter: QPainter, area: QRectF, x: float, y: float) -> None:
+    def _draw_knob(self, painter: QPainter, area: QRectF, x: float, y: float) -> None:
         theme = self._workbench.theme
-        held = x != 0.0 or y != 0.0
+        is_deflected = x != 0.0 or y != 0.0
         painter.setPen(Qt.PenStyle.NoPen)
-        colour = theme.quiet if self._why_not is not None or not held else theme.accent
+        colour = theme.quiet if self._objection is not None or not is_deflected else theme.accent
         painter.setBrush(QColor(colour))
-        reach = 0.5 * area.height() - _KNOB
-        at = area.center() + QPointF(x * min(reach, 0.5 * area.width() - 2), -y * reach)
-        painter.drawEllipse(at, _KNOB, _KNOB)
+        reach = 0.5 * area.height() - _KNOB_RADIUS_PX
+        centre = area.center() + QPointF(x * min(reach, 0.5 * area.width() - 2), -y * reach)
+        painter.drawEllipse(centre, _KNOB_RADIUS_PX, _KNOB_RADIUS_PX)

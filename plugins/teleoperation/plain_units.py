@@ -1,52 +1,57 @@
-"""Scales and perceived dynamics as text beside a law."""
+"""Texts about the scale and the perceived dynamics of a control law."""
 
 from math import degrees
 
-from rotemina.app.motion.teleoperation.virtual_impedance import FeltDynamics
+from rotemina.app.motion.teleoperation import PerceivedDynamics
 from rotemina.plugins.teleoperation import tr
-from rotemina.sim.quantities import exact, rounded
+from rotemina.sim.messages import format_rounded
+from rotemina.sim.units import format_exact
 
-_MM = 1e-3
-
-
-def tilt_text(tilt_rad: float) -> str:
-    """Return a change of orientation: ``"206 arcsec (1 mrad)"``."""
-    return f"{rounded(3600.0 * degrees(tilt_rad), 3)} arcsec ({rounded(1e3 * tilt_rad, 3)} mrad)"
+_M_PER_MM = 1e-3
 
 
-def position_text(scale: float, unit: str, what: str, stick_travel_m: float) -> str:
-    """Return ``"1 mm of stick = 2 µm of tip"``.
+def format_tilt(tilt_rad: float) -> str:
+    """Return an angle such as ``"206 arcsec (1 mrad)"``."""
+    arcsec, mrad = 3600.0 * degrees(tilt_rad), 1e3 * tilt_rad
+    return f"{format_rounded(arcsec, 3)} arcsec ({format_rounded(mrad, 3)} mrad)"
 
-    ``scale`` is what full deflection moves, in ``unit`` (m or rad); ``stick_travel_m`` is the way
-    of the stick's tip from the middle to full deflection.
+
+def format_position_scale(scale: float, unit: str, moving_part: str, stick_travel_m: float) -> str:
+    """Return a text such as ``"1 mm of stick = 2 µm of tip"``.
+
+    ``scale`` is the motion at full deflection in ``unit`` (m or rad). ``stick_travel_m`` is the
+    travel of the tip of the stick from the centre to full deflection.
     """
-    way = exact(scale * _MM / stick_travel_m, unit)
-    return tr("1 mm of stick = {way} of {what}").format(way=way, what=what)
+    distance = format_exact(scale * _M_PER_MM / stick_travel_m, unit)
+    return tr("1 mm of stick = {way} of {what}").format(way=distance, what=moving_part)
 
 
-def way_text(scale: float, unit: str) -> str:
-    """Return ``"full stick = 2 µm"``, for a way (m or rad) or a speed at full deflection."""
-    return tr("full deflection = {way}").format(way=exact(scale, unit))
+def format_full_deflection(scale: float, unit: str) -> str:
+    """Return a text such as ``"full deflection = 2 µm"``, for a distance (m, rad) or a speed."""
+    return tr("full deflection = {way}").format(way=format_exact(scale, unit))
 
 
-def rate_text(scale: float, unit: str) -> str:
-    """Return ``"full stick = 0.5 mm/s"``, for a speed at full deflection."""
-    return way_text(scale, f"{unit}/s")
+def format_rate_scale(scale: float, unit: str) -> str:
+    """Return e.g. ``"full deflection = 0.5 mm/s"`` for a speed in ``unit`` per second."""
+    return format_full_deflection(scale, f"{unit}/s")
 
 
-def felt_text(felt: FeltDynamics, unit: str, factor: float = 1.0) -> str:
-    """Return where full deflection leads, and how soon; ``factor`` is the law's scale."""
-    after_s = f"{rounded(felt.time_constant_s, 3)} s"
-    if felt.terminal_speed is not None:
-        glide = tr("full deflection: {speed}, time constant {after}")
-        speed = exact(factor * felt.terminal_speed, f"{unit}/s")
-        return glide.format(speed=speed, after=after_s)
-    swing = tr(
+def describe_dynamics(dynamics: PerceivedDynamics, unit: str, factor: float = 1.0) -> str:
+    """Return travel or speed at full deflection, and the time constant.
+
+    ``factor`` scales travel and speed.
+    """
+    time_constant_text = f"{format_rounded(dynamics.time_constant_s, 3)} s"
+    if dynamics.terminal_speed is not None:
+        speed_template = tr("full deflection: {speed}, time constant {after}")
+        speed = format_exact(factor * dynamics.terminal_speed, f"{unit}/s")
+        return speed_template.format(speed=speed, after=time_constant_text)
+    travel_template = tr(
         "full deflection: {travel}, {hz:.3g} Hz, damping ratio {damping:.3g}, time constant {after}"
     )
-    return swing.format(
-        travel=exact(factor * (felt.travel or 0.0), unit),
-        hz=felt.natural_frequency_hz,
-        damping=felt.damping_ratio,
-        after=after_s,
+    return travel_template.format(
+        travel=format_exact(factor * (dynamics.travel or 0.0), unit),
+        hz=dynamics.natural_frequency_hz,
+        damping=dynamics.damping_ratio,
+        after=time_constant_text,
     )

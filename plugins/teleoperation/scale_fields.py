@@ -1,4 +1,4 @@
-"""Fields of a scale: names, units, text, and refusals."""
+"""Input fields of a coordinate scale: names, units, texts and checks."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -7,15 +7,15 @@ from typing import NamedTuple
 
 from pydantic import TypeAdapter, ValidationError
 
-from rotemina.app.motion.teleoperation.frames import Coordinate
-from rotemina.app.motion.teleoperation.reference import ScalingError
-from rotemina.app.motion.teleoperation.scales import LawKind, Scale, Scales
+from rotemina.app.errors import ScalingError
+from rotemina.app.motion.teleoperation import CoordinateScale, FrameCoordinate, LawKind, ModeScales
 from rotemina.plugins.teleoperation import mark, tr
-from rotemina.sim.quantities import exact, parsed, rounded
-from rotemina.sim.units import per_si, symbol
+from rotemina.sim.messages import format_rounded, parse_number
+from rotemina.sim.units import display_symbol_of, format_exact, per_si
 
-_TABLE_M = 1e-4  # what has a longer way reads better in mm
-_BOUNDS = {
+# Longer distances are displayed in mm instead of µm.
+_MICROMETRE_DISPLAY_LIMIT_M = 1e-4
+_BOUND_TEXTS = {
     "gt": mark("above {bound}"),
     "ge": mark("at least {bound}"),
     "lt": mark("below {bound}"),
@@ -24,14 +24,15 @@ _BOUNDS = {
 
 
 class ScaleField(NamedTuple):
-    """One number of a scale: its name in :class:`Scale`, its title, its unit, what it means.
+    """Input field for one attribute of a :class:`CoordinateScale`.
 
-    ``unit`` is that of the screen; ``way`` and ``speed`` follow from the coordinate.
+    ``name`` is the name of the attribute. ``unit`` is the unit on the screen, or None if it depends
+    on the coordinate. ``tip`` says what the value means, and which laws use it.
     """
 
     name: str
     title: str
-    unit: str
+    unit: str | None
     tip: str
 
     @property
@@ -41,16 +42,16 @@ class ScaleField(NamedTuple):
 
     @property
     def shown_tip(self) -> str:
-        """What it means, in the language in use."""
+        """The tip in the language in use."""
         return tr(self.tip)
 
 
 FIELDS = (
     ScaleField(
-        "way", mark("Distance at full stick"), "way", mark("Position, and impedance with a spring")
+        "way", mark("Distance at full stick"), None, mark("Position, and impedance with a spring")
     ),
     ScaleField(
-        "speed", mark("Speed at full stick"), "speed", mark("Rate, and impedance without a spring")
+        "speed", mark("Speed at full stick"), None, mark("Rate, and impedance without a spring")
     ),
     ScaleField(
         "time_constant_s",
@@ -74,70 +75,80 @@ FIELDS = (
         "contact_gain",
         mark("Contact gain"),
         "%",
-        mark("Impedance: contact force relative to the largest safe force; 0: none"),
+        mark("Impedance: gain of the contact force, in percent of the highest safe gain; 0: none"),
     ),
 )
-_BY_NAME = {field.name: field for field in FIELDS}
+_FIELDS_BY_NAME = {field.name: field for field in FIELDS}
 
 
-class Shown(NamedTuple):
-    """How a field's numbers are shown: the unit, and how many of it make one SI unit."""
+class FieldUnit(NamedTuple):
+    """Screen unit of a field, and the number of screen units in one SI unit."""
 
     unit: str
     factor: float
 
-    def number(self, value: float) -> str:
+    def format_number(self, value: float) -> str:
         """Return a value (SI) as digits."""
-        return rounded(value * self.factor, 6)
+        return format_rounded(value * self.factor, 6)
 
-    def text(self, value: float) -> str:
+    def format_value(self, value: float) -> str:
         """Return a value (SI) with its unit."""
-        return f"{self.number(value)} {self.unit}".rstrip()
+        return f"{self.format_number(value)} {self.unit}".rstrip()
 
 
-def shown(field: ScaleField, coordinate: Coordinate) -> Shown:
-    """Return how a field of a coordinate is shown."""
-    if field.unit not in ("way", "speed"):
-        return Shown(field.unit, 100.0 if field.unit == "%" else 1.0)
+def find_field_unit(field: ScaleField, coordinate: FrameCoordinate) -> FieldUnit:
+    """Return the screen unit of a field for a coordinate."""
+    if field.unit is not None:
+        return FieldUnit(field.unit, 100.0 if field.unit == "%" else 1.0)
     unit = "urad"
     if coordinate.unit == "m":
-        unit = "mm" if Scale.preset(coordinate).way > _TABLE_M else "um"
-    return Shown(symbol(unit) + ("/s" if field.unit == "speed" else ""), per_si(unit))
+        unit = (
+            "mm"
+            if CoordinateScale.make_preset(coordinate).way > _MICROMETRE_DISPLAY_LIMIT_M
+            else "um"
+        )
+    return FieldUnit(
+        display_symbol_of(unit) + ("/s" if field.name == "speed" else ""), per_si(unit)
+    )
 
 
-def bounds_text(field: ScaleField, coordinate: Coordinate) -> str:
-    """Return what a field of a coordinate may hold, with its unit."""
-    unit, bounds = shown(field, coordinate), coordinate.bounds
+def format_bounds(field: ScaleField, coordinate: FrameCoordinate) -> str:
+    """Return the permitted range of a field for a coordinate, with its unit."""
+    unit, bounds = find_field_unit(field, coordinate), coordinate.bounds
     if field.name == "way":
-        return tr("above 0, up to {most}").format(most=unit.text(bounds.high - bounds.low))
+        return tr("above 0, up to {most}").format(most=unit.format_value(bounds.high - bounds.low))
     if field.name == "speed":
-        return tr("above 0, up to {most}").format(most=unit.text(bounds.max_speed))
-    kept = _checked()[field.name]
+        return tr("above 0, up to {most}").format(most=unit.format_value(bounds.max_speed))
+    schema = _read_schema()[field.name]
     return tr("{least} to {most}").format(
-        least=unit.number(kept["minimum"]), most=unit.text(kept["maximum"])
+        least=unit.format_number(schema["minimum"]), most=unit.format_value(schema["maximum"])
     )
 
 
 @cache
-def _checked() -> dict[str, dict[str, float]]:
-    """Return what :class:`Scale` itself checks of each number, by JSON schema's words."""
-    properties: dict[str, dict[str, float]] = TypeAdapter(Scale).json_schema()["properties"]
+def _read_schema() -> dict[str, dict[str, float]]:
+    """Return the JSON schema of each attribute of :class:`CoordinateScale`, with its bounds."""
+    properties: dict[str, dict[str, float]] = TypeAdapter(CoordinateScale).json_schema()[
+        "properties"
+    ]
     return properties
 
 
-def changed(scale: Scale, name: str, text: str, coordinate: Coordinate) -> Scale:
-    """Return a scale of a coordinate with one field as it was typed.
+def with_entered_value(
+    scale: CoordinateScale, name: str, text: str, coordinate: FrameCoordinate
+) -> CoordinateScale:
+    """Return a scale of a coordinate in which one attribute has the value that was entered.
 
     Raises
     ------
     ScalingError
-        With the field, what was typed, and its bound.
+        If the text is not a number, or the number is out of bounds.
     """
-    field = _BY_NAME[name]
-    unit = shown(field, coordinate)
+    field = _FIELDS_BY_NAME[name]
+    unit = find_field_unit(field, coordinate)
     title = tr("{title} of {name}").format(title=field.shown_title, name=coordinate.name)
     text = text.strip()
-    number = parsed(text)
+    number = parse_number(text)
     if number is None:
         unit_text = f" in {unit.unit}" if unit.unit else ""
         raise ScalingError(
@@ -146,55 +157,64 @@ def changed(scale: Scale, name: str, text: str, coordinate: Coordinate) -> Scale
             )
         )
     value = number / unit.factor
-    if unit.number(value) == unit.number(getattr(scale, name)):
-        return scale  # what is shown has fewer digits than what is meant
-    typed = f"{title}: {text} {unit.unit}".rstrip()
-    _check_reach(typed, name, value, coordinate)
+    if unit.format_number(value) == unit.format_number(getattr(scale, name)):
+        # The text is the current value as displayed, with fewer digits. The exact value is kept.
+        return scale
+    entered_text = f"{title}: {text} {unit.unit}".rstrip()
+    _check_coordinate_bounds(entered_text, name, value, coordinate)
     try:
-        made = replace(scale, **{name: value})
+        new_scale = replace(scale, **{name: value})
     except ValidationError as error:
         raise ScalingError(
-            tr("{typed}: must be {bound}").format(typed=typed, bound=_bound(error, unit))
+            tr("{typed}: must be {bound}").format(
+                typed=entered_text, bound=_describe_bound(error, unit)
+            )
         ) from error
-    for kind in LawKind:
-        made.law(kind, coordinate, 0.0)
-    return made
+    # Every law is built only because its constructor checks the scale.
+    for law_kind in LawKind:
+        new_scale.make_law(law_kind, coordinate, 0.0)
+    return new_scale
 
 
-def without(scales: Scales, mode: str) -> Scales:
-    """Return scales with the presets of one mode."""
-    return Scales(modes={name: kept for name, kept in scales.modes.items() if name != mode})
+def with_presets(scales: ModeScales, mode: str) -> ModeScales:
+    """Return scales in which one mode is reset to its presets."""
+    return ModeScales(modes={name: scale for name, scale in scales.modes.items() if name != mode})
 
 
-def texts(scale: Scale, coordinate: Coordinate) -> Mapping[str, str]:
-    """Return the text of each field."""
+def format_fields(scale: CoordinateScale, coordinate: FrameCoordinate) -> Mapping[str, str]:
+    """Return the number in each field for a scale, as text."""
     return {
-        field.name: shown(field, coordinate).number(getattr(scale, field.name)) for field in FIELDS
+        field.name: find_field_unit(field, coordinate).format_number(getattr(scale, field.name))
+        for field in FIELDS
     }
 
 
-def _check_reach(typed: str, name: str, value: float, coordinate: Coordinate) -> None:
-    """Refuse what is more than the coordinate has."""
+def _check_coordinate_bounds(
+    entered_text: str, name: str, value: float, coordinate: FrameCoordinate
+) -> None:
+    """Raise :class:`ScalingError` if a value exceeds the range or speed of the coordinate."""
     bounds, unit = coordinate.bounds, coordinate.unit
     if name == "way" and value > bounds.high - bounds.low:
-        most = exact(bounds.high - bounds.low, unit)
+        limit = format_exact(bounds.high - bounds.low, unit)
         raise ScalingError(
-            tr("{typed}: must be at most the range of {most}").format(typed=typed, most=most)
+            tr("{typed}: must be at most the range of {most}").format(
+                typed=entered_text, most=limit
+            )
         )
     if name == "speed" and value > bounds.max_speed:
-        most = exact(bounds.max_speed, f"{unit}/s")
+        limit = format_exact(bounds.max_speed, f"{unit}/s")
         raise ScalingError(
             tr("{typed}: must be at most the maximum speed of {most}").format(
-                typed=typed, most=most
+                typed=entered_text, most=limit
             )
         )
 
 
-def _bound(error: ValidationError, unit: Shown) -> str:
+def _describe_bound(error: ValidationError, unit: FieldUnit) -> str:
     context = error.errors(include_url=False)[0].get("ctx", {})
-    told = (
-        tr(text).format(bound=unit.text(context[key]))
-        for key, text in _BOUNDS.items()
+    bound_texts = (
+        tr(text).format(bound=unit.format_value(context[key]))
+        for key, text in _BOUND_TEXTS.items()
         if key in context
     )
-    return next(told, tr("a finite number"))
+    return next(bound_texts, tr("a finite number"))

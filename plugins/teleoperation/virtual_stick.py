@@ -1,18 +1,17 @@
-"""What a hand holds on the pad: keys and the pointer, made into deflections. Free of Qt."""
+"""Deflections from the keys and the pointer of the pad. This module does not use Qt."""
 
 from enum import StrEnum
 
-from rotemina.app.motion.teleoperation.axis_calibration import uncalibrated
-from rotemina.app.motion.teleoperation.intent import Action
-from rotemina.drivers.inputs.pad import Pad
+from rotemina.app.motion.inputs import OperatorAction, to_uncalibrated_raw
+from rotemina.drivers.inputs import InputPad
 
-AXES = ("x", "y", "z")
-#: Deflections of keys and pointer at their end, as a choice offers them.
-SHARES = (0.1, 0.25, 0.5, 0.75, 1.0)
+PAD_AXES = ("x", "y", "z")
+#: Choices for the deflection of the keys and of the pointer at the end of its travel.
+MAX_DEFLECTION_CHOICES = (0.1, 0.25, 0.5, 0.75, 1.0)
 
 
-class Key(StrEnum):
-    """The keys of the pad, by what they do."""
+class PadKey(StrEnum):
+    """Key of the pad, named by its function."""
 
     LEFT = "left"
     RIGHT = "right"
@@ -23,109 +22,116 @@ class Key(StrEnum):
     CLUTCH = "clutch"
 
 
-_MOVES = {
-    Key.LEFT: ("x", -1.0),
-    Key.RIGHT: ("x", 1.0),
-    Key.NEAR: ("y", -1.0),
-    Key.AWAY: ("y", 1.0),
-    Key.LOWER: ("z", -1.0),
-    Key.RAISE: ("z", 1.0),
+_KEY_DEFLECTIONS = {
+    PadKey.LEFT: ("x", -1.0),
+    PadKey.RIGHT: ("x", 1.0),
+    PadKey.NEAR: ("y", -1.0),
+    PadKey.AWAY: ("y", 1.0),
+    PadKey.LOWER: ("z", -1.0),
+    PadKey.RAISE: ("z", 1.0),
 }
 
 
 class VirtualStick:
-    """Keys and pointer on a pad; two keys against each other are none.
+    """Virtual stick that keys and pointer deflect. Two opposite keys cancel each other.
 
     Parameters
     ----------
-    pad : Pad
-        With the axes x, y, z and the buttons fine, coarse and clutch.
+    pad : InputPad
+        Pad with the axes x, y, z and the buttons fine, coarse and clutch.
 
     Attributes
     ----------
-    most : float
-        The deflection at an end, 0 to 1.
+    max_deflection : float
+        Deflection for a key and for the pointer at the end of its travel, 0 to 1.
     """
 
-    def __init__(self, pad: Pad) -> None:
-        self.most = 1.0
+    def __init__(self, pad: InputPad) -> None:
+        self.max_deflection = 1.0
         self._pad = pad
-        self._keys: set[Key] = set()
-        self._dragged: dict[str, float] = {}
-        self._scaled = {Action.FINE: False, Action.COARSE: False}
-        self._told: dict[str, float | bool] = {}
+        self._held_keys: set[PadKey] = set()
+        self._pointer_deflections: dict[str, float] = {}
+        self._held_scaling_buttons = {OperatorAction.FINE: False, OperatorAction.COARSE: False}
+        self._sent_values: dict[str, float | bool] = {}
 
     @property
     def busy(self) -> bool:
-        """Whether anything is held."""
-        return bool(self._keys or self._dragged or any(self._scaled.values()))
+        """Whether any key or the pointer is held."""
+        return bool(
+            self._held_keys or self._pointer_deflections or any(self._held_scaling_buttons.values())
+        )
 
     @property
     def dragging(self) -> bool:
-        """Whether the pointer holds something."""
-        return bool(self._dragged)
+        """Whether the pointer is dragging."""
+        return bool(self._pointer_deflections)
 
     @property
     def deflections(self) -> dict[str, float]:
-        """What is requested of each axis, −1 to 1."""
-        found = dict.fromkeys(AXES, 0.0)
-        for key in self._keys & _MOVES.keys():
-            axis, way = _MOVES[key]
-            found[axis] += way
-        found.update(self._dragged)
-        return {axis: self.most * way for axis, way in found.items()}
+        """The requested deflection of each axis, −1 to 1."""
+        sums = dict.fromkeys(PAD_AXES, 0.0)
+        for key in self._held_keys & _KEY_DEFLECTIONS.keys():
+            axis, deflection = _KEY_DEFLECTIONS[key]
+            sums[axis] += deflection
+        sums.update(self._pointer_deflections)
+        return {axis: self.max_deflection * deflection for axis, deflection in sums.items()}
 
-    def press(self, key: Key) -> None:
+    def press(self, key: PadKey) -> None:
         """Hold a key."""
-        self._keys.add(key)
-        self._tell()
+        self._held_keys.add(key)
+        self._update_pad()
 
-    def release(self, key: Key) -> None:
+    def release(self, key: PadKey) -> None:
         """Release a key."""
-        self._keys.discard(key)
-        self._tell()
+        self._held_keys.discard(key)
+        self._update_pad()
 
-    def drag(self, **ways: float) -> None:
-        """Have the pointer at a place, −1 to 1 of each axis named; beyond counts as the end."""
-        self._dragged = {axis: min(max(way, -1.0), 1.0) for axis, way in ways.items()}
-        self._tell()
+    def drag(self, **deflections: float) -> None:
+        """Set the deflection of the named axes by the pointer, limited to −1 to 1."""
+        self._pointer_deflections = {
+            axis: min(max(deflection, -1.0), 1.0) for axis, deflection in deflections.items()
+        }
+        self._update_pad()
 
-    def drop(self) -> None:
-        """Let go with the pointer."""
-        self._dragged = {}
-        self._tell()
+    def release_pointer(self) -> None:
+        """Release the pointer."""
+        self._pointer_deflections = {}
+        self._update_pad()
 
-    def modify(self, *, fine: bool, coarse: bool) -> None:
-        """Hold fine or coarse; a change of that ends what moves, as it would leap in speed."""
-        scaled = {Action.FINE: fine, Action.COARSE: coarse}
-        if scaled != self._scaled:
-            self._scaled = scaled
-            self._keys, self._dragged = set(), {}
-            self._tell()
+    def set_scaling(self, *, fine: bool, coarse: bool) -> None:
+        """Set fine and coarse. A change releases keys and pointer, to avoid a jump in speed."""
+        held_scaling_buttons = {OperatorAction.FINE: fine, OperatorAction.COARSE: coarse}
+        if held_scaling_buttons != self._held_scaling_buttons:
+            self._held_scaling_buttons = held_scaling_buttons
+            self._held_keys, self._pointer_deflections = set(), {}
+            self._update_pad()
 
     def take_over(self, held: bool) -> None:
-        """Hold the button by which the pad asks to drive, or release it."""
-        self._pad.hold(Action.TAKE_OVER, held)
+        """Hold or release the button with which the pad takes control."""
+        self._pad.hold(OperatorAction.TAKE_OVER, held)
 
     def renew(self) -> None:
-        """Say that what is held still is; what the pad has release meanwhile stays so."""
+        """Renew the lease of the pad. If it has expired, release everything."""
         if not self._pad.renew():
             self.release_all()
 
     def release_all(self) -> None:
         """Release everything."""
-        self._keys, self._dragged = set(), {}
-        self._scaled = dict.fromkeys(self._scaled, False)
-        self._told = {}
+        self._held_keys, self._pointer_deflections = set(), {}
+        self._held_scaling_buttons = dict.fromkeys(self._held_scaling_buttons, False)
+        self._sent_values = {}
         self._pad.release_all()
 
-    def _tell(self) -> None:
-        for axis, way in self.deflections.items():
-            if self._told.get(axis, 0.0) != way:
-                self._told[axis] = way
-                self._pad.deflect(axis, uncalibrated(way))
-        held = {**self._scaled, Action.CLUTCH: Key.CLUTCH in self._keys}
-        for button, is_held in held.items():
-            if self._told.get(button, False) != is_held:
-                self._told[button] = is_held
+    def _update_pad(self) -> None:
+        for axis, deflection in self.deflections.items():
+            if self._sent_values.get(axis, 0.0) != deflection:
+                self._sent_values[axis] = deflection
+                self._pad.deflect(axis, to_uncalibrated_raw(deflection))
+        held_buttons = {
+            **self._held_scaling_buttons,
+            OperatorAction.CLUTCH: PadKey.CLUTCH in self._held_keys,
+        }
+        for button, is_held in held_buttons.items():
+            if self._sent_values.get(button, False) != is_held:
+                self._sent_values[button] = is_held
                 self._pad.hold(button, is_held)

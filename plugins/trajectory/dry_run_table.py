@@ -1,15 +1,21 @@
-"""The words of the dry-run table."""
+"""Texts of the dry-run table."""
 
 from typing import NamedTuple
 
-from rotemina.app.motion.model_deviation_watch import Gap
+from rotemina.app.motion.model import PlaybackGap
 from rotemina.plugins.trajectory import mark, tr
 from rotemina.sim.errors import InputError
-from rotemina.sim.quantities import Scale, fixed, parsed, scale_in, scale_of
-from rotemina.sim.trajectory.dry_run import AxisFigures
-from rotemina.sim.units import from_unit, symbol
+from rotemina.sim.messages import format_fixed, parse_number
+from rotemina.sim.trajectory import AxisDemands
+from rotemina.sim.units import (
+    DisplayScale,
+    choose_scale,
+    display_symbol_of,
+    from_unit,
+    make_scale,
+)
 
-COLUMNS = (
+COLUMN_TITLES = (
     mark("lowest"),
     mark("highest"),
     mark("speed"),
@@ -17,90 +23,104 @@ COLUMNS = (
     mark("predicted error"),
     mark("stop beyond"),
 )
-BOUND = len(COLUMNS) - 1  # the column that may be edited
-_OF_STROKE, _OF_RANGE = 0.25, 0.005  # what is taken for excessive until somebody says otherwise
+# The only column that the operator can edit.
+BOUND_COLUMN = len(COLUMN_TITLES) - 1
+# The default bound is the larger of these ratios times the stroke and the range of the axis.
+_DEFAULT_BOUND_TO_STROKE_RATIO, _DEFAULT_BOUND_TO_RANGE_RATIO = 0.25, 0.005
 
 
-class Cell(NamedTuple):
-    """What a cell shows, and what it says when pointed at."""
+class DryRunCell(NamedTuple):
+    """Text and tooltip of a cell."""
 
     text: str
     tip: str
 
 
-def cells(axis: AxisFigures, scale: Scale) -> tuple[Cell, ...]:
-    """Return one cell for each of :data:`COLUMNS` but the last one, which is the operator's."""
+def make_cells(axis: AxisDemands, scale: DisplayScale) -> tuple[DryRunCell, ...]:
+    """Return the cells of a row, except for the last column, which the operator edits."""
     low, high = axis.bounds.range
-    bounds = tr("range {low} … {high}").format(low=scale.text(low), high=scale.text(high))
+    bounds = tr("range {low} … {high}").format(
+        low=scale.format_with_unit(low), high=scale.format_with_unit(high)
+    )
     return (
-        Cell(scale.text(axis.lowest), bounds),
-        Cell(scale.text(axis.highest), bounds),
-        _rate(axis.peak_speed, axis.bounds.max_speed, axis.unit, "/s"),
-        _rate(axis.peak_acceleration, axis.bounds.max_acceleration, axis.unit, "/s²"),
-        _error(axis),
+        DryRunCell(scale.format_with_unit(axis.lowest), bounds),
+        DryRunCell(scale.format_with_unit(axis.highest), bounds),
+        _make_rate_cell(axis.peak_speed, axis.bounds.max_speed, axis.unit, "/s"),
+        _make_rate_cell(axis.peak_acceleration, axis.bounds.max_acceleration, axis.unit, "/s²"),
+        _make_error_cell(axis),
     )
 
 
-def preset_bound(axis: AxisFigures) -> float:
-    """Return a deviation of readings from the model, m or rad, that is excessive anywhere."""
+def compute_default_bound(axis: AxisDemands) -> float:
+    """Return the default bound on the deviation of readings from the model, m or rad.
+
+    A larger deviation is excessive on any machine.
+    """
     low, high = axis.bounds.range
-    return max(_OF_STROKE * (axis.highest - axis.lowest), _OF_RANGE * (high - low))
-
-
-def bound_text(bound: float | None, si_unit: str) -> str:
-    """Return a bound as the table writes it; nothing for none."""
-    return "" if bound is None else _small(bound, si_unit, 4)
-
-
-def gap_text(gap: Gap, si_unit: str) -> str:
-    """Return how far model and real are apart."""
-    return tr("{rms} rms, {peak} peak").format(
-        rms=_small(gap.rms, si_unit, 3), peak=_small(gap.peak, si_unit, 3)
+    return max(
+        _DEFAULT_BOUND_TO_STROKE_RATIO * (axis.highest - axis.lowest),
+        _DEFAULT_BOUND_TO_RANGE_RATIO * (high - low),
     )
 
 
-def read_bound(text: str, si_unit: str) -> float | None:
-    """Return what someone typed as a bound, m or rad; None for nothing.
+def format_bound(bound: float | None, si_unit: str) -> str:
+    """Return a bound as text for the table; empty for None."""
+    return "" if bound is None else _format_micro(bound, si_unit, 4)
+
+
+def format_model_gap(gap: PlaybackGap, si_unit: str) -> str:
+    """Return the gap between model and machine as text."""
+    return tr("{rms} rms, {peak} peak").format(
+        rms=_format_micro(gap.rms, si_unit, 3), peak=_format_micro(gap.peak, si_unit, 3)
+    )
+
+
+def parse_bound(text: str, si_unit: str) -> float | None:
+    """Return the bound (m or rad) in a typed text, or None for an empty text.
 
     Raises
     ------
     InputError
-        If it is no number above 0.
+        If the text is not a number above 0.
     """
     unit = "urad" if si_unit == "rad" else "um"
-    plain = text.replace(symbol(unit), "").strip()
-    if not plain:
+    number_text = text.replace(display_symbol_of(unit), "").strip()
+    if not number_text:
         return None
-    number = parsed(plain)
+    number = parse_number(number_text)
     if number is None or number <= 0.0:
         raise InputError(
             tr(
                 "{text!r} is not a bound: enter a number above 0 in {unit} with a decimal "
                 "point, or leave it empty"
-            ).format(text=text, unit=symbol(unit))
+            ).format(text=text, unit=display_symbol_of(unit))
         )
     return float(from_unit(number, unit))
 
 
-def _small(value: float, si_unit: str, digits: int) -> str:
-    return scale_in("urad" if si_unit == "rad" else "um", digits=digits).text(value)
+def _format_micro(value: float, si_unit: str, digits: int) -> str:
+    return make_scale("urad" if si_unit == "rad" else "um", digits=digits).format_with_unit(value)
 
 
-def _rate(value: float, bound: float | None, si_unit: str, per: str) -> Cell:
-    scale = scale_of(f"{si_unit}{per}", max(value, bound or 0.0))
-    text = scale.text(value)
+def _make_rate_cell(
+    value: float, bound: float | None, si_unit: str, unit_suffix: str
+) -> DryRunCell:
+    scale = choose_scale(f"{si_unit}{unit_suffix}", max(value, bound or 0.0))
+    text = scale.format_with_unit(value)
     if bound is None:
-        return Cell(text, tr("the robot file states no bound"))
-    share = f"{fixed(100.0 * value / bound, 0)} %"
-    of_bound = tr("{share} of {bound}")
-    return Cell(f"{text} · {share}", of_bound.format(share=share, bound=scale.text(bound)))
+        return DryRunCell(text, tr("the robot file states no bound"))
+    percentage = f"{format_fixed(100.0 * value / bound, 0)} %"
+    tooltip = tr("{share} of {bound}").format(share=percentage, bound=scale.format_with_unit(bound))
+    return DryRunCell(f"{text} · {percentage}", tooltip)
 
 
-def _error(axis: AxisFigures) -> Cell:
+def _make_error_cell(axis: AxisDemands) -> DryRunCell:
     if axis.tracking_rms is None or axis.tracking_peak is None:
-        return Cell("–", tr("the model gives no prediction for this trajectory"))
-    rms, peak = (_small(each, axis.unit, 3) for each in (axis.tracking_rms, axis.tracking_peak))
-    return Cell(
+        return DryRunCell("–", tr("the model gives no prediction for this trajectory"))
+    rms, peak = (
+        _format_micro(value, axis.unit, 3) for value in (axis.tracking_rms, axis.tracking_peak)
+    )
+    return DryRunCell(
         tr("{rms} rms").format(rms=rms),
         tr("the model predicts up to {peak} between command and position").format(peak=peak),
     )

@@ -1,41 +1,51 @@
-"""The path of the tip as a dry run has it: from above and from the side, over what is allowed."""
+"""View of the path of the tip in a dry run, from above and from the side."""
 
 import numpy as np
 from PySide6.QtCore import QEvent, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent, QPen, QPixmap
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from rotemina.app.motion.guard import TipPath
-from rotemina.app.shell.theme import Theme
-from rotemina.app.widgets.controls import plain_tip
-from rotemina.app.widgets.tip_frame import TipFrame, draw_scale, forbidden
+from rotemina.app.motion.limits import TipPath
+from rotemina.app.widgets.controls import make_tooltip
+from rotemina.app.widgets.drawing import (
+    TipProjection,
+    draw_scale_bar,
+    make_forbidden_area,
+)
+from rotemina.app.widgets.style import Theme
 from rotemina.plugins.trajectory import tr
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.kinematics.workspace import Workspace
+from rotemina.sim.kinematics import TipWorkspace
 
-_MOST_POINTS = 4000  # of a path that are drawn
-_MARGIN, _LEAST = 0.15, 2e-6  # about the path: a share of it, and m
-_GAP, _CAPTION = 8, 16  # px; the scale bar is as high as the caption
+# A longer path is downsampled to this many points.
+_MAX_DRAWN_POINTS = 4000
+# Margin around the path, relative to its size, and minimum margin.
+_MARGIN_RATIO, _MIN_MARGIN_M = 0.15, 2e-6
+# Gap between the views, and height of the caption and of the scale bar.
+_GAP_PX, _CAPTION_HEIGHT_PX = 8, 16
 
 
-class PathView(QWidget):
-    """Two views at one scale; a click changes between the path and all that the tip can reach."""
+class TipPathView(QWidget):
+    """Two views of the path of the tip at the same scale.
+
+    A click switches between the path and the whole reach of the tip.
+    """
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
         self._theme = theme
         self._path: TipPath | None = None
-        self._rows = np.empty((0, 3))
-        self._out = np.empty(0, dtype=bool)
-        self._drawn: QPixmap | None = None
-        self._frames: list[TipFrame] = []  # of the drawn views
+        self._drawn_points = np.empty((0, 3))
+        self._is_forbidden = np.empty(0, dtype=bool)
+        self._pixmap: QPixmap | None = None
+        self._projections: list[TipProjection] = []
         self._tip: tuple[float, float, float] | None = None
-        self._approaches = True
-        self.whole = False
+        self._is_approach_drawn = True
+        self.shows_reach = False
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Expanding)
         self.setAccessibleName(tr("Path of the tip"))
         self.setToolTip(
-            plain_tip(
+            make_tooltip(
                 tr(
                     "Path of the tip from above and from the side; dot: where the tip is; "
                     "dashed: approach to the first row; red: forbidden by floor, objective or "
@@ -46,125 +56,142 @@ class PathView(QWidget):
         )
 
     def sizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
-        """Ask for room for two squares."""
+        """Return the preferred size, in which two squares fit."""
         return QSize(230, 130)
 
     def show_path(self, path: TipPath | None) -> None:
-        """Draw another path; without one there is nothing to be seen."""
+        """Show a path. None hides the view."""
         self._path = path
         self.setVisible(path is not None)
         if path is not None:
-            step = max(1, -(-len(path.rows) // _MOST_POINTS))
-            self._rows = path.rows[::step]
-            self._out = path.zone.outside(self._rows)
+            step = max(1, -(-len(path.rows) // _MAX_DRAWN_POINTS))
+            self._drawn_points = path.rows[::step]
+            # The tip must stay inside the zone.
+            self._is_forbidden = path.zone.find_outside(self._drawn_points)
             self.setAccessibleDescription(
                 tr("{share:.0f} % of the rows are forbidden").format(
-                    share=100.0 * float(path.zone.outside(path.rows).mean())
+                    share=100.0 * float(path.zone.find_outside(path.rows).mean())
                 )
             )
-        self._renew()
+        self._redraw()
 
-    def show_tip(self, tip: tuple[float, float, float] | None, *, approaches: bool) -> None:
-        """Mark where the tip is, m, and its way to the first row if the next motion begins so."""
-        if (tip, approaches) != (self._tip, self._approaches):
-            self._tip, self._approaches = tip, approaches
+    def show_tip(self, tip: tuple[float, float, float] | None, *, has_approach: bool) -> None:
+        """Show the position of the tip.
+
+        Parameters
+        ----------
+        tip : (x, y, z) or None
+            The position, m.
+        has_approach : bool
+            Whether the next motion begins with an approach to the first row. It is then drawn.
+        """
+        if (tip, has_approach) != (self._tip, self._is_approach_drawn):
+            self._tip, self._is_approach_drawn = tip, has_approach
             self.update()
 
     def set_theme(self, theme: Theme) -> None:
         """Change all colours."""
         self._theme = theme
-        self._renew()
+        self._redraw()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
-        """Change between the path and the whole reach."""
+        """Switch between the path and the whole reach."""
         if event.button() is Qt.MouseButton.LeftButton:
-            self.whole = not self.whole
-            self._renew()
+            self.shows_reach = not self.shows_reach
+            self._redraw()
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
         """Draw both views with their captions and one scale bar."""
         path = self._path
         if path is None:
             return
-        if self._drawn is None or self._drawn.deviceIndependentSize().toSize() != self.size():
-            self._drawn = self._draw(path)
+        if self._pixmap is None or self._pixmap.deviceIndependentSize().toSize() != self.size():
+            self._pixmap = self._draw_pixmap(path)
         painter = QPainter(self)
-        painter.drawPixmap(0, 0, self._drawn)
+        painter.drawPixmap(0, 0, self._pixmap)
         if self._tip is not None:
             painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-            for frame in self._frames:
-                self._draw_tip(painter, path, frame, np.array(self._tip))
+            for projection in self._projections:
+                self._draw_tip(painter, path, projection, np.array(self._tip))
         painter.end()
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 (Qt's name)
-        """Draw again in another font or style."""
+        """Redraw with another font or style."""
         super().changeEvent(event)
-        self._renew()
+        self._redraw()
 
-    def _renew(self) -> None:
-        self._drawn = None
+    def _redraw(self) -> None:
+        self._pixmap = None
         self.update()
 
-    def _draw(self, path: TipPath) -> QPixmap:
-        """Return all of it as a picture: what stays is not drawn thirty times a second."""
+    def _draw_pixmap(self, path: TipPath) -> QPixmap:
+        """Return a pixmap of everything except the tip and its approach, which move."""
         ratio = self.devicePixelRatioF()
-        picture = QPixmap(self.size() * ratio)
-        picture.setDevicePixelRatio(ratio)
-        picture.fill(Qt.GlobalColor.transparent)
-        low, high = self._bounds(path)
-        middle, span = 0.5 * (low + high), high - low
-        width, height = (self.width() - _GAP) / 2, self.height() - 2 * _CAPTION
+        pixmap = QPixmap(self.size() * ratio)
+        pixmap.setDevicePixelRatio(ratio)
+        pixmap.fill(Qt.GlobalColor.transparent)
+        low, high = self._find_corners(path)
+        centre, span = 0.5 * (low + high), high - low
+        width, height = (self.width() - _GAP_PX) / 2, self.height() - 2 * _CAPTION_HEIGHT_PX
         scale = min(width, height) / float(span.max())
-        painter = QPainter(picture)
+        painter = QPainter(pixmap)
         painter.setFont(self.font())
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        self._frames = []
-        for left, up in ((0.0, 1), (width + _GAP, 2)):
-            frame = TipFrame(QRectF(left, _CAPTION, width, height), middle, scale, up)
-            self._frames.append(frame)
-            self._draw_view(painter, path, frame)
+        self._projections = []
+        for left, vertical_axis in ((0.0, 1), (width + _GAP_PX, 2)):
+            projection = TipProjection(
+                QRectF(left, _CAPTION_HEIGHT_PX, width, height), centre, scale, vertical_axis
+            )
+            self._projections.append(projection)
+            self._draw_view(painter, path, projection)
             painter.setPen(QColor(self._theme.quiet))
-            caption = tr("above: x, y") if up == 1 else tr("side: x, z")
-            painter.drawText(QRectF(left, 0, width, _CAPTION), Qt.AlignmentFlag.AlignLeft, caption)
-        draw_scale(painter, QRectF(self.rect()), scale, QColor(self._theme.text))
+            caption = tr("above: x, y") if vertical_axis == 1 else tr("side: x, z")
+            painter.drawText(
+                QRectF(left, 0, width, _CAPTION_HEIGHT_PX), Qt.AlignmentFlag.AlignLeft, caption
+            )
+        draw_scale_bar(painter, QRectF(self.rect()), scale, QColor(self._theme.text))
         painter.end()
-        return picture
+        return pixmap
 
-    def _bounds(self, path: TipPath) -> tuple[FloatArray, FloatArray]:
-        """Return the corners (3,) of what is shown, m."""
-        if self.whole:
-            reach = Workspace.of(path.zone.chain).hull
+    def _find_corners(self, path: TipPath) -> tuple[FloatArray, FloatArray]:
+        """Return the corners (3,) of the shown volume, m."""
+        if self.shows_reach:
+            reach = TipWorkspace.of(path.zone.chain).hull
             low, high = reach.low, reach.high
         else:
-            seen = np.vstack((path.now, self._rows))
-            low, high = seen.min(axis=0), seen.max(axis=0)
-        margin = max(_MARGIN * float((high - low).max()), _LEAST)
+            points = np.vstack((path.start_position, self._drawn_points))
+            low, high = points.min(axis=0), points.max(axis=0)
+        margin = max(_MARGIN_RATIO * float((high - low).max()), _MIN_MARGIN_M)
         return low - margin, high + margin
 
-    def _draw_view(self, painter: QPainter, path: TipPath, frame: TipFrame) -> None:
+    def _draw_view(self, painter: QPainter, path: TipPath, projection: TipProjection) -> None:
         theme = self._theme
         painter.save()
-        painter.setClipRect(frame.area)
-        painter.fillRect(frame.area, QColor(theme.surface))
+        painter.setClipRect(projection.area)
+        painter.fillRect(projection.area, QColor(theme.surface))
         red = QColor(theme.danger)
         red.setAlpha(60)
-        painter.fillPath(forbidden(path.zone, frame), red)
-        reach = Workspace.of(path.zone.chain).hull
+        painter.fillPath(make_forbidden_area(path.zone, projection), red)
+        reach = TipWorkspace.of(path.zone.chain).hull
         painter.setPen(QPen(QColor(theme.line), 1.0))
-        painter.drawRect(QRectF(frame.point(reach.low), frame.point(reach.high)).normalized())
+        painter.drawRect(
+            QRectF(projection.to_point(reach.low), projection.to_point(reach.high)).normalized()
+        )
         painter.setPen(QPen(QColor(theme.accent), 1.5))
-        painter.drawPolyline(frame.points(self._rows))
+        painter.drawPolyline(projection.to_points(self._drawn_points))
         painter.setPen(QPen(QColor(theme.danger_text), 3.0))
-        painter.drawPoints(frame.points(self._rows[self._out]))
+        painter.drawPoints(projection.to_points(self._drawn_points[self._is_forbidden]))
         painter.restore()
 
-    def _draw_tip(self, painter: QPainter, path: TipPath, frame: TipFrame, tip: FloatArray) -> None:
+    def _draw_tip(
+        self, painter: QPainter, path: TipPath, projection: TipProjection, tip: FloatArray
+    ) -> None:
         painter.save()
-        painter.setClipRect(frame.area)
-        if self._approaches:
+        painter.setClipRect(projection.area)
+        if self._is_approach_drawn:
             painter.setPen(QPen(QColor(self._theme.quiet), 1.0, Qt.PenStyle.DashLine))
-            painter.drawLine(frame.point(tip), frame.point(path.rows[0]))
+            painter.drawLine(projection.to_point(tip), projection.to_point(path.rows[0]))
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(QColor(self._theme.text))
-        painter.drawEllipse(frame.point(tip), 3.0, 3.0)
+        painter.drawEllipse(projection.to_point(tip), 3.0, 3.0)
         painter.restore()

@@ -1,55 +1,67 @@
-"""The controls of a playback: play, pause, continue, step through it, and at which pace."""
+"""Controls of a playback: play, pause, resume, step by rows, and change the speed factor."""
 
 from PySide6.QtWidgets import QComboBox, QDoubleSpinBox, QProgressBar, QPushButton, QWidget
 
-from rotemina.app.motion.playback import PlaybackPhase, PlaybackState
-from rotemina.app.motion.retiming import FASTEST, SLOWEST
+from rotemina.app.motion.playback import (
+    MAX_SPEED_RATIO,
+    MIN_SPEED_RATIO,
+    PlaybackPhase,
+    PlaybackState,
+)
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.state_words import describe_moved
-from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.changing_button import ChangingButton
-from rotemina.app.widgets.controls import allow, fill, named
-from rotemina.app.widgets.layouts import in_row
-from rotemina.drivers.samples import DeviceState
+from rotemina.app.widgets.controls import (
+    ChangingButton,
+    enable_unless,
+    name_widget,
+    set_bar_value,
+)
+from rotemina.app.widgets.layout import make_row
+from rotemina.app.workbench import Workbench, describe_moved
+from rotemina.drivers.contract import DeviceState
 from rotemina.plugins.trajectory import mark, tr
 
-STEPS = (1, 10, 100, 1000)  # rows
-_EMPTY = mark("no trajectory is loaded")
-_FORBIDDEN = mark("the dry run found a problem")
+STEP_ROWS = (1, 10, 100, 1000)
+_NO_TRAJECTORY = mark("no trajectory is loaded")
+_DRY_RUN_PROBLEM = mark("the dry run found a problem")
 
 
-def against_playing(workbench: Workbench, session: SessionState) -> str | None:
-    """Return why the plan cannot be played, paused or resumed now; None: it can."""
+def find_play_objection(workbench: Workbench, session: SessionState) -> str | None:
+    """Return why the plan cannot be played, paused or resumed now, or None if it can."""
     playback = workbench.playback.state
-    changing = workbench.against_toggling(playback)
+    toggle_objection = workbench.find_toggle_objection(playback)
     if playback.phase is PlaybackPhase.PLAYING:
-        return changing
-    missing = None if playback.phase is PlaybackPhase.PAUSED else _missing(workbench)
-    missing = missing or workbench.at_rest.against_another
-    if missing is None and session.locked is None and session.activity is not DeviceState.IDLE:
+        return toggle_objection
+    plan_objection = (
+        None if playback.phase is PlaybackPhase.PAUSED else _find_plan_objection(workbench)
+    )
+    plan_objection = plan_objection or workbench.at_rest.objection
+    if (
+        plan_objection is None
+        and session.lock_reason is None
+        and session.activity is not DeviceState.IDLE
+    ):
         return tr("the axes are still moving")
-    return missing or session.locked or changing
+    return plan_objection or session.lock_reason or toggle_objection
 
 
-def _missing(workbench: Workbench) -> str | None:
-    """Return what is wrong with the plan in hand, or None."""
+def _find_plan_objection(workbench: Workbench) -> str | None:
     plan = workbench.plan
     if workbench.planning:
         return tr("the dry run of {name} is under way").format(name=workbench.planning)
     if plan is None or not plan.dry_run.allowed:
-        return tr(_EMPTY if plan is None else _FORBIDDEN)
+        return tr(_NO_TRAJECTORY if plan is None else _DRY_RUN_PROBLEM)
     return plan.refusal or None
 
 
-def waiting_words(workbench: Workbench) -> str:
-    """Return what the button that plays waits for; empty while it waits for nothing."""
+def describe_waiting(workbench: Workbench) -> str:
+    """Return a text about what a requested playback is waiting for, or an empty text."""
     if workbench.planning:
         return tr("Dry run of {name} …").format(name=workbench.planning)
-    return workbench.at_rest.words
+    return workbench.at_rest.waiting_text
 
 
 class PlayButton(ChangingButton):
-    """Plays, pauses or resumes the loaded trajectory, as it says."""
+    """Button that plays, pauses or resumes the loaded trajectory, depending on its label."""
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(tr("Play"), tr("Pause"), tr("Resume"), run=workbench.toggle_playback)
@@ -57,21 +69,21 @@ class PlayButton(ChangingButton):
         self.setProperty("primary", True)
 
     def refresh(self, session: SessionState) -> None:
-        """Show what the next press does, or why it can do nothing now."""
-        self.show_meaning(play_word(self._workbench.playback.state))
-        tip = tr("Play, pause or resume (Ctrl+P); the axes first move to the first row")
-        allow(self, against_playing(self._workbench, session), tip)
+        """Show what the next press does, or why the button is unavailable."""
+        self.show_meaning(label_play_button(self._workbench.playback.state))
+        tooltip = tr("Play, pause or resume (Ctrl+P); the axes first move to the first row")
+        enable_unless(self, find_play_objection(self._workbench, session), tooltip)
 
 
-def play_word(playback: PlaybackState) -> str:
-    """Return what the one button of a playback does now."""
+def label_play_button(playback: PlaybackState) -> str:
+    """Return the label of the play button, which says what a press does now."""
     if playback.pausing or playback.phase is PlaybackPhase.PAUSED:
         return tr("Resume")
     return tr("Pause") if playback.phase is PlaybackPhase.PLAYING else tr("Play")
 
 
-class Transport(QWidget):
-    """Buttons and progress; what they ask for goes through the workbench."""
+class PlaybackControls(QWidget):
+    """Buttons and progress of a playback. The workbench carries out the requests."""
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__()
@@ -80,17 +92,17 @@ class Transport(QWidget):
         self.end = QPushButton(tr("End"))
         self.end.clicked.connect(workbench.end_playback)
         self.back, self.forward = QPushButton(tr("◂ Step")), QPushButton(tr("Step ▸"))
-        self.back.clicked.connect(lambda: self._step(-1))
-        self.forward.clicked.connect(lambda: self._step(1))
+        self.back.clicked.connect(lambda: self._step_rows(-1))
+        self.forward.clicked.connect(lambda: self._step_rows(1))
         self.rows = QComboBox()
         self.rows.setAccessibleName(tr("Rows of a step"))
         self.rows.setToolTip(tr("Rows of the trajectory per step, 1 to 1000"))
-        for rows in STEPS:
+        for rows in STEP_ROWS:
             self.rows.addItem(
                 tr("1 row") if rows == 1 else tr("{rows} rows").format(rows=rows), rows
             )
-        self.speed = named(QDoubleSpinBox(), tr("Speed factor"))
-        self.speed.setRange(SLOWEST, FASTEST)
+        self.speed = name_widget(QDoubleSpinBox(), tr("Speed factor"))
+        self.speed.setRange(MIN_SPEED_RATIO, MAX_SPEED_RATIO)
         self.speed.setDecimals(2)
         self.speed.setSingleStep(0.05)
         self.speed.setValue(1.0)
@@ -101,7 +113,7 @@ class Transport(QWidget):
                 "Speed of the playback, {slowest:g} to {fastest:g} times that of the "
                 "trajectory; a higher one is checked against all limits first. A change "
                 "during a pause applies from there on"
-            ).format(slowest=SLOWEST, fastest=FASTEST)
+            ).format(slowest=MIN_SPEED_RATIO, fastest=MAX_SPEED_RATIO)
         )
         self.progress = QProgressBar()
         self.progress.setRange(0, 1000)
@@ -109,53 +121,59 @@ class Transport(QWidget):
         self._lay_out()
 
     def refresh(self, session: SessionState) -> None:
-        """Show what may be done now, and how far the playback is."""
+        """Enable the available buttons and show the progress of the playback."""
         state = self._workbench.playback.state
-        missing = _missing(self._workbench)
-        playing = state.phase is PlaybackPhase.PLAYING
-        paused = state.phase is PlaybackPhase.PAUSED
+        plan_objection = _find_plan_objection(self._workbench)
+        is_playing = state.phase is PlaybackPhase.PLAYING
+        is_paused = state.phase is PlaybackPhase.PAUSED
         self.play.refresh(session)
-        allow(
+        enable_unless(
             self.end,
-            None if playing or paused else tr("nothing is playing"),
+            None if is_playing or is_paused else tr("nothing is playing"),
             tr("Stop; the next playback starts from the beginning"),
         )
-        still = tr("a trajectory is playing") if playing else missing or session.locked
-        if paused and session.locked is None:
-            still = describe_moved(self._workbench.robot, state) or None
-        tip = tr("Move to the next rows at the speed of the axes and stop there")
-        allow(self.forward, still, tip)
-        allow(self.back, still or (None if paused else tr("nothing is paused")), tip)
+        step_objection = (
+            tr("a trajectory is playing") if is_playing else plan_objection or session.lock_reason
+        )
+        if is_paused and session.lock_reason is None:
+            step_objection = describe_moved(self._workbench.robot, state) or None
+        tooltip = tr("Move to the next rows at the speed of the axes and stop there")
+        enable_unless(self.forward, step_objection, tooltip)
+        enable_unless(
+            self.back, step_objection or (None if is_paused else tr("nothing is paused")), tooltip
+        )
         self._show_progress(state)
 
-    def show_plan(self) -> None:
-        """Begin again with another trajectory, at its own pace."""
+    def reset_pace(self) -> None:
+        """Reset the speed factor to 1 for another trajectory."""
         self.speed.setValue(1.0)
 
     def _lay_out(self) -> None:
         buttons = self.play, self.end, self.speed, self.back, self.forward, self.rows
-        in_row(*buttons, (self.progress, 1), on=self, margins=0)
+        make_row(*buttons, (self.progress, 1), on=self, margins=0)
 
     def _set_pace(self, pace: float) -> None:
         self._workbench.pace = pace
 
-    def _step(self, sign: int) -> None:
+    def _step_rows(self, sign: int) -> None:
         self._workbench.step_playback(sign * int(self.rows.currentData()))
 
     def _show_progress(self, state: PlaybackState) -> None:
         if state.phase is PlaybackPhase.IDLE:
-            fill(self.progress, 0)
-            self.progress.setFormat(waiting_words(self._workbench))
+            set_bar_value(self.progress, 0)
+            self.progress.setFormat(describe_waiting(self._workbench))
             return
-        share = state.path_s / state.duration_s if state.duration_s else 0.0
-        fill(self.progress, round(1000 * share))
-        left_s = (state.duration_s - state.path_s) / state.speed
+        completed_fraction = state.path_s / state.duration_s if state.duration_s else 0.0
+        set_bar_value(self.progress, round(1000 * completed_fraction))
+        remaining_s = (state.duration_s - state.path_s) / state.speed
         row = (
             tr("row {row} of {rows}").format(row=state.row + 1, rows=state.rows)
             if state.row >= 0
             else tr("before its first row")
         )
-        paused = tr("paused, ") if state.phase is PlaybackPhase.PAUSED else ""
+        paused_text = tr("paused, ") if state.phase is PlaybackPhase.PAUSED else ""
         self.progress.setFormat(
-            tr("{paused}{row}, {left_s:.1f} s left").format(paused=paused, row=row, left_s=left_s)
+            tr("{paused}{row}, {left_s:.1f} s left").format(
+                paused=paused_text, row=row, left_s=remaining_s
+            )
         )

@@ -1,4 +1,4 @@
-"""The dialog that resamples a trajectory, with the speeds that this induces."""
+"""Dialog that resamples a trajectory and shows the resulting speeds."""
 
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import (
@@ -11,16 +11,16 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.display_units import speed_changes
-from rotemina.app.shell.engine_words import error_text
-from rotemina.app.widgets.controls import named
+from rotemina.app.language import describe_error, describe_speed_changes
+from rotemina.app.widgets.controls import name_widget
 from rotemina.plugins.trajectory import mark, tr
 from rotemina.sim.errors import InputError
-from rotemina.sim.records.record import Record
-from rotemina.sim.records.resampling import resample
+from rotemina.sim.messages import parse_number
+from rotemina.sim.records import Record, resample
 
-PAUSE_MS = 250
-METHODS = {
+# The preview is computed when the operator has not typed for this long.
+PREVIEW_DELAY_MS = 250
+RESAMPLING_METHODS = {
     mark("hold – as a device does between rows"): "hold",
     mark("linear – straight lines between rows"): "linear",
     mark("cubic – smooth, may overshoot the rows"): "cubic",
@@ -28,7 +28,7 @@ METHODS = {
 
 
 class ResamplingDialog(QDialog):
-    """Rate and method; what would come out is shown before it is accepted."""
+    """Dialog with the rate and the method. It shows the result before the operator accepts it."""
 
     def __init__(self, trajectory: Record, parent: QWidget) -> None:
         super().__init__(parent)
@@ -36,9 +36,11 @@ class ResamplingDialog(QDialog):
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._trajectory = trajectory
         self.resampled: Record | None = None
-        self.rate = named(QLineEdit("1000"), tr("Rate in Hz"), tr("Rows per second, Hz; above 0"))
+        self.rate = name_widget(
+            QLineEdit("1000"), tr("Rate in Hz"), tr("Rows per second, Hz; above 0")
+        )
         self.method = QComboBox()
-        for text, name in METHODS.items():
+        for text, name in RESAMPLING_METHODS.items():
             self.method.addItem(tr(text), name)
         self.outcome = QLabel()
         self.outcome.setMinimumWidth(360)
@@ -52,25 +54,44 @@ class ResamplingDialog(QDialog):
         form.addRow(tr("Between rows"), self.method)
         form.addRow(tr("Fastest command"), self.outcome)
         form.addRow(self.buttons)
-        # Not at every key: resampling a long trajectory takes its time.
-        self._pause = QTimer(self, singleShot=True, interval=PAUSE_MS)
-        self._pause.timeout.connect(self._try)
-        self.rate.textChanged.connect(self._wait)
-        self.method.currentIndexChanged.connect(self._wait)
-        self._try()
+        # The preview does not follow every key press, because resampling may take a while.
+        self._preview_timer = QTimer(self, singleShot=True, interval=PREVIEW_DELAY_MS)
+        self._preview_timer.timeout.connect(self._update_preview)
+        self.rate.textChanged.connect(self._schedule_preview)
+        self.method.currentIndexChanged.connect(self._schedule_preview)
+        self._update_preview()
 
-    def _wait(self) -> None:
+    def _schedule_preview(self) -> None:
         self.buttons.button(QDialogButtonBox.StandardButton.Ok).setEnabled(False)
-        self._pause.start()
+        self._preview_timer.start()
 
-    def _try(self) -> None:
+    def _update_preview(self) -> None:
         try:
-            rate_hz = float(self.rate.text())
-            self.resampled = resample(self._trajectory, rate_hz, self.method.currentData())
-        except (InputError, ValueError) as error:
+            self.resampled = resample(
+                self._trajectory, self._read_rate_hz(), self.method.currentData()
+            )
+        except InputError as error:
             self.resampled = None
-            self.outcome.setText(error_text(error))
+            self.outcome.setText(describe_error(error))
         else:
-            self.outcome.setText(speed_changes(self._trajectory, self.resampled))
-        ok = self.buttons.button(QDialogButtonBox.StandardButton.Ok)
-        ok.setEnabled(self.resampled is not None)
+            self.outcome.setText(describe_speed_changes(self._trajectory, self.resampled))
+        ok_button = self.buttons.button(QDialogButtonBox.StandardButton.Ok)
+        ok_button.setEnabled(self.resampled is not None)
+
+    def _read_rate_hz(self) -> float:
+        """Return the rate of the field.
+
+        Raises
+        ------
+        InputError
+            If its text is not a number.
+        """
+        text = self.rate.text().strip()
+        rate_hz = parse_number(text)
+        if rate_hz is None:
+            raise InputError(
+                tr("rate: {text!r} is not a number; enter one in Hz, such as 1000").format(
+                    text=text
+                )
+            )
+        return rate_hz

@@ -1,4 +1,4 @@
-"""A trajectory of points that were taught: from one to the next, all axes together, with pauses."""
+"""Trajectory from taught points: all axes move together from point to point, with pauses."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -8,27 +8,34 @@ from math import inf
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.excitation.moves import quintic, rows_of, shortest_quintic
-from rotemina.sim.excitation.quantity import ExcitationError
-from rotemina.sim.messages import message
-from rotemina.sim.quantities import rounded
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.model import Axis, Robot
-from rotemina.sim.trajectory.axis_limits import check_target
+from rotemina.sim.errors import ExcitationRequestError
+from rotemina.sim.excitation import compute_shortest_quintic, count_rows, make_quintic
+from rotemina.sim.messages import format_rounded, message
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot import Axis, Robot
+from rotemina.sim.trajectory import check_target
 
 RATE_HZ = 1000.0
-LONGEST_PAUSE_S = 3600.0
-MOST_ROWS = 5_000_000
-_ACCELERATION = 0.5  # of an axis' greatest: what rings is excited less
-_USUAL_CROSSING_S = 1.0  # of an axis without declared speed
+MAX_PAUSE_S = 3600.0
+MAX_ROWS = 5_000_000
+# The moves use this fraction of the maximum acceleration, to excite less vibration.
+_ACCELERATION_FRACTION = 0.5
+# An axis without a declared maximum speed crosses its range in this time.
+_DEFAULT_CROSSING_S = 1.0
 
 
 @dataclass(frozen=True, slots=True)
 class TaughtPoint:
-    """A place of all axes, m and rad.
+    """Point that the operator has taught.
 
-    ``speed`` is the share of the greatest of each axis on the way there, ``pause_s`` how long it
-    rests there.
+    Attributes
+    ----------
+    place : mapping from axis to float
+        The positions of all axes, m and rad.
+    speed : float
+        The speed of the move to the point, relative to the maximum speed of each axis.
+    pause_s : float
+        Time for which the machine rests at the point.
     """
 
     place: Mapping[str, float]
@@ -36,73 +43,78 @@ class TaughtPoint:
     pause_s: float = 0.0
 
 
-def taught(robot: Robot, points: Sequence[TaughtPoint], name: str) -> Record:
-    """Return minimum-jerk moves from point to point; the slowest axis of each sets its time.
+def make_taught_trajectory(robot: Robot, points: Sequence[TaughtPoint], name: str) -> Record:
+    """Return a record of minimum-jerk moves from point to point.
+
+    The slowest axis of each move sets its duration.
 
     Raises
     ------
-    ExcitationError
-        If there are fewer than two points, or a speed, a pause or the whole is beyond its bounds.
+    ExcitationRequestError
+        If there are fewer than two points, or if a speed, a pause or the total duration is out of
+        bounds.
     OutOfLimitsError
-        If a point is outside of an axis' range.
+        If a point is outside the range of an axis.
     """
     if len(points) < 2:
-        raise ExcitationError(
+        raise ExcitationRequestError(
             message("trajectory", "{n} points: a trajectory needs two or more; add another").fill(
                 n=len(points)
             )
         )
     for number, point in enumerate(points, 1):
-        _check(robot, number, point)
+        _check_point(robot, number, point)
     axes = tuple(robot.axes)
-    places = np.array([[point.place[axis] for axis in axes] for point in points])
-    parts = [places[:1]]
-    count = 1
-    for (before, after), point in zip(pairwise(places), points[1:], strict=True):
-        rows = rows_of(_duration_s(robot, np.abs(after - before), point.speed), RATE_HZ)
-        rest = round(point.pause_s * RATE_HZ)
-        count += rows + rest
-        if count > MOST_ROWS:
-            raise ExcitationError(
+    positions = np.array([[point.place[axis] for axis in axes] for point in points])
+    segments = [positions[:1]]
+    row_count = 1
+    for (start, target), point in zip(pairwise(positions), points[1:], strict=True):
+        duration_s = _compute_duration_s(robot, np.abs(target - start), point.speed)
+        move_rows = count_rows(duration_s, RATE_HZ)
+        pause_rows = round(point.pause_s * RATE_HZ)
+        row_count += move_rows + pause_rows
+        if row_count > MAX_ROWS:
+            raise ExcitationRequestError(
                 message(
                     "trajectory",
                     "the points take more than {hours} h; shorten pauses or increase speeds",
-                ).fill(hours=rounded(MOST_ROWS / RATE_HZ / 3600.0, 2))
+                ).fill(hours=format_rounded(MAX_ROWS / RATE_HZ / 3600.0, 2))
             )
-        columns = [quintic(a, b, rows) for a, b in zip(before, after, strict=True)]
-        parts += [np.column_stack(columns), np.tile(after, (rest, 1))]
-    commands = np.concatenate(parts)
-    signals = {(axis, Tap.CMD): commands[:, k] for k, axis in enumerate(axes)}
+        columns = [make_quintic(a, b, move_rows) for a, b in zip(start, target, strict=True)]
+        segments += [np.column_stack(columns), np.tile(target, (pause_rows, 1))]
+    commands = np.concatenate(segments)
+    signals = {(axis, Tap.CMD): commands[:, column] for column, axis in enumerate(axes)}
     units = {axis: robot.unit(axis) or "m" for axis in axes}
     return Record.from_signals(np.arange(len(commands)) / RATE_HZ, signals, units, {"name": name})
 
 
-def _check(robot: Robot, number: int, point: TaughtPoint) -> None:
+def _check_point(robot: Robot, number: int, point: TaughtPoint) -> None:
     for axis in robot.axes:
         check_target(robot, axis, point.place[axis])
     if not 0.0 < point.speed <= 1.0:
-        raise ExcitationError(
+        raise ExcitationRequestError(
             message(
                 "trajectory",
                 "point {number}: the speed of {speed} % must be above 0 and at most 100 %",
-            ).fill(number=number, speed=rounded(100.0 * point.speed))
+            ).fill(number=number, speed=format_rounded(100.0 * point.speed))
         )
-    if not 0.0 <= point.pause_s <= LONGEST_PAUSE_S:
-        raise ExcitationError(
+    if not 0.0 <= point.pause_s <= MAX_PAUSE_S:
+        raise ExcitationRequestError(
             message(
                 "trajectory", "point {number}: the pause of {pause} s must be 0 to {most} s"
-            ).fill(number=number, pause=rounded(point.pause_s), most=rounded(LONGEST_PAUSE_S))
+            ).fill(
+                number=number, pause=format_rounded(point.pause_s), most=format_rounded(MAX_PAUSE_S)
+            )
         )
 
 
-def _duration_s(robot: Robot, strokes: FloatArray, speed: float) -> float:
-    """Return the least time in which all axes make their way, s."""
+def _compute_duration_s(robot: Robot, strokes: FloatArray, speed: float) -> float:
     return max(
-        shortest_quintic(float(stroke), *_bounds(axis, speed), inf)
+        compute_shortest_quintic(float(stroke), *_find_speed_and_acceleration(axis, speed), inf)
         for axis, stroke in zip(robot.axes.values(), strokes, strict=True)
     )
 
 
-def _bounds(axis: Axis, speed: float) -> tuple[float, float]:
-    greatest = axis.max_speed or axis.span / _USUAL_CROSSING_S
-    return speed * greatest, _ACCELERATION * (axis.max_acceleration or inf)
+def _find_speed_and_acceleration(axis: Axis, speed: float) -> tuple[float, float]:
+    max_speed = axis.max_speed or axis.span / _DEFAULT_CROSSING_S
+    return speed * max_speed, _ACCELERATION_FRACTION * (axis.max_acceleration or inf)

@@ -1,5 +1,9 @@
-"""Model and real robot in 3-D."""
+"""Panel with the model and the real robot in 3-D.
 
-from rotemina.app.shell.language import texts_of
+``canvas`` draws them without a GPU, and ``scene_server`` shows the same scene in browsers. What is
+drawn is decided in ``app/scene``.
+"""
 
-tr, mark = texts_of("view3d")
+from rotemina.app.language import make_text_functions
+
+tr, mark = make_text_functions("view3d")

@@ -1,4 +1,4 @@
-"""The robot in three dimensions, inside the window and in browsers."""
+"""Panel with the robot in three dimensions, which browsers can show as well."""
 
 import time
 from collections.abc import Callable
@@ -8,48 +8,58 @@ from PySide6.QtCore import Qt, QUrl
 from PySide6.QtGui import QDesktopServices, QGuiApplication
 from PySide6.QtWidgets import QComboBox, QLabel, QPushButton
 
+from rotemina.app.language import marked
 from rotemina.app.motion.state import SessionState
-from rotemina.app.panel import STALE_S, Area, Panel, offer_in_palette
-from rotemina.app.scene.robot_scene import Colours, Ghost, Reading, RobotScene
-from rotemina.app.scene.scale_notes import Words
-from rotemina.app.scene.views import View
-from rotemina.app.shell.language import marked
-from rotemina.app.shell.theme import Theme
-from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.app.widgets.controls import allow
-from rotemina.app.widgets.labels import plain_text
-from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.app.panel import (
+    STALE_AGE_S,
+    Panel,
+    PanelArea,
+    offer_in_palette,
+)
+from rotemina.app.scene import (
+    GhostPositions,
+    RobotGhost,
+    RobotScene,
+    SceneColours,
+    SceneTexts,
+    SceneViewpoint,
+)
+from rotemina.app.widgets.controls import enable_unless
+from rotemina.app.widgets.layout import make_column, make_row
+from rotemina.app.widgets.style import Theme
+from rotemina.app.widgets.text import make_plain_label
+from rotemina.app.workbench import Level, Workbench
 from rotemina.plugins.view3d import mark, tr
-from rotemina.plugins.view3d.canvas import Canvas
-from rotemina.plugins.view3d.scene_server import Serving
-from rotemina.sim.kinematics.chain import ChainError
-from rotemina.sim.robot.model import Robot
+from rotemina.plugins.view3d.canvas import SceneCanvas
+from rotemina.plugins.view3d.scene_server import SceneServer
+from rotemina.sim.errors import ChainError
+from rotemina.sim.robot import Robot
 
 if TYPE_CHECKING:
-    from rotemina.app.scene.server import ViewServer
+    from rotemina.app.scene import ViewServer
 
-VIEWS = {
-    View.BELOW: (mark("From below"), mark("View of the objective")),
-    View.FRONT: (mark("Front"), mark("Along +y, z up")),
-    View.TOP: (mark("Top"), mark("Along −z")),
-    View.ISO: (mark("Iso"), mark("The whole robot from the side")),
-    View.CELL: (mark("Cell"), mark("The cell, with the tip 0.3 mm beside it, to scale")),
+VIEW_TEXTS = {
+    SceneViewpoint.BELOW: (mark("From below"), mark("View of the objective")),
+    SceneViewpoint.FRONT: (mark("Front"), mark("Along +y, z up")),
+    SceneViewpoint.TOP: (mark("Top"), mark("Along −z")),
+    SceneViewpoint.ISO: (mark("Iso"), mark("The whole robot from the side")),
+    SceneViewpoint.CELL: (mark("Cell"), mark("The cell, with the tip 0.3 mm next to it, to scale")),
 }
-GHOSTS = {
-    mark("Model and real"): (Ghost.MODEL, Ghost.REAL),
-    mark("Model"): (Ghost.MODEL,),
-    mark("Real"): (Ghost.REAL,),
+GHOST_CHOICES = {
+    mark("Model and real"): (RobotGhost.MODEL, RobotGhost.REAL),
+    mark("Model"): (RobotGhost.MODEL,),
+    mark("Real"): (RobotGhost.REAL,),
 }
-FACTORS = (1, 10, 50, 100, 200)
-STARTING = mark("Starting the 3-D view …")
-NO_BROWSER = mark(
+MAGNIFICATIONS = (1, 10, 50, 100, 200)
+STARTING_TEXT = mark("Starting the 3-D view …")
+NO_BROWSER_TEXT = mark(
     "No browser could be opened. The address is on the clipboard: paste it into a browser on this "
     "computer."
 )
 
 
-def factor_text(factor: int) -> str:
-    """Return how an exaggeration is offered."""
+def format_magnification(factor: int) -> str:
+    """Return the text of a magnification of nano motion."""
     return (
         tr("Nano motion to scale")
         if factor == 1
@@ -57,9 +67,9 @@ def factor_text(factor: int) -> str:
     )
 
 
-def written() -> Words:
-    """Return what is written over the picture."""
-    return Words(
+def make_scene_words() -> SceneTexts:
+    """Return the texts over the picture in the language in use."""
+    return SceneTexts(
         model=tr("model"),
         real=tr("real"),
         unknown=tr("{ghost}: position unknown, not drawn"),
@@ -72,9 +82,9 @@ def written() -> Words:
     )
 
 
-def colours_of(theme: Theme) -> Colours:
-    """Return the scene's colours in a theme of the window."""
-    return Colours(
+def make_scene_colours(theme: Theme) -> SceneColours:
+    """Return the colours of the scene for a theme of the window."""
+    return SceneColours(
         background=theme.surface,
         fixed=theme.command,
         model=theme.model,
@@ -84,19 +94,19 @@ def colours_of(theme: Theme) -> Colours:
 
 
 class View3dPanel(Panel):
-    """Draws the robot, and serves it to browsers from the first that is requested."""
+    """Panel that draws the robot and, once requested, serves the view to browsers."""
 
     title = marked("panels", "3-D view")
-    area = Area.BOTTOM
+    area = PanelArea.BOTTOM
     order = 80
     help_page = "view3d.md#for-operators"
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)
-        self.robot_scene, self._unfit = scene_of(workbench.robot, workbench.theme)
+        self.robot_scene, self._scene_problem = make_scene(workbench.robot, workbench.theme)
         scene = None if self.robot_scene is None else self.robot_scene.scene
-        self.serving = None if scene is None else Serving(scene)
-        self.canvas = None if scene is None else Canvas(scene, workbench.theme)
+        self.scene_server = None if scene is None else SceneServer(scene)
+        self.canvas = None if scene is None else SceneCanvas(scene, workbench.theme)
         self.busy = False
         self._make_widgets()
         self._lay_out()
@@ -106,132 +116,147 @@ class View3dPanel(Panel):
         workbench.theme_changed.connect(self._use_theme)
         workbench.closing.connect(self._close)
 
-    # --- what is asked for ------------------------------------------------------------------------
-
     def open_in_browser(self) -> None:
-        """Show the view in the browser of the desktop; several may look at once."""
-        if self.serving is None or self.busy:
+        """Show the view in the browser of the desktop. Several browsers may show it at once."""
+        if self.scene_server is None or self.busy:
             text = tr("The view is not opened: {why}.")
-            why = tr("it is being opened already") if self.busy else tr("there is no drawing")
-            self.workbench.notify(Level.INFO, text.format(why=why), about=self)
+            reason = tr("it is being opened already") if self.busy else tr("there is no drawing")
+            self.workbench.notify(Level.INFO, text.format(why=reason), about=self)
             return
-        if self.serving.server is not None:
-            self._browse()
+        if self.scene_server.server is not None:
+            self._open_browser()
             return
         self._set_busy(True)
 
-        def done(_: None) -> None:
+        def on_started(_: None) -> None:
             self._set_busy(False)
-            self._browse()
+            self._open_browser()
 
-        def failed() -> None:
+        def on_failed() -> None:
             self._set_busy(False)
 
-        self.workbench.work("view3d", tr(STARTING), self.serving.start, done, failed)
+        self.workbench.work(
+            "view3d", tr(STARTING_TEXT), self.scene_server.start, on_started, on_failed
+        )
 
-    def look(self, view: View) -> None:
-        """Look from there, in every viewer."""
-        self._change(lambda scene: scene.look(view))
+    def show_view(self, view: SceneViewpoint) -> None:
+        """Show the scene from a view in the window and in all browsers."""
+        self._change_scene(lambda scene: scene.set_viewpoint(view))
 
     def refresh(self, state: SessionState) -> None:
-        """Hand the newest positions on, unless nobody sees them."""
+        """Pass the newest positions to the scene if the window or a browser shows it."""
         scene, canvas, server = self.robot_scene, self.canvas, self._server
         if scene is None or canvas is None:
             return
-        watched = server is not None and server.watching > 0
-        if not watched and not canvas.in_sight:
+        has_viewers = server is not None and server.viewer_count > 0
+        if not has_viewers and not canvas.is_in_sight:
             return
-        bench = self.workbench
-        live = bench.source is bench.session
-        scene.bound(bench.session.bounds.keep_out if live else None)
-        scene.show(Reading(state.measured, state.model, state.age_s))
-        canvas.follow()
-        if server is not None and watched:
-            scene.alive(time.monotonic())
-            server.changed()
+        workbench = self.workbench
+        is_live = workbench.source is workbench.session
+        scene.show_bounds(workbench.session.bounds.keep_out if is_live else None)
+        scene.show_positions(GhostPositions(state.measured, state.model, state.age_s))
+        canvas.redraw_if_changed()
+        if server is not None and has_viewers:
+            scene.signal_alive(time.monotonic())
+            server.send_changes()
 
     @property
     def _server(self) -> "ViewServer | None":
-        return None if self.serving is None else self.serving.server
+        return None if self.scene_server is None else self.scene_server.server
 
-    # --- inside -----------------------------------------------------------------------------------
-
-    def _browse(self) -> None:
+    def _open_browser(self) -> None:
         server = self._server
         if server is None:
             return
         if not QDesktopServices.openUrl(QUrl(server.url)):
-            # The address is a secret: neither in a notice nor in the log.
+            # The address is secret, so it must appear neither in a notice nor in the log.
             QGuiApplication.clipboard().setText(server.url)
-            self.workbench.notify(Level.WARNING, tr(NO_BROWSER), about=self)
+            self.workbench.notify(Level.WARNING, tr(NO_BROWSER_TEXT), about=self)
 
     def _close(self) -> None:
-        if self.serving is not None:
-            self.serving.close()
+        if self.scene_server is not None:
+            self.scene_server.close()
 
-    def _change(self, change: Callable[[RobotScene], None]) -> None:
+    def _change_scene(self, change: Callable[[RobotScene], None]) -> None:
         if self.robot_scene is None or self.canvas is None:
             return
         change(self.robot_scene)
-        self.canvas.follow()
+        self.canvas.redraw_if_changed()
         if self._server is not None:
-            self._server.changed()
+            self._server.send_changes()
 
     def _set_busy(self, busy: bool) -> None:
         self.busy = busy
         self.show_state()
 
     def show_state(self) -> None:
-        """Show what can be done now, and why not."""
-        busy = tr("the view is being opened") if self.busy else None
-        allow(self.browser, self._unfit or busy, tr("Show the view in the browser of this desktop"))
+        """Enable the actions that are possible now. Tooltips say why the others are not."""
+        busy_objection = tr("the view is being opened") if self.busy else None
+        enable_unless(
+            self.browser,
+            self._scene_problem or busy_objection,
+            tr("Show the view in the browser of this desktop"),
+        )
         for view, button in self.views.items():
-            allow(button, self._unfit, tr(VIEWS[view][1]))
-        allow(self.ghosts, self._unfit, tr("Robots to draw"))
-        allow(self.factor, self._unfit, tr("Enlarge the motion of thx, thy and zn about mid-range"))
+            enable_unless(button, self._scene_problem, tr(VIEW_TEXTS[view][1]))
+        enable_unless(self.ghosts, self._scene_problem, tr("Robots to draw"))
+        enable_unless(
+            self.magnification,
+            self._scene_problem,
+            tr("Enlarge the motion of thx, thy and zn about mid-range"),
+        )
 
     def _make_widgets(self) -> None:
-        self.views = {view: QPushButton(tr(text)) for view, (text, _) in VIEWS.items()}
+        self.views = {view: QPushButton(tr(text)) for view, (text, _) in VIEW_TEXTS.items()}
         for view, button in self.views.items():
-            button.clicked.connect(lambda _=False, view=view: self.look(view))
+            button.clicked.connect(lambda _=False, view=view: self.show_view(view))
         self.ghosts = QComboBox()
-        for name in GHOSTS:
+        for name in GHOST_CHOICES:
             self.ghosts.addItem(tr(name))
         self.ghosts.setAccessibleName(tr("Robots to draw"))
-        drawn = tuple(GHOSTS.values())
+        choices = tuple(GHOST_CHOICES.values())
         self.ghosts.currentIndexChanged.connect(
-            lambda at: self._change(lambda scene: scene.choose(*drawn[at]))
+            lambda index: self._change_scene(lambda scene: scene.choose_ghosts(*choices[index]))
         )
-        self.factor = QComboBox()
-        for factor in FACTORS:
-            self.factor.addItem(factor_text(factor), factor)
-        self.factor.setAccessibleName(tr("Magnification of nano motion"))
-        self.factor.currentIndexChanged.connect(
-            lambda at: self._change(lambda scene: scene.exaggerate(float(FACTORS[at])))
+        self.magnification = QComboBox()
+        for factor in MAGNIFICATIONS:
+            self.magnification.addItem(format_magnification(factor), factor)
+        self.magnification.setAccessibleName(tr("Magnification of nano motion"))
+        self.magnification.currentIndexChanged.connect(
+            lambda index: self._change_scene(
+                lambda scene: scene.exaggerate(float(MAGNIFICATIONS[index]))
+            )
         )
         self.browser = QPushButton(tr("Open in the browser"))
         self.browser.clicked.connect(self.open_in_browser)
 
     def _lay_out(self) -> None:
-        above = in_row(*self.views.values(), 1)  # one row would widen a small window
-        below = in_row(self.ghosts, self.factor, 1, self.browser)
-        in_column(above, below, (self.canvas or self._reason(), 1), on=self, margins=(10, 6, 10, 6))
+        # Two rows, because a single one would be too wide for a small window.
+        top_row = make_row(*self.views.values(), 1)
+        bottom_row = make_row(self.ghosts, self.magnification, 1, self.browser)
+        make_column(
+            top_row,
+            bottom_row,
+            (self.canvas or self._make_problem_label(), 1),
+            on=self,
+            margins=(10, 6, 10, 6),
+        )
 
-    def _reason(self) -> QLabel:
-        words = plain_text(self._unfit, quiet=False, wrap=True)
-        words.setAlignment(Qt.AlignmentFlag.AlignCenter)
-        return words
+    def _make_problem_label(self) -> QLabel:
+        problem_label = make_plain_label(self._scene_problem, quiet=False, wrap=True)
+        problem_label.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        return problem_label
 
     def _use_theme(self, theme: Theme) -> None:
         if self.canvas is not None:
             self.canvas.set_theme(theme)
-        self._change(lambda scene: scene.paint(colours_of(theme)))
+        self._change_scene(lambda scene: scene.paint(make_scene_colours(theme)))
 
 
-def scene_of(robot: Robot, theme: Theme) -> tuple[RobotScene | None, str | None]:
+def make_scene(robot: Robot, theme: Theme) -> tuple[RobotScene | None, str | None]:
     """Return the scene of a robot, or why there is none."""
     try:
-        colours, said = colours_of(theme), written()
-        return RobotScene(robot, colours, old_s=STALE_S, words=said), None
+        colours, texts = make_scene_colours(theme), make_scene_words()
+        return RobotScene(robot, colours, max_age_s=STALE_AGE_S, texts=texts), None
     except ChainError as error:
         return None, tr("There is nothing to draw. {error}").format(error=error)

@@ -1,35 +1,39 @@
-"""The server of the panel's scene: started in the background, ended with the window."""
+"""Server of the scene, which is started in the background and stopped with the window."""
 
 import threading
 from typing import TYPE_CHECKING
 
-from rotemina.app.scene.scene import Scene
+from rotemina.app.scene import SceneCommandStore
 
 if TYPE_CHECKING:
-    from rotemina.app.scene.server import ViewServer
+    from rotemina.app.scene import ViewServer
 
 
-class Serving:
-    """One server at most, from the first :meth:`start` until :meth:`close`; any thread."""
+class SceneServer:
+    """Owner of the scene server, which runs from the first :meth:`start` until :meth:`close`.
 
-    def __init__(self, scene: Scene) -> None:
+    There is at most one :class:`ViewServer`. The methods may be called from any thread.
+    """
+
+    def __init__(self, scene: SceneCommandStore) -> None:
         self.server: ViewServer | None = None
         self._scene = scene
-        self._closed = False
+        self._is_closed = False
         self._lock = threading.Lock()
 
     def start(self) -> None:
-        """Load and start the server, which takes a moment; nothing happens once closed.
+        """Import and start the server, which takes a moment. Does nothing after :meth:`close`.
 
         Raises
         ------
         ViewerError
-            If it cannot be served.
+            If the server cannot be started.
         """
-        from rotemina.app.scene.server import ViewServer  # tornado is loaded when first needed
+        # Tornado is imported only when it is needed.
+        from rotemina.app.scene import ViewServer
 
         with self._lock:
-            if self.server is None and not self._closed:
+            if self.server is None and not self._is_closed:
                 server = ViewServer(self._scene)
                 server.start()
                 self.server = server
@@ -37,6 +41,6 @@ class Serving:
     def close(self) -> None:
         """Stop the server permanently."""
         with self._lock:
-            self._closed = True
+            self._is_closed = True
             if self.server is not None:
                 self.server.close()

@@ -1,4 +1,4 @@
-"""Languages of the window.
+"""Translations of the window.
 
-Qt reads one file for each; the folder also has what it is made from.
+Qt reads one ``.qm`` file per language. The ``.ts`` files are the sources of these files.
 """

@@ -1,4 +1,4 @@
 """The viewer of meshcat 0.3.2.
 
-It is as that package ships it, with its licences and those inside it.
+The files are unchanged, with the licences of meshcat and of the libraries in it.
 """

@@ -1,1 +1,1 @@
-"""Included robot files."""
+"""Robot files that are shipped with the program."""

@@ -1,1 +1,1 @@
-"""Colours and style sheet."""
+"""Colours and style sheet of the window."""

@@ -1,1 +1,1 @@
-"""Example trajectories."""
+"""Example trajectories that are shipped with the program."""

@@ -1,14 +1,17 @@
-"""The figures of the blind test as text: a table for the terminal, a page of Markdown."""
+"""The figures of the blind test: a table for the terminal, a Markdown page, and a picture."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from typing import BinaryIO
 
-from rotemina.sim.blind.intervals import Figure
-from rotemina.sim.blind.scoring import Outcome
+import numpy as np
 
-# What each figure is, the level that it is to reach on cases without a remainder and in brackets on
-# those with one ("" where there is none), and its form.
-ROWS: dict[str, tuple[str, str, str]] = {
+from rotemina.sim.blind.intervals import IntervalEstimate
+from rotemina.sim.blind.scoring import CaseOutcome
+
+# Columns: description, required level ("" if nothing is required) and number format of each figure.
+# A level applies to cases without a remainder; a level in brackets applies to cases with one.
+FIGURE_ROWS: dict[str, tuple[str, str, str]] = {
     "top_1": ("first cause correct, one effect", "(≥ 92 %)", "share"),
     "top_1_large_gap": ("… where the gap is ≥ 5 floors", "≥ 98 %", "share"),
     "top_1_small_gap": ("… where it is smaller", "≥ 92 %", "share"),
@@ -33,17 +36,17 @@ ROWS: dict[str, tuple[str, str, str]] = {
     "seconds_healthy_median": ("seconds per healthy case, median", "≤ 3 s", "seconds"),
 }
 
-_LEVEL = "level (with a remainder)"
+_LEVEL_HEADING = "level (with a remainder)"
 
-# The halves of the faulty machines, as they are headed.
-HALVES = {
+# Titles of the two groups of faulty machines.
+REMAINDER_GROUP_TITLES = {
     "without_remainder": "faulty, without a remainder",
     "with_remainder": "faulty, with a remainder",
 }
 
 
-def shown(figure: Figure, form: str) -> str:
-    """Return a figure with its interval, or a dash without a case."""
+def format_figure(figure: IntervalEstimate, form: str) -> str:
+    """Return a figure with its interval, or a dash if there was no case."""
     if figure.value is None or figure.low is None or figure.high is None:
         return "–"
     if form == "share":
@@ -53,51 +56,91 @@ def shown(figure: Figure, form: str) -> str:
     return f"{figure.value:.{digits}f} ({figure.low:.{digits}f}–{figure.high:.{digits}f})"
 
 
-def plain_table(figures: Mapping[str, Figure]) -> str:
-    """Return the figures as lines for a terminal, 95 % intervals in brackets."""
-    lines = [f"{'':40} {_LEVEL:>24}  {'reached (95 %)':<24} {'n':>5}"]
+def format_plain_table(figures: Mapping[str, IntervalEstimate]) -> str:
+    """Return the figures as lines for a terminal, with 95 % intervals in brackets."""
+    lines = [f"{'':40} {_LEVEL_HEADING:>24}  {'reached (95 %)':<24} {'n':>5}"]
     for key, figure in figures.items():
-        text, level, form = ROWS[key]
-        lines.append(f"{text:40} {level:>24}  {shown(figure, form):<24} {figure.number:>5}")
+        text, level, form = FIGURE_ROWS[key]
+        lines.append(
+            f"{text:40} {level:>24}  {format_figure(figure, form):<24} {figure.case_count:>5}"
+        )
     return "\n".join(lines)
 
 
-def markdown_table(columns: Mapping[str, Mapping[str, Figure]]) -> str:
-    """Return the figures of several contestants side by side; ``columns``: heading -> figures.
+def format_markdown_table(columns: Mapping[str, Mapping[str, IntervalEstimate]]) -> str:
+    """Return the figures of several diagnoses side by side, as Markdown.
 
-    A figure of no case is left out.
+    ``columns`` maps headings to figures. Figures without any case are omitted.
     """
-    head = ["", _LEVEL, *columns, "n"]
+    head = ["", _LEVEL_HEADING, *columns, "n"]
     lines = [f"| {' | '.join(head)} |", f"|{'---|' * len(head)}"]
     first = next(iter(columns.values()))
     for key, figure in first.items():
-        text, level, form = ROWS[key]
-        if figure.number == 0:
+        text, level, form = FIGURE_ROWS[key]
+        if figure.case_count == 0:
             continue
-        cells = [shown(each[key], form) if key in each else "–" for each in columns.values()]
-        lines.append(f"| {text} | {level} | {' | '.join(cells)} | {figure.number} |")
+        cells = [
+            format_figure(column[key], form) if key in column else "–"
+            for column in columns.values()
+        ]
+        lines.append(f"| {text} | {level} | {' | '.join(cells)} | {figure.case_count} |")
     return "\n".join(lines)
 
 
-def page(
-    figures: Mapping[str, Figure],
-    outcomes: Sequence[Outcome],
+def format_page(
+    figures: Mapping[str, IntervalEstimate],
+    outcomes: Sequence[CaseOutcome],
     picture: str,
     origin: str,
-    others: Mapping[str, Mapping[str, Figure]] | None = None,
+    others: Mapping[str, Mapping[str, IntervalEstimate]] | None = None,
 ) -> str:
     """Return the report as Markdown.
 
-    ``origin``: which cases these are; ``others``: figures of other contestants by their names.
+    Parameters
+    ----------
+    figures : figures by name.
+    outcomes : outcomes of all cases.
+    picture : path of the picture of the confusion matrix.
+    origin : text that says which cases were used.
+    others : figures of other diagnoses, by column heading.
     """
     kinds = Counter(outcome.kind for outcome in outcomes)
-    made_of = ", ".join(f"{number} {kind}" for kind, number in kinds.most_common())
-    heading = f"{len(outcomes)} cases: {made_of}. Made by `rotemina gap blind`, {origin}."
+    kind_counts = ", ".join(f"{number} {kind}" for kind, number in kinds.most_common())
+    heading = f"{len(outcomes)} cases: {kind_counts}. Made by `rotemina gap blind`, {origin}."
     return f"""# Blind test of the diagnosis
 
-{heading} Every figure with its 95 % interval.
+{heading} Each figure has its 95 % interval in brackets.
 
-{markdown_table({"reached": figures, **(others or {})})}
+{format_markdown_table({"reached": figures, **(others or {})})}
 
-![Confusion matrix: what is there, and what was named first]({picture})
+![Confusion matrix: true effect, and effect named first]({picture})
 """
+
+
+def draw_confusion(counts: Mapping[tuple[str, str], int], file: BinaryIO) -> None:
+    """Draw a confusion matrix as SVG.
+
+    ``counts`` maps (true effect, effect named first) to the number of cases. Rows are the true
+    effects; colours show shares of a row.
+    """
+    from matplotlib import rc_context
+    from matplotlib.figure import Figure
+
+    names = sorted({name for pair in counts for name in pair})
+    table = np.array(
+        [[counts.get((true_name, answer), 0) for answer in names] for true_name in names]
+    )
+    shares = table / np.maximum(table.sum(axis=1, keepdims=True), 1)
+    size = max(4.0, 1.5 + 0.28 * len(names))
+    with rc_context({"svg.hashsalt": "rotemina"}):
+        figure = Figure(figsize=(size, size), layout="constrained")
+        axes = figure.subplots()
+        axes.imshow(shares, cmap="Blues", vmin=0.0, vmax=1.0)
+        axes.set_xticks(range(len(names)), names, rotation=90, fontsize=7)
+        axes.set_yticks(range(len(names)), names, fontsize=7)
+        axes.set_xlabel("named first")
+        axes.set_ylabel("true effect")
+        for i, j in zip(*np.nonzero(table), strict=True):
+            colour = "white" if shares[i, j] > 0.5 else "black"
+            axes.text(j, i, str(table[i, j]), ha="center", va="center", fontsize=6, color=colour)
+        figure.savefig(file, format="svg", metadata={"Date": None})

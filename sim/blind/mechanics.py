@@ -1,4 +1,4 @@
-"""Mechanics as the generator makes it: exact steps of Eq. (1) with forces held for a fine step."""
+"""Mechanics of the first generator: exact linear steps, with forces held for a fine step."""
 
 from typing import NamedTuple
 
@@ -8,14 +8,21 @@ import scipy
 
 from rotemina.sim.arrays import FloatArray
 
-# What a load row holds: its code, its axis, then up to ten numbers.
+# Codes of a load. A load is a row that holds the code, the index of the axis, and up to ten
+# numbers.
 SLIP, DAHL, ELASTOPLASTIC, CONTACT, HARDENING, BREATHING = range(6)
-ROW = 12
-_STATES = 12
+LOAD_ROW_LENGTH = 12
+_MEMORY_LENGTH = 12
 
 
-class Structure(NamedTuple):
-    """``mass``, ``damping``, ``stiffness`` (d, d); ``drive`` (m,) force per unit of target."""
+class LinearStructure(NamedTuple):
+    """A linear structure with d coordinates.
+
+    Attributes
+    ----------
+    mass, damping, stiffness : (d, d)
+    drive : (m,) force per unit of target.
+    """
 
     mass: FloatArray
     damping: FloatArray
@@ -23,8 +30,13 @@ class Structure(NamedTuple):
     drive: FloatArray
 
 
-def propagator(structure: Structure, step_s: float) -> tuple[FloatArray, FloatArray]:
-    """Return the exact step of the state (positions, speeds) and of forces held over it."""
+def compute_propagator(structure: LinearStructure, step_s: float) -> tuple[FloatArray, FloatArray]:
+    """Return the transition matrix (2d, 2d) of the state, and the input matrix (2d, d) of forces.
+
+    Both are exact for a step during which the forces are constant.
+
+    The state holds the positions, followed by the speeds.
+    """
     d = len(structure.mass)
     inverse = np.linalg.inv(structure.mass)
     system = np.zeros((3 * d, 3 * d))
@@ -32,23 +44,30 @@ def propagator(structure: Structure, step_s: float) -> tuple[FloatArray, FloatAr
     system[d : 2 * d, :d] = -inverse @ structure.stiffness
     system[d : 2 * d, d : 2 * d] = -inverse @ structure.damping
     system[d : 2 * d, 2 * d :] = inverse
-    whole = scipy.linalg.expm(system * step_s)
-    return whole[: 2 * d, : 2 * d].copy(), whole[: 2 * d, 2 * d :].copy()
+    exponential = scipy.linalg.expm(system * step_s)
+    return exponential[: 2 * d, : 2 * d].copy(), exponential[: 2 * d, 2 * d :].copy()
 
 
-def move(structure: Structure, targets: FloatArray, loads: FloatArray, step_s: float) -> FloatArray:
-    """Return the motion (n, m) of m axes driven to ``targets`` (n, m) under ``loads`` (k, 12)."""
-    steps = propagator(structure, step_s)
+def simulate_motion(
+    structure: LinearStructure, targets: FloatArray, loads: FloatArray, step_s: float
+) -> FloatArray:
+    """Return the motion (n, m) of axes that are driven to ``targets`` (n, m).
+
+    ``loads`` (k, 12) are the load rows of the forces that act on the axes.
+    """
+    steps = compute_propagator(structure, step_s)
     d = len(structure.mass)
     start = np.zeros(2 * d)
     drive = np.zeros(d)
     drive[: len(structure.drive)] = structure.drive * targets[0]
     start[:d] = np.linalg.solve(structure.stiffness, drive)
-    return _moved(*steps, structure.drive, np.ascontiguousarray(targets), loads, start, step_s)
+    return _simulate_steps(
+        *steps, structure.drive, np.ascontiguousarray(targets), loads, start, step_s
+    )
 
 
 @numba.njit(cache=True, error_model="numpy")
-def _moved(
+def _simulate_steps(
     free: FloatArray,
     forced: FloatArray,
     drive: FloatArray,
@@ -59,8 +78,8 @@ def _moved(
 ) -> FloatArray:
     n, m = targets.shape
     d = len(start) // 2
-    state, after, force = start.copy(), start.copy(), np.zeros(d)
-    memory = np.zeros((len(loads), _STATES))
+    state, next_state, force = start.copy(), start.copy(), np.zeros(d)
+    memory = np.zeros((len(loads), _MEMORY_LENGTH))
     out = np.empty((n, m))
     for k in range(n):
         for i in range(m):
@@ -68,20 +87,20 @@ def _moved(
             force[i] = drive[i] * targets[k, i]
         for j in range(len(loads)):
             i = int(loads[j, 1])
-            force[i] += load_force(loads[j], memory[j], state[i], state[d + i], k, step_s)
+            force[i] += compute_load_force(loads[j], memory[j], state[i], state[d + i], k, step_s)
         for i in range(2 * d):
             total = 0.0
             for j in range(2 * d):
                 total += free[i, j] * state[j]
             for j in range(d):
                 total += forced[i, j] * force[j]
-            after[i] = total
-        state, after = after, state
+            next_state[i] = total
+        state, next_state = next_state, state
     return out
 
 
 @numba.njit(cache=True, error_model="numpy")
-def load_force(
+def compute_load_force(
     row: FloatArray,
     memory: FloatArray,
     q: float,
@@ -89,76 +108,90 @@ def load_force(
     k: int,
     step_s: float,
 ) -> float:
-    """Return the force of one load at position q and speed v; its ``memory`` continues a step."""
+    """Return the force of one load at position q and speed v.
+
+    ``memory`` is advanced by one step.
+    """
     code = int(row[0])
     if code == SLIP:
-        return -_maxwell(row, memory, v, step_s)
+        return -_step_maxwell_slip(row, memory, v, step_s)
     if code == DAHL:
-        return -_dahl(row, memory, v, step_s)
+        return -_step_dahl(row, memory, v, step_s)
     if code == CONTACT:
-        return _pressed(row, q, v)
+        return _compute_contact_force(row, q, v)
     if code == HARDENING:
-        return float(-row[2] * hardened(row, q))
+        return float(-row[2] * compute_hardening_share(row, q))
     if code == ELASTOPLASTIC:
-        return -_elastoplastic(row, memory, v, step_s)
-    # BREATHING: a stiffness that changes by itself with time.
+        return -_step_elastoplastic(row, memory, v, step_s)
+    # Only BREATHING is left: a stiffness that varies with time.
     return float(-row[2] * (q - row[5]) * np.sin(row[3] * k * step_s + row[4]))
 
 
 @numba.njit(cache=True, error_model="numpy")
-def _stribeck(v: float, coulomb: float, static: float, speed: float) -> float:
+def _compute_stribeck_force(v: float, coulomb: float, static: float, speed: float) -> float:
     return coulomb + (static - coulomb) / (1.0 + (v / speed) ** 2)
 
 
 @numba.njit(cache=True, error_model="numpy")
-def _maxwell(row: FloatArray, memory: FloatArray, v: float, step_s: float) -> float:
-    """Generalised Maxwell slip: six elements that stick, or slip towards their Stribeck share.
+def _step_maxwell_slip(row: FloatArray, memory: FloatArray, v: float, step_s: float) -> float:
+    """Return the friction of generalised Maxwell slip with six elements.
 
-    An element sticks until it holds its share of what the speed allows, and slips, that share
-    catching up with a rate of its own, until the motion turns; its springs pull no more meanwhile.
+    An element sticks until its force reaches its share of the Stribeck force at the present speed.
+    Then it slips: its force approaches that share exponentially until the motion reverses, and its
+    spring does not act.
 
-    Row: Coulomb by direction, static over Coulomb, Stribeck speed, presliding length, attraction,
-    viscous.
+    The row holds the Coulomb force in each direction, the ratio of static to Coulomb force, the
+    Stribeck speed, the presliding length, the attraction rate and the viscous damping.
     """
     coulomb = row[2] if v > 0.0 else row[3]
-    bound = _stribeck(v, coulomb, coulomb * row[4], row[5])
-    side = np.sign(v)
+    stribeck_force = _compute_stribeck_force(v, coulomb, coulomb * row[4], row[5])
+    direction = np.sign(v)
     total = row[8] * v
     for i in range(6):
         share = (i + 1) / 21.0
-        f = memory[i]
-        if side != 0.0 and memory[6 + i] == side:
-            f = side * share * bound + (f - side * share * bound) * np.exp(-step_s * row[7])
+        force = memory[i]
+        if direction != 0.0 and memory[6 + i] == direction:
+            force = direction * share * stribeck_force + (
+                force - direction * share * stribeck_force
+            ) * np.exp(-step_s * row[7])
         else:
-            f += share * row[2] / (row[6] * (i + 1) / 6.0) * v * step_s
-            slips = f * side >= share * bound
-            memory[6 + i] = side if slips else 0.0
+            force += share * row[2] / (row[6] * (i + 1) / 6.0) * v * step_s
+            slips = force * direction >= share * stribeck_force
+            memory[6 + i] = direction if slips else 0.0
             if slips:
-                f = side * min(f * side, share * coulomb * row[4])
-        memory[i] = f
-        total += f
+                force = direction * min(force * direction, share * coulomb * row[4])
+        memory[i] = force
+        total += force
     return float(total)
 
 
 @numba.njit(cache=True, error_model="numpy")
-def _dahl(row: FloatArray, memory: FloatArray, v: float, step_s: float) -> float:
-    """Dahl's solid friction; row: Coulomb by direction, -, exponent, length, -, viscous."""
+def _step_dahl(row: FloatArray, memory: FloatArray, v: float, step_s: float) -> float:
+    """Return Dahl's solid friction.
+
+    The row holds the Coulomb force in each direction, an unused number, the exponent, the
+    presliding length, an unused number and the viscous damping.
+    """
     coulomb = row[2] if v > 0.0 else row[3]
-    rest = 1.0 - memory[0] / coulomb * np.sign(v)
-    slope = np.sign(rest) * abs(rest) ** row[5]
-    f = memory[0] + coulomb / row[6] * slope * v * step_s
-    memory[0] = min(max(f, -row[3]), row[2])
+    margin = 1.0 - memory[0] / coulomb * np.sign(v)
+    slope = np.sign(margin) * abs(margin) ** row[5]
+    force = memory[0] + coulomb / row[6] * slope * v * step_s
+    memory[0] = min(max(force, -row[3]), row[2])
     return float(memory[0] + row[8] * v)
 
 
 @numba.njit(cache=True, error_model="numpy")
-def _elastoplastic(row: FloatArray, memory: FloatArray, v: float, step_s: float) -> float:
-    """Elastic up to a break-away share, then plastic; row as for Dahl, row[5] the share."""
+def _step_elastoplastic(row: FloatArray, memory: FloatArray, v: float, step_s: float) -> float:
+    """Return the friction of a bristle that is elastic up to its break-away deflection.
+
+    Beyond it the bristle deforms plastically. The row is that of Dahl's friction, but row[5] is the
+    break-away deflection, as a fraction of the presliding length.
+    """
     coulomb = row[2] if v > 0.0 else row[3]
-    z, away = memory[0] / row[6], row[5]
+    z, breakaway = memory[0] / row[6], row[5]
     plastic = 0.0
-    if z * v > 0.0 and abs(z) > away:
-        x = min((abs(z) - away) / (1.0 - away), 1.0)
+    if z * v > 0.0 and abs(z) > breakaway:
+        x = min((abs(z) - breakaway) / (1.0 - breakaway), 1.0)
         plastic = 0.5 - 0.5 * np.cos(np.pi * x)
     memory[0] = memory[0] + v * step_s * (1.0 - plastic * abs(z))
     memory[0] = min(max(memory[0], -row[6]), row[6])
@@ -166,8 +199,11 @@ def _elastoplastic(row: FloatArray, memory: FloatArray, v: float, step_s: float)
 
 
 @numba.njit(cache=True, error_model="numpy")
-def _pressed(row: FloatArray, q: float, v: float) -> float:
-    """Hertz contact with a damper beyond row[2]; stiffness row[3], damper row[4], side row[5]."""
+def _compute_contact_force(row: FloatArray, q: float, v: float) -> float:
+    """Return the force of a damped Hertz contact.
+
+    The row holds the position, stiffness, damping, side and exponent from row[2] on.
+    """
     depth = (q - row[2]) * row[5]
     if depth <= 0.0:
         return 0.0
@@ -176,8 +212,11 @@ def _pressed(row: FloatArray, q: float, v: float) -> float:
 
 
 @numba.njit(cache=True, error_model="numpy")
-def hardened(row: FloatArray, q: float) -> float:
-    """Extra restoring share about row[3] over the length row[4], by one of three laws row[5]."""
+def compute_hardening_share(row: FloatArray, q: float) -> float:
+    """Return the added restoring force of a hardening flexure, divided by stiffness and length.
+
+    The flexure rests at row[3] and has the length row[4]; row[5] selects one of three laws.
+    """
     x = (q - row[3]) / row[4]
     if row[5] == 0.0:
         return float(np.sinh(row[6] * x) / row[6] - x)

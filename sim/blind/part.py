@@ -1,4 +1,4 @@
-"""A part that a machine's model lacks: where in the chain it acts and how large it is."""
+"""An effect that a machine's model lacks: where in the signal chain it acts, and its size."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -10,30 +10,32 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray
 
 
-class Stage(Enum):
-    """Where a part acts, in the order in which a signal passes."""
+class SignalStage(Enum):
+    """The place in the signal chain where an effect acts, in the order of the signal."""
 
-    DRIVE = "what the amplifier puts out"
-    ACTUATOR = "where the actuator wants the axis"
+    DRIVE = "output of the amplifier"
+    ACTUATOR = "position that the actuator drives the axis to"
     STRUCTURE = "masses, dampers and springs"
-    LOAD = "a force on the axis"
-    MOTION = "motion added to the axis'"
-    SENSOR = "what the sensor passes on, before it is sampled"
-    READING = "the sampled reading"
+    LOAD = "force on the axis"
+    MOTION = "motion added to that of the axis"
+    SENSOR = "output of the sensor before it is sampled"
+    READING = "sampled reading"
 
 
 @dataclass(frozen=True, slots=True)
-class Axis:
-    """What a part needs to know of its axis, SI.
+class BlindAxis:
+    """Properties of an axis that effects need, in SI units.
 
     Attributes
     ----------
-    index : of the axis in the columns of every (n, m) array.
+    name, kind : name and kind of the axis in the robot file.
+    index : column of the axis in every (n, m) array.
     low, span : start and length of the range.
-    start, travel : lowest command of the case and distance to the highest.
-    floor : declared noise floor.
-    mass, damping, stiffness : of the nominal axis.
-    pitch, full_step : of a stepper, 0 else.
+    start, travel : lowest command of the case, and distance to the highest command.
+    floor : declared noise floor of the sensor.
+    resolution, noise : step and rms noise of the sensor.
+    mass, damping, stiffness : parameters of the nominal axis.
+    pitch, full_step : screw pitch and full step of a stepper; 0 for other axes.
     """
 
     name: str
@@ -55,48 +57,49 @@ class Axis:
 
 @dataclass(frozen=True, slots=True)
 class SimulationRun:
-    """One run through the machine: its fine time grid, and chance of its own.
+    """The time grid and the random numbers of one simulated record.
 
-    ``lead`` fine steps of ``step_s`` pass before the record's first sample; ``every`` fine steps
-    make one sample. ``seed`` tells one record from another.
+    ``lead`` is the number of fine steps of ``step_s`` in the lead-in before the first sample of the
+    record. Each sample takes ``rows_per_sample`` fine steps. ``seed`` differs from record to
+    record.
     """
 
     step_s: float
-    every: int
+    rows_per_sample: int
     lead: int
     seed: int
 
-    def chance(self, part_seed: int) -> np.random.Generator:
-        """Return the chance of one part in this record, the same at each call."""
+    def make_generator(self, part_seed: int) -> np.random.Generator:
+        """Return the random generator of one effect in this record, the same at each call."""
         return np.random.default_rng((self.seed, part_seed))
 
-    def settled(self, values: FloatArray) -> FloatArray:
-        """Return ``values`` (n, …) as if their first sample had lasted since long ago."""
+    def hold_before_record(self, values: FloatArray) -> FloatArray:
+        """Return ``values`` (n, …), with the lead-in replaced by the first sample of the record."""
         out = values.copy()
         out[: self.lead] = values[self.lead]
         return out
 
 
-# What `act` takes and returns depends on the stage:
-#   DRIVE, ACTUATOR, SENSOR  (n,) signal on the fine grid -> the same, changed
-#   MOTION                   (n, m) motion of all axes -> (n,) what is added to this axis
-#   READING                  (n,) true position at the samples -> reading
-#   LOAD, STRUCTURE          (0,) -> the row of numbers that `mechanics` knows
-Act = Callable[[FloatArray, SimulationRun, float], FloatArray]
+# The first argument and the result of `act` depend on the stage:
+#   DRIVE, ACTUATOR, SENSOR  (n,) signal on the fine grid -> changed signal (n,)
+#   MOTION                   (n, m) motion of all axes -> (n,) motion to add to this axis
+#   READING                  (n,) true position at the samples -> reading (n,)
+#   LOAD, STRUCTURE          (0,), unused -> row of numbers for `mechanics`
+EffectFunction = Callable[[FloatArray, SimulationRun, float], FloatArray]
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
-    """One effect as the generator makes it; ``sizes`` bound the plausible ``size``."""
+class EffectPart:
+    """One effect on one axis; ``sizes`` are the bounds of ``size``."""
 
     effect: str
-    axis: Axis
-    stage: Stage
-    act: Act
+    axis: BlindAxis
+    stage: SignalStage
+    act: EffectFunction
     sizes: tuple[float, float]
     size: float = 0.0
     from_axis: str | None = None
 
-    def sized(self, size: float) -> Self:
-        """Return the same part with another size, held within its bounds."""
+    def with_size(self, size: float) -> Self:
+        """Return a copy with another size, clipped to the bounds."""
         return replace(self, size=float(np.clip(size, *self.sizes)))

@@ -1,4 +1,4 @@
-"""Scores of a diagnosis: names, sets, accusations, closure, calibration."""
+"""Scores of a diagnosis: named causes, sets of alternatives, false alarms, closure, calibration."""
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -8,21 +8,31 @@ from typing import Any
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.blind.intervals import Figure, resampled, share
+from rotemina.sim.blind.intervals import IntervalEstimate, estimate_by_bootstrap, estimate_share
 
-SPLIT_FLOORS = 5.0
-NAMING = ("explained", "partly")  # verdicts under which causes are named
-_BINS = 10
+# Gaps of at least this size count as large.
+LARGE_GAP_FLOORS = 5.0
+# Verdicts of a diagnosis that names causes.
+NAMING_VERDICTS = ("explained", "partly")
+_BIN_COUNT = 10
 
+# Axis, effect, and source axis of a cross-coupling (otherwise None).
 Cause = tuple[str, str, str | None]
 
 
 @dataclass(frozen=True, slots=True)
-class Outcome:
-    """One case: its opened label, the answer, how long it took, the gap that was closed.
+class CaseOutcome:
+    """The outcome of one case.
 
-    ``closure``: share of the gap's power that the corrected model's prediction closes on the
-    record that the diagnosis never saw; None where it says nothing.
+    Attributes
+    ----------
+    name : name of the case.
+    label : label with the true effects, opened after the diagnosis.
+    answer : answer of the diagnosis.
+    seconds : duration of the diagnosis, s.
+    closure : float or None
+        Fraction of the gap's power that the corrected model removes on the held-out record. None
+        if it cannot be computed.
     """
 
     name: str
@@ -34,120 +44,140 @@ class Outcome:
     @property
     def kind(self) -> str:
         """The kind of the case, from its label."""
-        return str(self.label.get("kind") or _kind(self.label))
+        return str(self.label.get("kind") or _get_kind(self.label))
 
     @property
     def floors(self) -> float | None:
-        """Gap in noise floors, or None if the label lacks it."""
+        """The gap in noise floors, or None if the label does not contain it."""
         value = self.label.get("floors")
         return None if value is None else float(value)
 
     @property
-    def truth(self) -> list[Cause]:
-        """Axis, effect and source of each effect that is there."""
-        return [cause_of(effect) for effect in self.label["effects"]]
+    def true_causes(self) -> list[Cause]:
+        """Axis, effect and source of each true effect in the label."""
+        return [make_cause(effect) for effect in self.label["effects"]]
 
     @property
-    def there(self) -> list[Cause]:
-        """What is there, whether or not the motion tells it."""
-        return [*self.truth, *(cause_of(effect) for effect in self.label.get("hidden", []))]
+    def present_causes(self) -> list[Cause]:
+        """The true effects, including those that poor excitation hides."""
+        return [*self.true_causes, *(make_cause(effect) for effect in self.label.get("hidden", []))]
 
     @property
-    def named(self) -> list[Cause]:
-        """Axis, effect and source of each cause that was named, the largest first."""
-        return [cause_of(cause) for cause in self.answer.get("causes", [])]
+    def named_causes(self) -> list[Cause]:
+        """Axis, effect and source of each named cause, the largest first."""
+        return [make_cause(cause) for cause in self.answer.get("causes", [])]
 
     @property
     def has_remainder(self) -> bool:
-        """Whether the machine also does something that no catalogue holds."""
+        """Whether the machine also has a remainder, which no effect explains."""
         return self.label.get("remainder") is not None
 
     @property
     def has_extra(self) -> bool:
-        """Whether a cause is named that is not there."""
-        return bool(Counter(self.named) - Counter(self.truth))
+        """Whether a named cause is not among the true ones."""
+        return bool(Counter(self.named_causes) - Counter(self.true_causes))
 
     @property
     def verdict(self) -> str:
-        """The answer's verdict."""
+        """The verdict of the answer."""
         return str(self.answer.get("verdict", "failed"))
 
     @property
-    def first_right(self) -> bool:
-        """Whether it is called explained, and the first cause is one that is there."""
-        return self.verdict in NAMING and self.named[:1] != [] and self.named[0] in self.truth
+    def is_first_correct(self) -> bool:
+        """Whether causes are named and the first one is a true effect."""
+        return (
+            self.verdict in NAMING_VERDICTS
+            and self.named_causes[:1] != []
+            and self.named_causes[0] in self.true_causes
+        )
 
     @property
-    def exact(self) -> bool:
+    def is_exact(self) -> bool:
         """Whether the named causes are exactly the true ones."""
-        return self.verdict in NAMING and Counter(self.named) == Counter(self.truth)
+        return self.verdict in NAMING_VERDICTS and Counter(self.named_causes) == Counter(
+            self.true_causes
+        )
 
     @property
-    def right(self) -> bool:
-        """Whether verdict and causes are what the label says."""
+    def is_correct(self) -> bool:
+        """Whether verdict and causes are correct according to the label."""
         verdict = self.label["verdict"]
         if verdict == "explained":
-            return self.exact
-        return self.verdict == verdict or self.named_all_the_same
+            return self.is_exact
+        return self.verdict == verdict or self.is_named_despite_poor_motion
 
     @property
-    def named_all_the_same(self) -> bool:
-        """Whether exactly what is there is named, though the motion is poor."""
-        there = Counter(self.there)
-        return self.kind == "poor" and self.verdict in NAMING and Counter(self.named) == there
+    def is_named_despite_poor_motion(self) -> bool:
+        """Whether the exact causes are named despite poor excitation."""
+        present = Counter(self.present_causes)
+        return (
+            self.kind == "poor"
+            and self.verdict in NAMING_VERDICTS
+            and Counter(self.named_causes) == present
+        )
 
-    def covered(self) -> list[bool]:
-        """For each effect that is there: whether it is in a set that was named on its axis."""
+    def check_coverage(self) -> list[bool]:
+        """Return for each true effect whether a cause named on its axis allows for it."""
         sets = [
             (cause["axis"], {cause["effect"], *cause.get("ambiguous_with", [])})
             for cause in self.answer.get("causes", [])
         ]
-        return [any(a == axis and effect in s for a, s in sets) for axis, effect, _ in self.truth]
+        return [
+            any(a == axis and effect in s for a, s in sets) for axis, effect, _ in self.true_causes
+        ]
 
 
-def _kind(label: Mapping[str, Any]) -> str:
+def _get_kind(label: Mapping[str, Any]) -> str:
     verdict = label["verdict"]
     if verdict != "explained":
         return {"none": "healthy", "insufficient_excitation": "poor"}.get(verdict, str(verdict))
     return {1: "single", 2: "double"}.get(len(label["effects"]), "triple")
 
 
-def cause_of(effect: Mapping[str, Any]) -> Cause:
+def make_cause(effect: Mapping[str, Any]) -> Cause:
     """Return axis, effect and source of an entry of a label or an answer."""
     source = effect.get("from_axis") if effect["effect"] == "cross_coupling" else None
     return str(effect["axis"]), str(effect["effect"]), source
 
 
-def score(outcomes: Sequence[Outcome]) -> dict[str, Figure]:
-    """Return every figure of the test, each with its 95 % interval."""
+def score(outcomes: Sequence[CaseOutcome]) -> dict[str, IntervalEstimate]:
+    """Return all figures of the test, each with its 95 % interval."""
     explained = [o for o in outcomes if o.label["verdict"] == "explained"]
-    one = [o for o in explained if len(o.truth) == 1]
-    two = [o for o in explained if len(o.truth) == 2]
-    healthy = _of(outcomes, "healthy")
+    singles = [o for o in explained if len(o.true_causes) == 1]
+    doubles = [o for o in explained if len(o.true_causes) == 2]
+    healthy = _select_kind(outcomes, "healthy")
     figures = {
-        "top_1": share([o.first_right for o in one]),
-        "top_1_large_gap": share([o.first_right for o in one if _large(o)]),
-        "top_1_small_gap": share([o.first_right for o in one if _small(o)]),
-        "single_exact": share([o.exact for o in one]),
-        "set_coverage": share([hit for o in explained for hit in o.covered()]),
-        "set_size": resampled(_set_sizes(explained), _mean),
-        "two_exact": share([o.exact for o in two]),
-        "two_exact_large_gap": share([o.exact for o in two if _large(o)]),
-        "two_exact_small_gap": share([o.exact for o in two if _small(o)]),
-        "three_exact": share([o.exact for o in explained if len(o.truth) > 2]),
-        "extra_causes": share([o.has_extra for o in explained]),
-        "causes_named": share([o.verdict in NAMING for o in explained]),
-        "false_accusations": share([o.verdict != "none" for o in healthy]),
-        "unknown_recall": share([o.verdict == "unknown" for o in _of(outcomes, "unknown")]),
-        "insufficient_recall": share(
-            [o.verdict == "insufficient_excitation" for o in _of(outcomes, "poor")]
+        "top_1": estimate_share([o.is_first_correct for o in singles]),
+        "top_1_large_gap": estimate_share(
+            [o.is_first_correct for o in singles if _has_large_gap(o)]
         ),
-        "insufficient_right": share([o.right for o in _of(outcomes, "poor")]),
+        "top_1_small_gap": estimate_share(
+            [o.is_first_correct for o in singles if _has_small_gap(o)]
+        ),
+        "single_exact": estimate_share([o.is_exact for o in singles]),
+        "set_coverage": estimate_share([hit for o in explained for hit in o.check_coverage()]),
+        "set_size": estimate_by_bootstrap(_count_set_sizes(explained), _compute_mean),
+        "two_exact": estimate_share([o.is_exact for o in doubles]),
+        "two_exact_large_gap": estimate_share([o.is_exact for o in doubles if _has_large_gap(o)]),
+        "two_exact_small_gap": estimate_share([o.is_exact for o in doubles if _has_small_gap(o)]),
+        "three_exact": estimate_share([o.is_exact for o in explained if len(o.true_causes) > 2]),
+        "extra_causes": estimate_share([o.has_extra for o in explained]),
+        "causes_named": estimate_share([o.verdict in NAMING_VERDICTS for o in explained]),
+        "false_accusations": estimate_share([o.verdict != "none" for o in healthy]),
+        "unknown_recall": estimate_share(
+            [o.verdict == "unknown" for o in _select_kind(outcomes, "unknown")]
+        ),
+        "insufficient_recall": estimate_share(
+            [o.verdict == "insufficient_excitation" for o in _select_kind(outcomes, "poor")]
+        ),
+        "insufficient_right": estimate_share(
+            [o.is_correct for o in _select_kind(outcomes, "poor")]
+        ),
     }
-    return figures | _continuous(outcomes, explained, healthy)
+    return figures | _score_continuous(outcomes, explained, healthy)
 
 
-def halves(outcomes: Sequence[Outcome]) -> dict[str, list[Outcome]]:
+def split_by_remainder(outcomes: Sequence[CaseOutcome]) -> dict[str, list[CaseOutcome]]:
     """Return the faulty machines without a remainder, and those with one."""
     faulty = [o for o in outcomes if o.label["verdict"] == "explained"]
     return {
@@ -156,51 +186,66 @@ def halves(outcomes: Sequence[Outcome]) -> dict[str, list[Outcome]]:
     }
 
 
-def _continuous(
-    outcomes: Sequence[Outcome], explained: Sequence[Outcome], healthy: Sequence[Outcome]
-) -> dict[str, Figure]:
+def _score_continuous(
+    outcomes: Sequence[CaseOutcome],
+    explained: Sequence[CaseOutcome],
+    healthy: Sequence[CaseOutcome],
+) -> dict[str, IntervalEstimate]:
     closures = np.array([o.closure for o in explained if o.closure is not None])
     return {
-        "closure_median": resampled(closures, _median),
-        "closure_10th_percentile": resampled(closures, _tenth),
-        "calibration_error": resampled(calibration_table(outcomes), expected_calibration_error),
-        "seconds_median": resampled(np.array([o.seconds for o in outcomes]), _median),
-        "seconds_greatest": resampled(np.array([o.seconds for o in outcomes]), _greatest),
-        "seconds_healthy_median": resampled(np.array([o.seconds for o in healthy]), _median),
+        "closure_median": estimate_by_bootstrap(closures, _compute_median),
+        "closure_10th_percentile": estimate_by_bootstrap(closures, _compute_tenth_percentile),
+        "calibration_error": estimate_by_bootstrap(
+            make_calibration_table(outcomes), compute_calibration_error
+        ),
+        "seconds_median": estimate_by_bootstrap(
+            np.array([o.seconds for o in outcomes]), _compute_median
+        ),
+        "seconds_greatest": estimate_by_bootstrap(
+            np.array([o.seconds for o in outcomes]), _compute_maximum
+        ),
+        "seconds_healthy_median": estimate_by_bootstrap(
+            np.array([o.seconds for o in healthy]), _compute_median
+        ),
     }
 
 
-def _of(outcomes: Iterable[Outcome], kind: str) -> list[Outcome]:
+def _select_kind(outcomes: Iterable[CaseOutcome], kind: str) -> list[CaseOutcome]:
     return [outcome for outcome in outcomes if outcome.kind == kind]
 
 
-def _large(outcome: Outcome) -> bool:
-    return outcome.floors is not None and outcome.floors >= SPLIT_FLOORS
+def _has_large_gap(outcome: CaseOutcome) -> bool:
+    return outcome.floors is not None and outcome.floors >= LARGE_GAP_FLOORS
 
 
-def _small(outcome: Outcome) -> bool:
-    return outcome.floors is not None and outcome.floors < SPLIT_FLOORS
+def _has_small_gap(outcome: CaseOutcome) -> bool:
+    return outcome.floors is not None and outcome.floors < LARGE_GAP_FLOORS
 
 
-def _set_sizes(outcomes: Iterable[Outcome]) -> FloatArray:
+def _count_set_sizes(outcomes: Iterable[CaseOutcome]) -> FloatArray:
     causes = [cause for o in outcomes for cause in o.answer.get("causes", [])]
     return np.array([1.0 + len(cause.get("ambiguous_with", [])) for cause in causes])
 
 
-def calibration_table(outcomes: Iterable[Outcome]) -> FloatArray:
-    """Return (c, 2): the probability of every cause that was named, and 1 if it is there."""
+def make_calibration_table(outcomes: Iterable[CaseOutcome]) -> FloatArray:
+    """Return (c, 2): the probability of each named cause, and 1 if it is a true cause, else 0."""
     rows = [
-        (float(cause["probability"]), float(named in outcome.there))
+        (float(cause["probability"]), float(cause_key in outcome.present_causes))
         for outcome in outcomes
-        for cause, named in zip(outcome.answer.get("causes", []), outcome.named, strict=True)
+        for cause, cause_key in zip(
+            outcome.answer.get("causes", []), outcome.named_causes, strict=True
+        )
         if cause.get("probability") is not None
     ]
     return np.array(rows, dtype=np.float64).reshape(-1, 2)
 
 
-def expected_calibration_error(table: FloatArray) -> float:
-    """Return Σ nᵦ/n |mean probability − share that is right| over ten bins (Naeini et al. 2015)."""
-    bins = np.minimum((table[:, 0] * _BINS).astype(int), _BINS - 1)
+def compute_calibration_error(table: FloatArray) -> float:
+    """Return the expected calibration error over ten bins (Naeini et al. 2015).
+
+    It is ``Σ nᵦ/n |mean probability − share of true causes|``.
+    """
+    bins = np.minimum((table[:, 0] * _BIN_COUNT).astype(int), _BIN_COUNT - 1)
     gaps = [
         np.sum(bins == b) * abs(float(np.diff(table[bins == b].mean(axis=0))[0]))
         for b in np.unique(bins)
@@ -208,24 +253,30 @@ def expected_calibration_error(table: FloatArray) -> float:
     return float(np.sum(gaps) / len(table))
 
 
-def confusion(outcomes: Iterable[Outcome]) -> dict[tuple[str, str], int]:
+def count_confusion(outcomes: Iterable[CaseOutcome]) -> dict[tuple[str, str], int]:
     """Count pairs (true effect, effect named first) over cases with at most one effect."""
     counts: Counter[tuple[str, str]] = Counter()
     for outcome in outcomes:
-        if len(outcome.truth) > 1:
+        if len(outcome.true_causes) > 1:
             continue
         verdict = outcome.label["verdict"]
-        truth = outcome.truth[0][1] if verdict == "explained" else str(verdict)
-        told = outcome.verdict
-        if told in NAMING and outcome.named:
-            told = outcome.named[0][1]
-        counts[truth, told] += 1
+        truth = outcome.true_causes[0][1] if verdict == "explained" else str(verdict)
+        answer = outcome.verdict
+        if answer in NAMING_VERDICTS and outcome.named_causes:
+            answer = outcome.named_causes[0][1]
+        counts[truth, answer] += 1
     return dict(counts)
 
 
-def _statistic(function: Callable[..., Any], *numbers: float) -> Callable[[FloatArray], float]:
-    return lambda values: float(function(values, *numbers))
+def _make_statistic(
+    function: Callable[..., Any], *arguments: float
+) -> Callable[[FloatArray], float]:
+    return lambda values: float(function(values, *arguments))
 
 
-_mean, _median, _greatest = _statistic(np.mean), _statistic(np.median), _statistic(np.max)
-_tenth = _statistic(np.percentile, 10.0)
+_compute_mean, _compute_median, _compute_maximum = (
+    _make_statistic(np.mean),
+    _make_statistic(np.median),
+    _make_statistic(np.max),
+)
+_compute_tenth_percentile = _make_statistic(np.percentile, 10.0)

@@ -1,4 +1,4 @@
-"""Cases of the second generator: drawn, labelled, and written as record files."""
+"""Cases of the second generator: drawing them, their labels, and their record files."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -8,25 +8,33 @@ from typing import Any
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.blind_second.effects import MAKERS, PIEZO_ALONE, STEPPER_ALONE, Added, draw
-from rotemina.sim.blind_second.machine import Machine, Motion
-from rotemina.sim.blind_second.machine_axis import AxisFacts, facts_of
-from rotemina.sim.blind_second.motions import motions
+from rotemina.sim.blind_second.effects import (
+    DRAW_FUNCTIONS,
+    PIEZO_ONLY_EFFECTS,
+    STEPPER_ONLY_EFFECTS,
+    AddedEffect,
+    draw_effect,
+)
+from rotemina.sim.blind_second.machine import SecondMachine, SecondMotion
+from rotemina.sim.blind_second.machine_axis import SecondAxis, describe_axis
+from rotemina.sim.blind_second.motions import draw_motions
 from rotemina.sim.blind_second.remainder import draw_remainder
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.records.writing import write_record
-from rotemina.sim.robot.matrices import inertia_matrices
-from rotemina.sim.robot.model import Robot
+from rotemina.sim.records import Record, Tap, write_record
+from rotemina.sim.robot import Robot, assemble_inertia_matrices
 
-KINDS = ("single", "double", "healthy")
-_SHARES = (0.6, 0.28, 0.12)
-_LEAST, _MOST = 1.6, 300.0  # floors, of the first effect
-_LEAST_SECOND = 5.0  # floors, however large the first is
-_OVER_REMAINDER = 2.0
-_REMAINDER = (0.05, 0.3)  # of the gap's rms
-_VOLTAGE_NOISE = 0.003
-# On one axis, one of these is another with another size, or hides it.
-_ALIKE = (
+CASE_KINDS = ("single", "double", "healthy")
+_KIND_SHARES = (0.6, 0.28, 0.12)
+# Bounds of the size of the first effect, in noise floors.
+_MIN_FLOORS, _MAX_FLOORS = 1.6, 300.0
+# A second effect must be at least this large, however large the first effect is.
+_MIN_SECOND_FLOORS = 5.0
+_MIN_EFFECT_TO_REMAINDER_RATIO = 2.0
+# Bounds of the ratio of the remainder's rms to that of the gap.
+_REMAINDER_SHARES = (0.05, 0.3)
+_VOLTAGE_NOISE_V = 0.003
+# Two effects of one set are not drawn on the same axis: they would look like each other with
+# another size, or hide each other.
+_INDISTINGUISHABLE_EFFECTS = (
     {"delay", "amplifier_lag", "sensor_lag"},
     {"gain_error", "sensor_gain", "stiffness_nonlinearity", "hysteresis"},
     {"static_nonlinearity", "sensor_nonlinearity", "saturation", "contact"},
@@ -40,31 +48,35 @@ _ALIKE = (
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SecondCase:
-    """A machine, its motions (the last is held back), and what is added to it, in floors."""
+    """A machine with its effects, and the motions that are recorded.
+
+    The last motion is held out. ``floors`` has the size of each effect, ``gap`` that of the whole
+    gap, and ``remainder`` that of the remainder, all in noise floors.
+    """
 
     kind: str
-    machine: Machine
-    motions: tuple[Motion, ...]
+    machine: SecondMachine
+    motions: tuple[SecondMotion, ...]
     seed: int
     floors: tuple[float, ...]
     gap: float
     remainder: float | None
 
     def label(self) -> dict[str, Any]:
-        """Return the answer that is right, as JSON."""
+        """Return the correct answer as JSON."""
         added = self.machine.added[: len(self.floors)]
-        own = [
+        effects = [
             {
-                "axis": one.axis.name,
-                "effect": one.effect,
-                "from_axis": one.from_axis,
+                "axis": effect.axis.name,
+                "effect": effect.effect,
+                "from_axis": effect.from_axis,
                 "floors": round(floors, 3),
             }
-            for one, floors in zip(added, self.floors, strict=True)
+            for effect, floors in zip(added, self.floors, strict=True)
         ]
         return {
-            "verdict": "explained" if own else "none",
-            "effects": own,
+            "verdict": "explained" if effects else "none",
+            "effects": effects,
             "hidden": [],
             "kind": self.kind,
             "floors": round(self.gap, 3),
@@ -72,141 +84,170 @@ class SecondCase:
         }
 
     def write(self, folder: Path, robot: Robot) -> None:
-        """Write the training records, and the commands and readings that are held back."""
+        """Write the training records, and the held-out commands and readings."""
         folder.mkdir(parents=True, exist_ok=True)
-        for number, asked in enumerate(self.motions[:-1]):
-            record = self._record(robot, asked, number, (Tap.CMD, Tap.U, Tap.REF, Tap.MEAS))
+        for number, motion in enumerate(self.motions[:-1]):
+            record = self._simulate_record(
+                robot, motion, number, (Tap.CMD, Tap.U, Tap.REF, Tap.MEAS)
+            )
             write_record(record, folder / f"train_{number + 1}.csv.gz")
         for name, taps in (("commands", (Tap.CMD,)), ("measured", (Tap.CMD, Tap.MEAS))):
-            record = self._record(robot, self.motions[-1], len(self.motions), taps)
+            record = self._simulate_record(robot, self.motions[-1], len(self.motions), taps)
             write_record(record, folder / f"test_{name}.csv.gz")
 
-    def _record(self, robot: Robot, asked: Motion, number: int, shown: Sequence[Tap]) -> Record:
-        taps = self.machine.run(asked, self.seed * 16 + number)
+    def _simulate_record(
+        self, robot: Robot, motion: SecondMotion, number: int, selected_taps: Sequence[Tap]
+    ) -> Record:
+        taps = self.machine.run(motion, self.seed * 16 + number)
         rng = np.random.default_rng((self.seed, number))
         signals: dict[tuple[str, Tap], FloatArray] = {}
         for axis in self.machine.axes:
-            i, noise = axis.index, rng.normal(size=(3, len(asked.values)))
-            read = (taps.reading[:, i] + axis.noise * noise[2]) / axis.resolution
-            own = {
-                Tap.CMD: asked.values[:, i],
-                Tap.U: taps.drive[:, i] / axis.volt + _VOLTAGE_NOISE * noise[0],
+            i, noise = axis.index, rng.normal(size=(3, len(motion.values)))
+            reading_steps = (taps.reading[:, i] + axis.noise * noise[2]) / axis.resolution
+            axis_signals = {
+                Tap.CMD: motion.values[:, i],
+                Tap.U: taps.drive[:, i] / axis.position_per_volt + _VOLTAGE_NOISE_V * noise[0],
                 Tap.REF: taps.motion[:, i]
                 + (robot.reference.noise_rms.of(robot.unit(axis.name)) or 0.0) * noise[1],
-                Tap.MEAS: np.round(read) * axis.resolution,
+                Tap.MEAS: np.round(reading_steps) * axis.resolution,
             }
             if axis.kind == "stepper":
-                del own[Tap.U]
-            signals |= {(axis.name, tap): own[tap] for tap in shown if tap in own}
-        time_s = np.asarray(np.arange(len(asked.values)) * asked.step_s, dtype=np.float64)
+                del axis_signals[Tap.U]
+            signals |= {
+                (axis.name, tap): axis_signals[tap] for tap in selected_taps if tap in axis_signals
+            }
+        time_s = np.asarray(np.arange(len(motion.values)) * motion.step_s, dtype=np.float64)
         units = {axis.name: robot.unit(axis.name) or "m" for axis in self.machine.axes}
         return Record.from_signals(time_s, signals, units, {"mode": "open_loop"})
 
 
-def draw_second(robot: Robot, seed: int) -> SecondCase:
-    """Draw a case from a seed, odd ones of faulty machines with a remainder.
+def draw_second_case(robot: Robot, seed: int) -> SecondCase:
+    """Draw a case from a seed. If the seed is odd, a faulty machine also has a remainder.
 
     Raises
     ------
     RuntimeError
-        If none comes about in many attempts.
+        If no usable case is found in 200 attempts.
     """
     for attempt in range(200):
         rng = np.random.default_rng((seed, attempt, 2))
-        case = _attempt(robot, seed, str(rng.choice(KINDS, p=_SHARES)), rng)
+        case = _try_draw_case(robot, seed, str(rng.choice(CASE_KINDS, p=_KIND_SHARES)), rng)
         if case is not None:
             return case
-    raise RuntimeError(f"no case came about; seed {seed}")
+    raise RuntimeError(f"no usable case in 200 attempts, seed {seed}")
 
 
-def _attempt(robot: Robot, seed: int, kind: str, rng: np.random.Generator) -> SecondCase | None:
+def _try_draw_case(
+    robot: Robot, seed: int, kind: str, rng: np.random.Generator
+) -> SecondCase | None:
     stages = list(robot.stages.values())
     names = tuple(stages[rng.integers(len(stages))])
-    asked = motions(robot, names, rng)
-    machine = _machine(robot, names, asked)
+    motions = draw_motions(robot, names, rng)
+    machine = _build_machine(robot, names, motions)
     if kind == "healthy":
-        return SecondCase(kind, machine, tuple(asked), seed, (), 0.0, None)
-    trial = _Trial(machine, asked[:-1])
+        return SecondCase(kind, machine, tuple(motions), seed, (), 0.0, None)
+    trial = _SizingTrial(machine, motions[:-1])
     axis = machine.axes[rng.integers(len(names))]
-    added: list[Added] = []
-    target = float(np.exp(rng.uniform(np.log(_LEAST), np.log(_MOST))))
-    for effect in _chosen(axis, 2 if kind == "double" else 1, rng):
-        others = [one for one in machine.axes if one is not axis]
+    added: list[AddedEffect] = []
+    first_floors = float(np.exp(rng.uniform(np.log(_MIN_FLOORS), np.log(_MAX_FLOORS))))
+    for effect in _choose_effects(axis, 2 if kind == "double" else 1, rng):
+        others = [other for other in machine.axes if other is not axis]
         if effect == "cross_coupling" and not others:
             return None
-        size = target
+        target_floors = first_floors
         if added:
-            low = min(1.2 * _LEAST_SECOND, target)
-            size = float(np.exp(rng.uniform(np.log(low), np.log(2.0 * target))))
-        one = trial.sized(draw(effect, axis, others, rng), size)
-        if one is None:
+            min_floors = min(1.2 * _MIN_SECOND_FLOORS, first_floors)
+            target_floors = float(
+                np.exp(rng.uniform(np.log(min_floors), np.log(2.0 * first_floors)))
+            )
+        sized_effect = trial.find_size(draw_effect(effect, axis, others, rng), target_floors)
+        if sized_effect is None:
             return None
-        added.append(one)
-    gap = trial.floors(added, [])
-    floors = tuple(trial.floors(added, [o for o in added if o is not one]) for one in added)
-    if min(floors) < (_LEAST_SECOND if len(added) > 1 else _LEAST):
+        added.append(sized_effect)
+    gap = trial.compute_floors(added, [])
+    floors = tuple(
+        trial.compute_floors(added, [e for e in added if e is not sized_effect])
+        for sized_effect in added
+    )
+    if min(floors) < (_MIN_SECOND_FLOORS if len(added) > 1 else _MIN_FLOORS):
         return None
-    rest = None
+    remainder_floors = None
     if seed % 2:
-        drawn = draw_remainder(axis, rng).sized(axis.floor)
-        share = rng.uniform(*_REMAINDER) * gap / max(trial.floors([drawn], []), 1e-12)
-        rest = trial.floors([drawn.sized(drawn.size * share)], [])
-        if min(floors) < _OVER_REMAINDER * rest:
+        remainder = draw_remainder(axis, rng).with_size(axis.floor)
+        share = (
+            rng.uniform(*_REMAINDER_SHARES)
+            * gap
+            / max(trial.compute_floors([remainder], []), 1e-12)
+        )
+        remainder_floors = trial.compute_floors([remainder.with_size(remainder.size * share)], [])
+        if min(floors) < _MIN_EFFECT_TO_REMAINDER_RATIO * remainder_floors:
             return None
-        added.append(drawn.sized(drawn.size * share))
-    return SecondCase(kind, machine.having(added), tuple(asked), seed, floors, gap, rest)
+        added.append(remainder.with_size(remainder.size * share))
+    return SecondCase(
+        kind, machine.with_effects(added), tuple(motions), seed, floors, gap, remainder_floors
+    )
 
 
-def _machine(robot: Robot, names: tuple[str, ...], asked: Sequence[Motion]) -> Machine:
-    whole = inertia_matrices(robot)
-    joined = [set(one.axes) for one in robot.couplings if set(one.axes) & set(names)]
-    riding = [n for n in whole.axes if n not in names and any(n in each for each in joined)]
-    rows = [whole.axes.index(name) for name in (*names, *riding)]
-    values = np.concatenate([one.values for one in asked])
-    axes = tuple(facts_of(robot, name, i, values[:, i]) for i, name in enumerate(names))
-    mass, damping, stiffness = (matrix[np.ix_(rows, rows)] for matrix in whole[1:])
-    return Machine(axes, mass, damping, stiffness)
+def _build_machine(
+    robot: Robot, names: tuple[str, ...], motions: Sequence[SecondMotion]
+) -> SecondMachine:
+    matrices = assemble_inertia_matrices(robot)
+    # Axes that are coupled to the selected ones move with them.
+    coupled = [set(pair.axes) for pair in robot.couplings if set(pair.axes) & set(names)]
+    passive = [n for n in matrices.axes if n not in names and any(n in axes for axes in coupled)]
+    rows = [matrices.axes.index(name) for name in (*names, *passive)]
+    values = np.concatenate([motion.values for motion in motions])
+    axes = tuple(describe_axis(robot, name, i, values[:, i]) for i, name in enumerate(names))
+    mass, damping, stiffness = (matrix[np.ix_(rows, rows)] for matrix in matrices[1:])
+    return SecondMachine(axes, mass, damping, stiffness)
 
 
-def _chosen(axis: AxisFacts, number: int, rng: np.random.Generator) -> list[str]:
-    """Choose effects that the axis can have and that are not alike."""
-    never = STEPPER_ALONE if axis.kind == "piezo" else PIEZO_ALONE
-    names = [name for name in (*MAKERS, "cross_coupling") if name not in never]
+def _choose_effects(axis: SecondAxis, count: int, rng: np.random.Generator) -> list[str]:
+    """Choose effects that can occur on the axis and that can be distinguished."""
+    excluded = STEPPER_ONLY_EFFECTS if axis.kind == "piezo" else PIEZO_ONLY_EFFECTS
+    names = [name for name in (*DRAW_FUNCTIONS, "cross_coupling") if name not in excluded]
     while True:
-        chosen = [str(name) for name in rng.choice(names, number, replace=False)]
-        if not any(len(one & set(chosen)) > 1 for one in _ALIKE):
-            return chosen
+        effects = [str(name) for name in rng.choice(names, count, replace=False)]
+        if not any(len(alike & set(effects)) > 1 for alike in _INDISTINGUISHABLE_EFFECTS):
+            return effects
 
 
-class _Trial:
-    """Runs of a machine over its training motions, to see what something added does."""
+class _SizingTrial:
+    def __init__(self, machine: SecondMachine, motions: Sequence[SecondMotion]) -> None:
+        self._machine, self._motions = machine, motions
+        self._cache: dict[tuple[int, tuple[AddedEffect, ...]], FloatArray] = {}
 
-    def __init__(self, machine: Machine, asked: Sequence[Motion]) -> None:
-        self._machine, self._asked = machine, asked
-        self._known: dict[tuple[int, tuple[Added, ...]], FloatArray] = {}
+    def compute_floors(
+        self, added: Sequence[AddedEffect], baseline: Sequence[AddedEffect]
+    ) -> float:
+        """Return the rms difference between a machine with ``added`` and one with ``baseline``.
 
-    def floors(self, added: Sequence[Added], without: Sequence[Added]) -> float:
-        """Return the rms of the difference that some make, each record's mean off, in floors."""
+        It is in noise floors. The mean of each record is removed.
+        """
         axis = added[0].axis
-        apart = []
-        for number, asked in enumerate(self._asked):
-            gap = self._reading(added, number, asked) - self._reading(without, number, asked)
-            apart.append((gap - gap.mean(axis=0))[:, axis.index])
-        return float(np.sqrt(np.mean(np.concatenate(apart) ** 2))) / axis.floor
+        differences = []
+        for number, motion in enumerate(self._motions):
+            difference = self._simulate_reading(added, number, motion) - self._simulate_reading(
+                baseline, number, motion
+            )
+            differences.append((difference - difference.mean(axis=0))[:, axis.index])
+        return float(np.sqrt(np.mean(np.concatenate(differences) ** 2))) / axis.floor
 
-    def _reading(self, added: Sequence[Added], number: int, asked: Motion) -> FloatArray:
+    def _simulate_reading(
+        self, added: Sequence[AddedEffect], number: int, motion: SecondMotion
+    ) -> FloatArray:
         key = number, tuple(added)
-        if key not in self._known:
-            self._known[key] = self._machine.having(added).run(asked, number).reading
-        return self._known[key]
+        if key not in self._cache:
+            self._cache[key] = self._machine.with_effects(added).run(motion, number).reading
+        return self._cache[key]
 
-    def sized(self, one: Added, floors: float) -> Added | None:
-        """Return something that by itself makes about so many floors, or None."""
-        one = one.sized(one.usual)
+    def find_size(self, effect: AddedEffect, floors: float) -> AddedEffect | None:
+        """Return the effect with the size at which it alone makes about ``floors``, or None."""
+        effect = effect.with_size(effect.usual_size)
         for _ in range(5):
-            got = self.floors([one], [])
-            if 0.7 < got / floors < 1.4:
-                return one
-            factor = float(np.clip(floors / max(got, 1e-9), 0.05, 20.0))
-            one = one.sized(min(one.size * factor, 30.0 * one.usual))
+            reached_floors = self.compute_floors([effect], [])
+            if 0.7 < reached_floors / floors < 1.4:
+                return effect
+            factor = float(np.clip(floors / max(reached_floors, 1e-9), 0.05, 20.0))
+            effect = effect.with_size(min(effect.size * factor, 30.0 * effect.usual_size))
         return None

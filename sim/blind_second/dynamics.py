@@ -1,4 +1,4 @@
-"""The mechanics: exact steps of the linear system, forces of effects held over a fine step."""
+"""Mechanics of the second generator: exact linear steps, with forces held for a fine step."""
 
 import numba
 import numpy as np
@@ -9,7 +9,7 @@ from rotemina.sim.arrays import FloatArray
 NONE, FRICTION, CONTACT, STIFFENING = 0, 1, 2, 3
 
 
-def moved(
+def simulate_motion(
     mass: FloatArray,
     damping: FloatArray,
     stiffness: FloatArray,
@@ -19,36 +19,40 @@ def moved(
 ) -> FloatArray:
     """Return the motion (n, m) of axes that springs pull to ``targets`` (n, m).
 
-    ``force`` (m, 6): kind of force on each axis and its numbers. Axes beyond those of ``targets``
-    ride along.
+    Each row of ``force`` (m, 6) holds the kind of the force on an axis, and the parameters of the
+    force. The matrices may have further coordinates, which only the coupling moves.
     """
-    size, axes = len(mass), targets.shape[1]
+    size, axis_count = len(mass), targets.shape[1]
     inverse = np.linalg.inv(mass)
-    generator = np.zeros((4 * size, 4 * size))
-    generator[:size, size : 2 * size] = np.eye(size)
-    generator[size : 2 * size, :size] = -inverse @ stiffness
-    generator[size : 2 * size, size : 2 * size] = -inverse @ damping
-    generator[size : 2 * size, 2 * size : 3 * size] = inverse @ np.diag(np.diag(stiffness))
-    generator[size : 2 * size, 3 * size :] = inverse
-    step = expm(generator * step_s)
+    system_matrix = np.zeros((4 * size, 4 * size))
+    system_matrix[:size, size : 2 * size] = np.eye(size)
+    system_matrix[size : 2 * size, :size] = -inverse @ stiffness
+    system_matrix[size : 2 * size, size : 2 * size] = -inverse @ damping
+    system_matrix[size : 2 * size, 2 * size : 3 * size] = inverse @ np.diag(np.diag(stiffness))
+    system_matrix[size : 2 * size, 3 * size :] = inverse
+    step_matrix = expm(system_matrix * step_s)
     start = np.zeros(2 * size)
-    start[:axes] = targets[0]
-    own = np.zeros((len(targets), size))
-    own[:, :axes] = targets
-    state, drive, push = (
-        np.ascontiguousarray(step[: 2 * size, part])
-        for part in (slice(2 * size), slice(2 * size, 3 * size), slice(3 * size, 4 * size))
+    start[:axis_count] = targets[0]
+    all_targets = np.zeros((len(targets), size))
+    all_targets[:, :axis_count] = targets
+    state_matrix, target_matrix, force_matrix = (
+        np.ascontiguousarray(step_matrix[: 2 * size, columns])
+        for columns in (slice(2 * size), slice(2 * size, 3 * size), slice(3 * size, 4 * size))
     )
     table = np.zeros((size, 6))
-    table[:axes] = force
-    return np.asarray(_run(state, drive, push, own, start, table, step_s)[:, :axes])
+    table[:axis_count] = force
+    return np.asarray(
+        _simulate_steps(
+            state_matrix, target_matrix, force_matrix, all_targets, start, table, step_s
+        )[:, :axis_count]
+    )
 
 
 @numba.njit(cache=True, error_model="numpy")
-def _run(
-    state: FloatArray,
-    drive: FloatArray,
-    push: FloatArray,
+def _simulate_steps(
+    state_matrix: FloatArray,
+    target_matrix: FloatArray,
+    force_matrix: FloatArray,
     targets: FloatArray,
     start: FloatArray,
     table: FloatArray,
@@ -56,38 +60,41 @@ def _run(
 ) -> FloatArray:
     rows, size = targets.shape
     motion = np.empty((rows, size))
-    x, force, bristle = start.copy(), np.zeros(size), np.zeros((size, 2))
+    state, force, bristle = start.copy(), np.zeros(size), np.zeros((size, 2))
     for k in range(rows):
-        motion[k] = x[:size]
+        motion[k] = state[:size]
         for i in range(size):
-            force[i] = _force(table[i], x[i], x[size + i], bristle[i], step_s)
-        fresh = np.zeros(2 * size)
+            force[i] = _compute_force(table[i], state[i], state[size + i], bristle[i], step_s)
+        next_state = np.zeros(2 * size)
         for row in range(2 * size):
             total = 0.0
             for column in range(2 * size):
-                total += state[row, column] * x[column]
+                total += state_matrix[row, column] * state[column]
             for column in range(size):
-                total += drive[row, column] * targets[k, column]
-                total += push[row, column] * force[column]
-            fresh[row] = total
-        x = fresh
+                total += target_matrix[row, column] * targets[k, column]
+                total += force_matrix[row, column] * force[column]
+            next_state[row] = total
+        state = next_state
     return motion
 
 
 @numba.njit(cache=True, error_model="numpy")
-def _force(row: FloatArray, q: float, v: float, bristle: FloatArray, step_s: float) -> float:
+def _compute_force(
+    row: FloatArray, q: float, v: float, bristle: FloatArray, step_s: float
+) -> float:
     """Return the force of one effect on an axis.
 
-    Friction after Bliman and Sorine (1995): two bristles of opposite sign whose strain decays with
-    the distance gone; contact: a softly met quadratic spring; stiffening: a hyperbolic sine.
+    Friction follows Bliman and Sorine (1995): two bristles of opposite sign whose strain decays
+    with the distance travelled. Contact is a quadratic spring that begins softly. Stiffening
+    follows a hyperbolic sine.
     """
     kind = row[0]
     if kind == FRICTION:
-        gone = v * step_s
+        distance = v * step_s
         for j in range(2):
             length = row[2] * (1.0 if j == 0 else row[4])
-            decay = np.exp(-abs(gone) / length)
-            bristle[j] = bristle[j] * decay + np.sign(gone) * (1.0 - decay)
+            decay = np.exp(-abs(distance) / length)
+            bristle[j] = bristle[j] * decay + np.sign(distance) * (1.0 - decay)
         return float(-row[1] * (bristle[0] * (1.0 + row[5]) - row[5] * bristle[1]) - row[3] * v)
     if kind == CONTACT:
         depth = (q - row[2]) / row[3]

@@ -1,4 +1,4 @@
-"""A machine: its axes, their linear mechanics, and its additions."""
+"""A machine of the second generator: its axes, their linear mechanics, and its effects."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -9,23 +9,25 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.blind_second import effects
-from rotemina.sim.blind_second.dynamics import moved
-from rotemina.sim.blind_second.effects import Added
-from rotemina.sim.blind_second.machine_axis import AxisFacts, Grid
+from rotemina.sim.blind_second.dynamics import simulate_motion
+from rotemina.sim.blind_second.effects import AddedEffect
+from rotemina.sim.blind_second.machine_axis import FineTimeGrid, SecondAxis
 
-_FINE_S = 1e-4
-_LEAD_S = 1.0  # for the way to the first command
+# Approximate step of the fine grid on which the machine is simulated.
+_FINE_STEP_S = 1e-4
+# Time before the record, in which the axes rise to the first command and settle.
+_LEAD_S = 1.0
 
 
-class Motion(NamedTuple):
-    """What is requested: ``values`` (n, m), SI, one row every ``step_s``, held until the next."""
+class SecondMotion(NamedTuple):
+    """Requested positions ``values`` (n, m), SI, one row every ``step_s``, held until the next."""
 
     step_s: float
     values: FloatArray
 
 
-class Taps(NamedTuple):
-    """What shows at the samples (n, m): output of the amplifiers, motion, reading; SI positions."""
+class SampledTaps(NamedTuple):
+    """Amplifier output, true motion and reading at the samples, each (n, m), positions in SI."""
 
     drive: FloatArray
     motion: FloatArray
@@ -33,56 +35,64 @@ class Taps(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Machine:
-    """Axes that move together; ``mass``, ``damping``, ``stiffness`` with those that ride along."""
+class SecondMachine:
+    """Axes that move together, with their effects.
 
-    axes: tuple[AxisFacts, ...]
+    ``mass``, ``damping`` and ``stiffness`` also include the passive axes that are coupled to these.
+    """
+
+    axes: tuple[SecondAxis, ...]
     mass: FloatArray
     damping: FloatArray
     stiffness: FloatArray
-    added: tuple[Added, ...] = ()
+    added: tuple[AddedEffect, ...] = ()
 
-    def having(self, added: Sequence[Added]) -> "Machine":
-        """Return the machine with this added to it."""
+    def with_effects(self, added: Sequence[AddedEffect]) -> "SecondMachine":
+        """Return a copy of the machine with other effects."""
         return replace(self, added=tuple(added))
 
-    def run(self, asked: Motion, chance: int) -> Taps:
-        """Run over a motion, after a rise to its first row, and return what shows."""
-        every = max(round(asked.step_s / _FINE_S), 1)
-        grid = Grid(round(_LEAD_S / asked.step_s) * every, every, asked.step_s / every)
-        values = np.repeat(asked.values, every, axis=0)
-        ways = np.array([0.1 * axis.way for axis in self.axes])
-        share = np.minimum(np.arange(grid.lead) / (0.6 * grid.lead), 1.0)
-        rise = values[0] - ways * (1.0 - share**2 * (3.0 - 2.0 * share))[:, None]
-        values = np.concatenate([rise, values])
-        drive = self._through(effects.DRIVE, values, values, grid, chance)
-        targets = self._through(effects.ACTUATOR, drive, drive, grid, chance)
-        motion = self._moved(targets, grid, chance)
-        motion = self._through(effects.MOTION, motion, motion, grid, chance)
-        rows = slice(grid.lead, None, every)
-        reading = self._through(effects.SENSOR, motion, motion, grid, chance)[rows]
-        reading = self._through(effects.SAMPLED, reading, motion, grid, chance)
-        return Taps(drive[rows], motion[rows], reading)
+    def run(self, requested: SecondMotion, seed: int) -> SampledTaps:
+        """Simulate the machine over a motion and return its taps.
 
-    def _through(
-        self, place: int, values: FloatArray, motion: FloatArray, grid: Grid, chance: int
+        Before the record, the axes rise to the first row and settle.
+        """
+        substeps = max(round(requested.step_s / _FINE_STEP_S), 1)
+        grid = FineTimeGrid(
+            round(_LEAD_S / requested.step_s) * substeps, substeps, requested.step_s / substeps
+        )
+        values = np.repeat(requested.values, substeps, axis=0)
+        rise_lengths = np.array([0.1 * axis.travel for axis in self.axes])
+        progress = np.minimum(np.arange(grid.lead_rows) / (0.6 * grid.lead_rows), 1.0)
+        rise = values[0] - rise_lengths * (1.0 - progress**2 * (3.0 - 2.0 * progress))[:, None]
+        values = np.concatenate([rise, values])
+        drive = self._apply_effects(effects.DRIVE, values, values, grid, seed)
+        targets = self._apply_effects(effects.ACTUATOR, drive, drive, grid, seed)
+        motion = self._simulate_motion(targets, grid, seed)
+        motion = self._apply_effects(effects.MOTION, motion, motion, grid, seed)
+        rows = slice(grid.lead_rows, None, substeps)
+        reading = self._apply_effects(effects.SENSOR, motion, motion, grid, seed)[rows]
+        reading = self._apply_effects(effects.SAMPLED, reading, motion, grid, seed)
+        return SampledTaps(drive[rows], motion[rows], reading)
+
+    def _apply_effects(
+        self, place: int, values: FloatArray, motion: FloatArray, grid: FineTimeGrid, seed: int
     ) -> FloatArray:
         out = values.copy()
-        for one in self.added:
-            if one.place == place:
-                rng = np.random.default_rng((chance, crc32(one.effect.encode())))
-                i = one.axis.index
-                out[:, i] = one.act(out[:, i].copy(), motion, grid, rng, one.size)
+        for effect in self.added:
+            if effect.place == place:
+                rng = np.random.default_rng((seed, crc32(effect.effect.encode())))
+                i = effect.axis.index
+                out[:, i] = effect.act(out[:, i].copy(), motion, grid, rng, effect.size)
         return out
 
-    def _moved(self, targets: FloatArray, grid: Grid, chance: int) -> FloatArray:
+    def _simulate_motion(self, targets: FloatArray, grid: FineTimeGrid, seed: int) -> FloatArray:
         stiffness, table = self.stiffness.copy(), np.zeros((len(self.axes), 6))
-        none = np.zeros(0)
-        for one in self.added:
-            rng = np.random.default_rng((chance, crc32(one.effect.encode())))
-            if one.place == effects.FORCE:
-                table[one.axis.index] = one.act(none, targets, grid, rng, one.size)
-            elif one.place == effects.SPRING:
-                i = one.axis.index
-                stiffness[i, i] *= float(one.act(none, targets, grid, rng, one.size)[0])
-        return moved(self.mass, self.damping, stiffness, targets, grid.step_s, table)
+        empty = np.zeros(0)
+        for effect in self.added:
+            rng = np.random.default_rng((seed, crc32(effect.effect.encode())))
+            if effect.place == effects.FORCE:
+                table[effect.axis.index] = effect.act(empty, targets, grid, rng, effect.size)
+            elif effect.place == effects.SPRING:
+                i = effect.axis.index
+                stiffness[i, i] *= float(effect.act(empty, targets, grid, rng, effect.size)[0])
+        return simulate_motion(self.mass, self.damping, stiffness, targets, grid.step_s, table)

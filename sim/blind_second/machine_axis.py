@@ -1,4 +1,4 @@
-"""An axis in this generator, and the time course of one record."""
+"""An axis of the second generator, and the time grid of one record."""
 
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -6,18 +6,30 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.robot.model import PiezoAxis, Robot, StepperAxis
+from rotemina.sim.robot import (
+    PiezoAxis,
+    Robot,
+    StepperAxis,
+)
 
 
 @dataclass(frozen=True, slots=True)
-class AxisFacts:
-    """Figures of one axis, SI; ``index`` in the case, ``low`` and ``way`` of its motion."""
+class SecondAxis:
+    """Properties of one axis, in SI units.
+
+    Attributes
+    ----------
+    index : column of the axis in the case.
+    low, travel : lowest command, and distance to the highest command.
+    floor : noise floor of the sensor.
+    position_per_volt : gain of the amplifier; 1 for a stepper.
+    """
 
     name: str
     index: int
     kind: str
     low: float
-    way: float
+    travel: float
     floor: float
     noise: float
     resolution: float
@@ -26,35 +38,35 @@ class AxisFacts:
     stiffness: float
     full_step: float
     pitch: float
-    volt: float  # position per volt; 1 of a stepper
+    position_per_volt: float
 
 
-class Grid(NamedTuple):
-    """A fine time grid: rows before the record begins, rows a sample, seconds a row."""
+class FineTimeGrid(NamedTuple):
+    """A fine time grid: rows before the record, rows per sample, and seconds per row."""
 
-    lead: int
-    every: int
+    lead_rows: int
+    rows_per_sample: int
     step_s: float
 
-    def time_s(self, rows: int) -> FloatArray:
-        """Return the time since the record began (rows,)."""
-        return np.asarray((np.arange(rows) - self.lead) * self.step_s)
+    def compute_time_s(self, rows: int) -> FloatArray:
+        """Return the time (rows,) since the record began."""
+        return np.asarray((np.arange(rows) - self.lead_rows) * self.step_s)
 
 
-def facts_of(robot: Robot, name: str, index: int, commands: FloatArray) -> AxisFacts:
-    """Gather the figures of an axis that goes where ``commands`` (n,) say.
+def describe_axis(robot: Robot, name: str, index: int, commands: FloatArray) -> SecondAxis:
+    """Collect the properties of an axis that follows ``commands`` (n,).
 
     Raises
     ------
     ValueError
-        If it is no piezo or stepper with sensor and mass.
+        If the axis is not a piezo or stepper axis, or has no sensor or mass.
     """
     axis = robot.axes[name]
     if not isinstance(axis, PiezoAxis | StepperAxis) or axis.sensor is None or axis.inertia is None:
         raise ValueError(f"axis {name}: it needs a sensor, a mass and a spring")
     pitch = (axis.pitch or 1e-3) if isinstance(axis, StepperAxis) else 1e-3
     steps = (axis.steps_per_rev or 200) if isinstance(axis, StepperAxis) else 200
-    return AxisFacts(
+    return SecondAxis(
         name,
         index,
         axis.kind,

@@ -1,65 +1,82 @@
-"""Rests of a record's set-point, and the direction of each approach."""
+"""Holds of a record's set-point, and the direction of each approach."""
 
 from typing import NamedTuple
 
 import numpy as np
 
-from rotemina.sim.arrays import BoolArray, FloatArray, IntArray
-from rotemina.sim.calibration.iso230 import LEAST_RUNS
+from rotemina.sim.arrays import (
+    BoolArray,
+    FloatArray,
+    IntArray,
+)
+from rotemina.sim.calibration.iso230 import MIN_SPREAD_RUNS
 
-LEAST_HOLD_S = 0.1
-_SETTLED = 0.5  # the later share of a hold is averaged
-_SAME = 1e-9  # relative to the travel: targets that are one
+MIN_HOLD_S = 0.1
+# A hold is averaged only after this share of its duration, when the axis has settled.
+_SETTLED_SHARE = 0.5
+# Targets that differ by less than this share of the travel are the same target.
+_SAME_TARGET_SHARE = 1e-9
 
 
-class Approaches(NamedTuple):
-    """Targets (m,) that were approached from both sides as often.
+class TargetApproaches(NamedTuple):
+    """Targets (m,) that were approached equally often from both sides.
 
-    ``rows`` (m, n, 2) are begins and ``ends`` (m, n, 2) ends of the settled part of each hold, by
+    ``begins`` (m, n, 2) and ``ends`` (m, n, 2) are the rows of the settled part of each hold, by
     target, run and direction (↑, ↓).
     """
 
     targets: FloatArray
-    rows: IntArray
+    begins: IntArray
     ends: IntArray
 
-    def means(self, signal: FloatArray, sound: BoolArray) -> FloatArray:
-        """Return means (m, n, 2) of a signal over the holds; NaN where no row of one is sound."""
-        total = np.concatenate([[0.0], np.cumsum(np.where(sound, signal, 0.0))])
-        count = np.concatenate([[0], np.cumsum(sound)])
+    def compute_means(self, signal: FloatArray, valid: BoolArray) -> FloatArray:
+        """Return the means (m, n, 2) of a signal over the holds.
+
+        Only rows where ``valid`` (n,) is true count. A hold without such a row gives NaN.
+        """
+        total = np.concatenate([[0.0], np.cumsum(np.where(valid, signal, 0.0))])
+        count = np.concatenate([[0], np.cumsum(valid)])
         with np.errstate(invalid="ignore"):
             return np.asarray(
-                (total[self.ends] - total[self.rows]) / (count[self.ends] - count[self.rows])
+                (total[self.ends] - total[self.begins]) / (count[self.ends] - count[self.begins])
             )
 
 
 def find_holds(time_s: FloatArray, command: FloatArray) -> IntArray:
-    """Return begins and ends (h, 2) of where a command (n,) rests for 0.1 s after a move."""
+    """Return begins and ends (h, 2) of the holds of a command (n,) that last 0.1 s or more."""
     changes = np.flatnonzero(np.diff(command) != 0.0) + 1
     begins = np.concatenate([[0], changes])
     ends = np.concatenate([changes, [len(command)]])
-    held = time_s[np.minimum(ends, len(time_s) - 1)] - time_s[begins] >= LEAST_HOLD_S
-    held[0] = False  # it is not known from which side it was reached
-    return np.stack([begins[held], ends[held]], axis=1)
+    is_hold = time_s[np.minimum(ends, len(time_s) - 1)] - time_s[begins] >= MIN_HOLD_S
+    # It is not known from which side the first hold was reached.
+    is_hold[0] = False
+    return np.stack([begins[is_hold], ends[is_hold]], axis=1)
 
 
-def approaches(time_s: FloatArray, command: FloatArray) -> Approaches | None:
-    """Find holds of ``command`` (n,) of at least 0.1 s; None where none was reached both ways.
+def find_approaches(time_s: FloatArray, command: FloatArray) -> TargetApproaches | None:
+    """Find the holds of ``command`` (n,) of at least 0.1 s, by target and direction.
 
-    A target that was reached more often from one side counts as often as from the other.
+    Every target keeps the same number of approaches from each side; any further ones are
+    discarded. Return None if no target was approached at least twice from each side.
     """
     begins, ends = find_holds(time_s, command).T
     rising = command[begins] > command[begins - 1]
     span = float(np.ptp(command)) or 1.0
-    place = np.rint(command[begins] / (_SAME * span)).astype(np.int64)
-    found = []
-    for target in np.unique(place):
-        sides = [np.flatnonzero((place == target) & (rising == up)) for up in (True, False)]
-        if min(map(len, sides)) >= LEAST_RUNS:
-            found.append(sides)
-    if not found:
+    target_indices = np.rint(command[begins] / (_SAME_TARGET_SHARE * span)).astype(np.int64)
+    holds_by_target = []
+    for target in np.unique(target_indices):
+        sides = [
+            np.flatnonzero((target_indices == target) & (rising == up)) for up in (True, False)
+        ]
+        if min(map(len, sides)) >= MIN_SPREAD_RUNS:
+            holds_by_target.append(sides)
+    if not holds_by_target:
         return None
-    runs = min(len(side) for sides in found for side in sides)
-    holds = np.array([[side[:runs] for side in sides] for sides in found]).transpose(0, 2, 1)
-    first = begins[holds] + np.ceil((ends[holds] - begins[holds]) * _SETTLED).astype(np.int64)
-    return Approaches(command[begins[holds[:, 0, 0]]], first, ends[holds])
+    run_count = min(len(side) for sides in holds_by_target for side in sides)
+    holds = np.array([[side[:run_count] for side in sides] for sides in holds_by_target]).transpose(
+        0, 2, 1
+    )
+    settled_begins = begins[holds] + np.ceil((ends[holds] - begins[holds]) * _SETTLED_SHARE).astype(
+        np.int64
+    )
+    return TargetApproaches(command[begins[holds[:, 0, 0]]], settled_begins, ends[holds])

@@ -1,35 +1,40 @@
-"""Causal correction of a sensor's reading, portion by portion.
+"""Causal correction of a sensor's readings, block by block.
 
-The lag is made good by what the axis moves on meanwhile, ``x = y + T v``, with its speed v from
-the latest readings (a low pass, so that noise is not made larger); the rest is the model turned
-round, ``q = (x − o − bend(q) − Σ w E(q))/(1 + e)``, by a few rounds.
+The lag T is corrected by adding the motion of the axis during T: ``x = y + T v``. The speed v is
+the low-pass filtered derivative of the latest readings; the filter limits the noise. The other
+errors are removed by a few iterations of ``q = (x − o − bend(q) − Σ w E(q))/(1 + e)``, which invert
+the model.
 """
 
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.calibration.sensor import SensorModel
-from rotemina.sim.calibration.sensor_lag import Lag
-from rotemina.sim.stops import stops
+from rotemina.sim.calibration.sensor_lag import SensorLag
+from rotemina.sim.compensate import compute_stops
 
-_ROUNDS = 4  # each leaves a few per cent of the error at the most
-_SMOOTHED_S = 5e-3  # over which the speed is taken, or the lag where that is longer
-_PAUSE = 5.0  # times the usual interval: what came before says nothing of the speed
+# Each iteration leaves at most a few per cent of the error.
+_ITERATION_COUNT = 4
+# Time constant of the speed filter, unless the lag is longer.
+_MIN_SMOOTHING_S = 5e-3
+# After an interval longer than this many usual intervals, the previous reading no longer
+# shows the speed.
+_PAUSE_TO_INTERVAL_RATIO = 5.0
 
 
-class Correction:
-    """The correction of one axis; it remembers the latest readings.
+class ReadingCorrection:
+    """Correction of the readings of one axis, with a state from the earlier readings.
 
     Parameters
     ----------
     model : SensorModel
-        Of the sensor.
     travel : (low, high)
-        Where the model was fitted, m or rad; beyond, the errors of its ends hold.
+        Range in which the model was fitted, m or rad. Beyond it, the errors at its ends are used.
     """
 
     def __init__(self, model: SensorModel, travel: tuple[float, float]) -> None:
-        # Half a second, which a program without corrections is spared; and not amid the readings.
+        # The import takes half a second. Programs without corrections do not need it, and it must
+        # not happen while readings arrive.
         from scipy.signal import lfilter
 
         self._filter = lfilter
@@ -40,50 +45,56 @@ class Correction:
         self.restart()
 
     def restart(self) -> None:
-        """Forget what was read before."""
+        """Forget all earlier readings."""
         self._plays: FloatArray | None = None
-        self._last: tuple[float, float] | None = None  # time and reading
+        # Time and reading of the latest row.
+        self._latest_row: tuple[float, float] | None = None
         self._speed = 0.0
         self._interval_s = 0.0
 
     def apply(self, time_s: FloatArray, reading: FloatArray) -> FloatArray:
-        """Return where the axis is (n,), m or rad, by readings (n,) later than all before."""
+        """Return the positions (n,) of the axis, m or rad, for readings (n,).
+
+        The readings must be later than all earlier ones.
+        """
         if not len(reading):
             return reading
         model = self._model
-        line = reading - model.offset
-        if model.lag is not Lag.NONE:
-            line = line + model.lag_s * self._speeds(time_s, reading)
-        position = line / (1.0 + model.gain_error)
-        loop = self._loop(position)
-        for _ in range(_ROUNDS):
-            within = np.clip(position, *self._travel)
-            position = (line - model.bent(within) - loop) / (1.0 + model.gain_error)
+        linear = reading - model.offset
+        if model.lag is not SensorLag.NONE:
+            linear = linear + model.lag_s * self._compute_speeds(time_s, reading)
+        position = linear / (1.0 + model.gain_error)
+        hysteresis = self._compute_hysteresis(position)
+        for _ in range(_ITERATION_COUNT):
+            clipped = np.clip(position, *self._travel)
+            position = (linear - model.compute_position_error(clipped) - hysteresis) / (
+                1.0 + model.gain_error
+            )
         return np.asarray(position)
 
-    def _loop(self, position: FloatArray) -> FloatArray | float:
+    def _compute_hysteresis(self, position: FloatArray) -> FloatArray | float:
         if not len(self._radii):
             return 0.0
         if self._plays is None:
             self._plays = np.full(len(self._radii), position[0])
-        return np.asarray(stops(position, self._radii, self._plays) @ self._weights)
+        return np.asarray(compute_stops(position, self._radii, self._plays) @ self._weights)
 
-    def _speeds(self, time_s: FloatArray, reading: FloatArray) -> FloatArray:
-        """Return smoothed speeds (n,), with intervals that are nearly even."""
-        before = self._last if self._last is not None else (time_s[0], reading[0])
-        self._last = float(time_s[-1]), float(reading[-1])
-        elapsed = np.diff(time_s, prepend=before[0])
-        steps = np.diff(reading, prepend=before[1])
-        known = elapsed[elapsed > 0.0]
-        if not len(known):
+    def _compute_speeds(self, time_s: FloatArray, reading: FloatArray) -> FloatArray:
+        """Return smoothed speeds (n,); nearly even intervals are assumed."""
+        previous_row = self._latest_row if self._latest_row is not None else (time_s[0], reading[0])
+        self._latest_row = float(time_s[-1]), float(reading[-1])
+        elapsed_s = np.diff(time_s, prepend=previous_row[0])
+        steps = np.diff(reading, prepend=previous_row[1])
+        positive_s = elapsed_s[elapsed_s > 0.0]
+        if not len(positive_s):
             return np.full(len(reading), self._speed)
-        interval_s = float(np.median(known))
-        paused = elapsed > _PAUSE * (self._interval_s or interval_s)
+        interval_s = float(np.median(positive_s))
+        after_pause = elapsed_s > _PAUSE_TO_INTERVAL_RATIO * (self._interval_s or interval_s)
         self._interval_s = interval_s
-        raw = np.where(
-            (elapsed > 0.0) & ~paused, steps / np.where(elapsed > 0.0, elapsed, 1.0), 0.0
+        raw_speeds = np.where(
+            (elapsed_s > 0.0) & ~after_pause, steps / np.where(elapsed_s > 0.0, elapsed_s, 1.0), 0.0
         )
-        kept = float(np.exp(-interval_s / max(_SMOOTHED_S, self._model.lag_s)))
-        speeds, _ = self._filter([1.0 - kept], [1.0, -kept], raw, zi=[kept * self._speed])
+        decay = float(np.exp(-interval_s / max(_MIN_SMOOTHING_S, self._model.lag_s)))
+        speeds, _ = self._filter([1.0 - decay], [1.0, -decay], raw_speeds, zi=[decay * self._speed])
         self._speed = float(speeds[-1])
         return np.asarray(speeds)

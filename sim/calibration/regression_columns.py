@@ -1,7 +1,7 @@
-"""The linear part of a sensor's model as columns, run by run, and its least squares.
+"""The linear part of a sensor's model as columns of a least-squares problem.
 
-Only sums of products are kept (Gram matrices), one of each run, so any choice of columns and of
-runs is solved in no time.
+Only the Gram matrix of each run is kept, so that any selection of columns and runs can be solved
+quickly.
 """
 
 from collections.abc import Sequence
@@ -10,78 +10,99 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.calibration.sensor import SHARES, SensorModel, waves
-from rotemina.sim.calibration.sensor_lag import Lag, lagged, slope_by_lag
-from rotemina.sim.stops import stops
+from rotemina.sim.calibration.sensor import STOP_RADIUS_SHARES, SensorModel, compute_waves
+from rotemina.sim.calibration.sensor_lag import SensorLag, apply_lag, compute_lag_slope
+from rotemina.sim.compensate import compute_stops
 
-_TINY = 1e-9  # of the largest: a singular value that is none
+# Singular values below this share of the largest one count as 0.
+_SINGULAR_VALUE_CUTOFF = 1e-9
 
 
-class Run(NamedTuple):
-    """A stretch of even rows: reading and reference (n,), m or rad, ``step_s`` apart.
+class SensorRun(NamedTuple):
+    """Evenly spaced rows: reading and reference (n,), m or rad, ``step_s`` apart.
 
-    One row in ``every`` takes part in a fit, which sees the lag between all of them.
+    A fit uses only each ``every``-th row, but the lag is computed from all rows.
     """
 
     reading: FloatArray
     reference: FloatArray
     step_s: float
-    every: int = 1
+    stride: int = 1
 
 
-class Choice(NamedTuple):
-    """Which columns a model has: coefficients of the bend, hysteresis, interpolation, lag."""
+class SensorModelStructure(NamedTuple):
+    """The terms of a sensor model, which determine its columns.
+
+    Attributes
+    ----------
+    bends : number of coefficients of the bend.
+    hysteresis : whether there are stops.
+    period : of the interpolation error, m or rad; 0 without any.
+    lag : kind of lag.
+    """
 
     bends: int = 0
     hysteresis: bool = False
     period: float = 0.0
-    lag: Lag = Lag.NONE
+    lag: SensorLag = SensorLag.NONE
 
 
-def columns(
-    run: Run, bounds: tuple[float, float], choice: Choice, lag_s: float
+def make_columns(
+    run: SensorRun, bounds: tuple[float, float], structure: SensorModelStructure, lag_s: float
 ) -> tuple[FloatArray, FloatArray]:
-    """Return columns (m, k) and what they are to explain, ``y − q̃`` (m,), of some of the rows.
+    """Return the columns (m, k) and their target ``y − q̃`` (m,), for the rows used in a fit.
 
-    The columns are 1, q̃, bends, stops, waves, and ``d q̃/d T`` where there is a lag.
+    The columns are 1, q̃, bends, stops, waves, and ``d q̃/d T`` if there is a lag.
     """
     low, high = bounds
-    kept = slice(None, None, run.every)
-    whole = lagged(run.reference, choice.lag, lag_s, run.step_s)
-    moved = whole[kept]
-    place = SensorModel(low=low, high=high).place(moved)
-    blocks = [np.ones((len(moved), 1)), moved[:, None]]
-    if choice.bends:
-        powers = np.vander(place, choice.bends, increasing=True)
+    fit_rows = slice(None, None, run.stride)
+    lagged_reference = apply_lag(run.reference, structure.lag, lag_s, run.step_s)
+    position = lagged_reference[fit_rows]
+    place = SensorModel(low=low, high=high).normalise_position(position)
+    blocks = [np.ones((len(position), 1)), position[:, None]]
+    if structure.bends:
+        powers = np.vander(place, structure.bends, increasing=True)
         blocks.append((1.0 - place**2)[:, None] * powers)
-    if choice.hysteresis:
-        radii = np.array(SHARES) * (high - low)
-        blocks.append(stops(whole, radii, np.full(len(radii), whole[0]))[kept])
-    if choice.period:
-        blocks.append(waves(moved, choice.period))
-    if choice.lag is not Lag.NONE:
-        slope = slope_by_lag(run.reference, choice.lag, lag_s, run.step_s)
-        blocks.append(slope[kept, None])
-    return np.concatenate(blocks, axis=1), run.reading[kept] - moved
+    if structure.hysteresis:
+        radii = np.array(STOP_RADIUS_SHARES) * (high - low)
+        blocks.append(
+            compute_stops(lagged_reference, radii, np.full(len(radii), lagged_reference[0]))[
+                fit_rows
+            ]
+        )
+    if structure.period:
+        blocks.append(compute_waves(position, structure.period))
+    if structure.lag is not SensorLag.NONE:
+        slope = compute_lag_slope(run.reference, structure.lag, lag_s, run.step_s)
+        blocks.append(slope[fit_rows, None])
+    return np.concatenate(blocks, axis=1), run.reading[fit_rows] - position
 
 
-def indices(choice: Choice, within: Choice) -> list[int]:
-    """Return which of the columns of ``within`` are those of ``choice``."""
-    at = 2 + within.bends
-    found = list(range(2 + choice.bends))
-    for has, wanted, count in (
-        (within.hysteresis, choice.hysteresis, len(SHARES)),
-        (within.period != 0.0, choice.period != 0.0, 4),
-        (within.lag is not Lag.NONE, choice.lag is not Lag.NONE, 1),
+def find_column_indices(choice: SensorModelStructure, available: SensorModelStructure) -> list[int]:
+    """Return the indices of the columns of ``choice`` among those of ``available``."""
+    next_index = 2 + available.bends
+    indices = list(range(2 + choice.bends))
+    for is_available, is_chosen, count in (
+        (available.hysteresis, choice.hysteresis, len(STOP_RADIUS_SHARES)),
+        (available.period != 0.0, choice.period != 0.0, 4),
+        (available.lag is not SensorLag.NONE, choice.lag is not SensorLag.NONE, 1),
     ):
-        if has:
-            found += range(at, at + count) if wanted else ()
-            at += count
-    return found
+        if is_available:
+            indices += range(next_index, next_index + count) if is_chosen else ()
+            next_index += count
+    return indices
 
 
-class Gram(NamedTuple):
-    """Sums of products of columns (k, k), with the target (k,), of the target, and the rows."""
+class GramMatrix(NamedTuple):
+    """Sums of products of columns and target.
+
+    Attributes
+    ----------
+    matrix : (k, k) of the columns.
+    vector : (k,) of columns and target.
+    square : of the target with itself.
+    rows : number of rows.
+    """
 
     matrix: FloatArray
     vector: FloatArray
@@ -89,13 +110,13 @@ class Gram(NamedTuple):
     rows: int
 
     @classmethod
-    def of(cls, table: FloatArray, target: FloatArray) -> "Gram":
-        """Return those of columns (n, k) and a target (n,)."""
+    def of(cls, table: FloatArray, target: FloatArray) -> "GramMatrix":
+        """Return the sums for columns (n, k) and a target (n,)."""
         return cls(table.T @ table, table.T @ target, float(target @ target), len(target))
 
     @classmethod
-    def total(cls, parts: Sequence["Gram"]) -> "Gram":
-        """Return those of several runs together."""
+    def total(cls, parts: Sequence["GramMatrix"]) -> "GramMatrix":
+        """Return the sums over several runs."""
         return cls(
             np.sum([part.matrix for part in parts], axis=0),
             np.sum([part.vector for part in parts], axis=0),
@@ -103,56 +124,63 @@ class Gram(NamedTuple):
             sum(part.rows for part in parts),
         )
 
-    def only(self, chosen: list[int]) -> "Gram":
-        """Return those of some of the columns."""
-        return Gram(
-            self.matrix[np.ix_(chosen, chosen)], self.vector[chosen], self.square, self.rows
+    def select_columns(self, selected: list[int]) -> "GramMatrix":
+        """Return the sums for some of the columns."""
+        return GramMatrix(
+            self.matrix[np.ix_(selected, selected)], self.vector[selected], self.square, self.rows
         )
 
-    def solved(self) -> FloatArray:
+    def solve(self) -> FloatArray:
         """Return the least-squares solution; undetermined parameters are 0."""
-        scale, inverse = self._scaled_inverse()
+        scale, inverse = self._invert_scaled()
         return np.asarray(inverse @ (self.vector / scale) / scale)
 
-    def inverse(self) -> FloatArray:
+    def compute_inverse(self) -> FloatArray:
         """Return the pseudo-inverse of the matrix."""
-        scale, inverse = self._scaled_inverse()
+        scale, inverse = self._invert_scaled()
         return np.asarray(inverse / np.outer(scale, scale))
 
-    def _scaled_inverse(self) -> tuple[FloatArray, FloatArray]:
-        """Return the sizes of the columns (k,), and the pseudo-inverse with all of size 1."""
+    def _invert_scaled(self) -> tuple[FloatArray, FloatArray]:
+        """Return the norms of the columns (k,), and the pseudo-inverse of the normalised matrix."""
         scale = np.sqrt(np.diag(self.matrix))
         scale = np.where(scale > 0.0, scale, 1.0)
-        equal = self.matrix / np.outer(scale, scale)
-        return scale, np.linalg.pinv(equal, rcond=_TINY, hermitian=True)
+        normalised = self.matrix / np.outer(scale, scale)
+        return scale, np.linalg.pinv(normalised, rcond=_SINGULAR_VALUE_CUTOFF, hermitian=True)
 
-    def mean_square(self, parameters: FloatArray) -> float:
-        """Return the mean square residual of parameters."""
-        left = self.square - 2.0 * parameters @ self.vector + parameters @ self.matrix @ parameters
-        return max(float(left), 0.0) / self.rows
+    def compute_mean_square(self, parameters: FloatArray) -> float:
+        """Return the mean square residual for given parameters."""
+        square_sum = (
+            self.square - 2.0 * parameters @ self.vector + parameters @ self.matrix @ parameters
+        )
+        return max(float(square_sum), 0.0) / self.rows
 
 
-def model_of(
-    bounds: tuple[float, float], choice: Choice, parameters: FloatArray, lag_s: float
+def make_model(
+    bounds: tuple[float, float],
+    structure: SensorModelStructure,
+    parameters: FloatArray,
+    lag_s: float,
 ) -> SensorModel:
-    """Return the model of parameters (k,) that were fitted to ``y − q``."""
+    """Return the sensor model with the parameters (k,), which were fitted to ``y − q̃``."""
     low, high = bounds
-    at = 2 + choice.bends
+    next_index = 2 + structure.bends
     weights: tuple[float, ...] = ()
-    if choice.hysteresis:
-        weights = tuple(parameters[at : at + len(SHARES)].tolist())
-        at += len(SHARES)
-    harmonics = tuple(parameters[at : at + 4].tolist()) if choice.period else ()
+    if structure.hysteresis:
+        weights = tuple(parameters[next_index : next_index + len(STOP_RADIUS_SHARES)].tolist())
+        next_index += len(STOP_RADIUS_SHARES)
+    harmonics = tuple(parameters[next_index : next_index + 4].tolist()) if structure.period else ()
     return SensorModel(
         low=low,
         high=high,
         offset=float(parameters[0]),
         gain_error=float(parameters[1]),
-        bend=tuple(parameters[2 : 2 + choice.bends].tolist()),
-        radii=tuple(share * (high - low) for share in SHARES) if choice.hysteresis else (),
+        bend=tuple(parameters[2 : 2 + structure.bends].tolist()),
+        radii=tuple(share * (high - low) for share in STOP_RADIUS_SHARES)
+        if structure.hysteresis
+        else (),
         weights=weights,
-        lag=choice.lag,
-        lag_s=lag_s if choice.lag is not Lag.NONE else 0.0,
-        period=choice.period,
+        lag=structure.lag,
+        lag_s=lag_s if structure.lag is not SensorLag.NONE else 0.0,
+        period=structure.period,
         harmonics=harmonics,
     )

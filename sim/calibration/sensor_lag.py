@@ -1,4 +1,4 @@
-"""The lag of a sensor at a steady interval: a low pass of first order, or a delay."""
+"""The lag of a sensor that is sampled at a constant interval: a first-order low-pass or a delay."""
 
 from enum import StrEnum
 
@@ -7,46 +7,52 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray
 
 
-class Lag(StrEnum):
-    """How a sensor comes late."""
+class SensorLag(StrEnum):
+    """The kind of a sensor's lag."""
 
     NONE = "none"
-    FIRST_ORDER = "first_order"  # T ẏ + y = q
-    DELAY = "delay"  # y(t) = q(t − T)
+    # T ẏ + y = q
+    FIRST_ORDER = "first_order"
+    # y(t) = q(t − T)
+    DELAY = "delay"
 
 
-MOST_S = 0.1
+MAX_LAG_S = 0.1
 
 
-def lagged(signal: FloatArray, kind: Lag, lag_s: float, step_s: float) -> FloatArray:
-    """Return a signal (n,) at intervals of ``step_s`` as it comes through the lag.
+def apply_lag(signal: FloatArray, kind: SensorLag, lag_s: float, step_s: float) -> FloatArray:
+    """Return a signal (n,) at intervals of ``step_s`` after the lag.
 
-    Between rows it moves along a straight line, for which both are exact. Before the first row it
-    rested there.
+    Both kinds are exact for a signal that is linear between rows. Before the first row, the signal
+    is assumed to rest at its first value.
     """
-    if kind is Lag.NONE or lag_s <= 0.0:
+    if kind is SensorLag.NONE or lag_s <= 0.0:
         return signal
-    if kind is Lag.DELAY:
+    if kind is SensorLag.DELAY:
         rows = np.arange(len(signal), dtype=np.float64)
         return np.interp(rows - lag_s / step_s, rows, signal)
-    pace = step_s / lag_s
-    kept = float(np.exp(-pace))
-    share = -float(np.expm1(-pace)) / pace
-    weights = [1.0 - share, share - kept]
+    ratio = step_s / lag_s
+    decay = float(np.exp(-ratio))
+    mean_decay = -float(np.expm1(-ratio)) / ratio
+    weights = [1.0 - mean_decay, mean_decay - decay]
     start = signal[0]
-    from scipy.signal import lfilter  # only here: it takes half a second
+    # Imported here because the import takes half a second.
+    from scipy.signal import lfilter
 
-    output, _ = lfilter(weights, [1.0, -kept], signal - start, zi=[0.0])
+    output, _ = lfilter(weights, [1.0, -decay], signal - start, zi=[0.0])
     return np.asarray(start + output)
 
 
-def slope_by_lag(signal: FloatArray, kind: Lag, lag_s: float, step_s: float) -> FloatArray:
-    """Return ``d lagged / d T`` (n,), by which a fit finds T; at T = 0 it is −q̇."""
-    if kind is Lag.NONE:
+def compute_lag_slope(
+    signal: FloatArray, kind: SensorLag, lag_s: float, step_s: float
+) -> FloatArray:
+    """Return the derivative (n,) of the lagged signal with respect to T; at T = 0 it is −q̇."""
+    if kind is SensorLag.NONE:
         return np.zeros_like(signal)
-    small = 0.02 * step_s + 1e-3 * lag_s
-    least = max(lag_s - small, 0.0)
-    wide = lag_s + small
+    half_step = 0.02 * step_s + 1e-3 * lag_s
+    lower = max(lag_s - half_step, 0.0)
+    upper = lag_s + half_step
     return np.asarray(
-        (lagged(signal, kind, wide, step_s) - lagged(signal, kind, least, step_s)) / (wide - least)
+        (apply_lag(signal, kind, upper, step_s) - apply_lag(signal, kind, lower, step_s))
+        / (upper - lower)
     )

@@ -1,4 +1,4 @@
-"""Deviation of the nominal model from a record of the real machine, tap by tap."""
+"""Comparison of the nominal model with a record of the real machine, tap by tap."""
 
 from collections.abc import Collection
 from dataclasses import asdict, dataclass
@@ -7,29 +7,39 @@ from typing import Any
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.comparison.delay import delay
-from rotemina.sim.comparison.noise_floor import noise_floor
+from rotemina.sim.comparison.delay import estimate_delay
+from rotemina.sim.comparison.noise_floor import find_noise_floor
 from rotemina.sim.errors import InputError
-from rotemina.sim.messages import message
-from rotemina.sim.plant.response import Response, nominal_response
-from rotemina.sim.records.record import VOLTAGE_TAPS, Record, Tap
-from rotemina.sim.robot.model import Robot
+from rotemina.sim.plant import ModelResponse, simulate_nominal_response
+from rotemina.sim.records import (
+    VOLTAGE_TAPS,
+    Record,
+    Tap,
+)
+from rotemina.sim.robot import Robot
 
-FORMAT = "rotemina-comparison 1"
-#: Rows, beside the first one, without which a record of a motion says nothing about a model.
-LEAST_MOVING = 3
+COMPARISON_FORMAT = "rotemina-comparison 1"
+#: A comparison needs at least this many rows in motion, in addition to the first row.
+MIN_MOVING_ROWS = 3
 COMPARED_TAPS = (Tap.U, Tap.REF, Tap.MEAS)
-FITTABLE = ("gain", "offset")
+FITTABLE_PARAMETERS = ("gain", "offset")
 
 
 @dataclass(frozen=True, slots=True)
 class TapComparison:
-    """Model against real at one measured tap, in SI units.
+    """Figures of one measured tap against the model, in SI units.
 
-    ``rms`` and ``peak`` of ``real − model``; ``share_of_range`` is rms over the axis' range (of
-    ``u``: over its voltage range); ``relative_error`` = ‖real − model‖ / ‖real‖ with means kept;
-    ``delay_s`` how much later the real signal comes; ``rms_refitted`` after gain or offset were
-    re-fitted by least squares. None stands where a figure has no meaning.
+    A figure is None if it has no meaning for the tap.
+
+    Attributes
+    ----------
+    axis, tap, unit : axis, tap and SI unit of the signal.
+    rms, peak : rms and largest absolute value of ``real − model``.
+    share_of_range : rms divided by the range of the axis; for ``u``, by its voltage range.
+    relative_error : ‖real − model‖ / ‖real‖; means are not removed.
+    delay_s : time by which the real signal lags the model.
+    noise_floor, noise_floor_source : rms that no model can explain, and where it comes from.
+    rms_refitted : rms after gain or offset were re-fitted by least squares.
     """
 
     axis: str
@@ -46,16 +56,16 @@ class TapComparison:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Comparison:
+class ModelComparison:
     """A record, the nominal response to its commands, and the figures of each tap."""
 
     record: Record
-    response: Response
+    response: ModelResponse
     taps: tuple[TapComparison, ...]
 
     def as_json(self) -> dict[str, Any]:
         """Return the comparison as a JSON object (format ``rotemina-comparison 1``)."""
-        return {"format": FORMAT, "taps": [_plain(tap) for tap in self.taps]}
+        return {"format": COMPARISON_FORMAT, "taps": [_to_json_values(tap) for tap in self.taps]}
 
 
 def compare(
@@ -63,9 +73,9 @@ def compare(
     record: Record,
     *,
     fit: Collection[str] = (),
-    response: Response | None = None,
-) -> Comparison:
-    """Simulate the nominal model over a record's commands and compare every measured tap.
+    response: ModelResponse | None = None,
+) -> ModelComparison:
+    """Simulate the nominal model with a record's commands and compare every measured tap.
 
     Parameters
     ----------
@@ -73,9 +83,9 @@ def compare(
     record : Record
         Needs ``cmd`` and at least one of ``u``, ``ref``, ``meas`` for some axis.
     fit : collection of {"gain", "offset"}
-        What to re-fit by least squares for ``rms_refitted``; left out in closed loop.
-    response : Response, optional
-        What the model answers, where that is known already.
+        Parameters to re-fit by least squares for ``rms_refitted``; ignored in closed loop.
+    response : ModelResponse, optional
+        The response of the model, if it has already been computed.
 
     Raises
     ------
@@ -83,70 +93,71 @@ def compare(
         If ``fit`` names something else, the record does not fit the robot, or nothing was measured.
     """
     for name in fit:
-        if name not in FITTABLE:
+        if name not in FITTABLE_PARAMETERS:
             raise InputError(
-                message("engine", "--fit: {name} cannot be re-fitted; choose from {names}").fill(
-                    name=repr(name), names=", ".join(FITTABLE)
-                )
+                "--fit: {name} cannot be re-fitted; choose from {names}",
+                name=repr(name),
+                names=", ".join(FITTABLE_PARAMETERS),
             )
-    response = nominal_response(robot, record) if response is None else response
+    response = simulate_nominal_response(robot, record) if response is None else response
     pairs = [
         (axis, tap)
         for axis in record.axes
         for tap in COMPARED_TAPS
-        if record.has(axis, tap) and _is_answer(robot, record, axis, tap)
+        if record.has(axis, tap) and _is_predicted(robot, record, axis, tap)
     ]
     if not pairs:
         raise InputError(
-            message(
-                "engine",
-                "the record holds no measured channel (u, ref or meas) to compare; it has {names}",
-            ).fill(names=", ".join(map(str, record.columns)))
+            "the record holds no measured channel (u, ref or meas) to compare; it has {names}",
+            names=", ".join(map(str, record.columns)),
         )
     _require_motion(record)
     taps = tuple(_compare_tap(robot, record, response, axis, tap, fit) for axis, tap in pairs)
-    return Comparison(record, response, taps)
+    return ModelComparison(record, response, taps)
 
 
 def _require_motion(record: Record) -> None:
-    """Refuse a record that ends when its motion begins, where nothing differs from anything."""
+    """Raise InputError if the record ends when its motion begins.
+
+    All models would agree with such a record.
+    """
     commands = [record.signal(axis, Tap.CMD) for axis in record.axes if record.has(axis, Tap.CMD)]
-    moving = [int(np.count_nonzero(command != command[0])) for command in commands]
-    most = max(moving, default=0)
+    moving_row_counts = [int(np.count_nonzero(command != command[0])) for command in commands]
+    max_moving_rows = max(moving_row_counts, default=0)
     rows = len(record.time_s)
-    if rows <= LEAST_MOVING or 0 < most < LEAST_MOVING:
+    if rows <= MIN_MOVING_ROWS or 0 < max_moving_rows < MIN_MOVING_ROWS:
         raise InputError(
-            message(
-                "engine",
-                "the record has {rows} rows, {most} of them in motion; a comparison needs "
-                "at least {least_moving}. Play the motion again",
-            ).fill(rows=rows, most=most, least_moving=LEAST_MOVING)
+            "the record has {rows} rows, {most} of them in motion; a comparison needs "
+            "at least {least_moving}. Play the motion again",
+            rows=rows,
+            most=max_moving_rows,
+            least_moving=MIN_MOVING_ROWS,
         )
 
 
-def _plain(tap: TapComparison) -> dict[str, Any]:
-    """Return the figures with null for what is no finite number: JSON has no other word."""
+def _to_json_values(tap: TapComparison) -> dict[str, Any]:
+    """Return the figures; values that are not finite become None, because JSON lacks them."""
     return {
         name: None if isinstance(value, float) and not np.isfinite(value) else value
         for name, value in asdict(tap).items()
     }
 
 
-def _is_answer(robot: Robot, record: Record, axis: str, tap: Tap) -> bool:
-    """Whether the model answers with this tap, rather than being driven by it or lacking it."""
+def _is_predicted(robot: Robot, record: Record, axis: str, tap: Tap) -> bool:
+    """Return whether the model predicts this tap: not if it lacks it or takes it as an input."""
     kind = robot.axes[axis].kind
     return tap is not Tap.U or kind == "piezo" or (kind == "force" and record.closed_loop)
 
 
 def _compare_tap(
-    robot: Robot, record: Record, response: Response, axis: str, tap: Tap, fit: Collection[str]
+    robot: Robot, record: Record, response: ModelResponse, axis: str, tap: Tap, fit: Collection[str]
 ) -> TapComparison:
     real, model = record.signal(axis, tap), response.signal(axis, tap)
     difference = real - model
-    rms = _rms(difference)
-    size = _rms(real)
-    span = _span(robot, axis, tap)
-    floor = noise_floor(robot, record, axis, tap)
+    rms = _compute_rms(difference)
+    rms_of_real = _compute_rms(real)
+    span = _find_span(robot, axis, tap)
+    floor = find_noise_floor(robot, record, axis, tap)
     return TapComparison(
         axis=axis,
         tap=str(tap),
@@ -154,15 +165,15 @@ def _compare_tap(
         rms=rms,
         peak=float(np.abs(difference).max()),
         share_of_range=rms / span if span else None,
-        relative_error=rms / size if size > 0 else None,
-        delay_s=delay(record.time_s, model, real),
+        relative_error=rms / rms_of_real if rms_of_real > 0 else None,
+        delay_s=estimate_delay(record.time_s, model, real),
         noise_floor=floor.rms,
         noise_floor_source=floor.source,
-        rms_refitted=_refitted(robot, record, axis, tap, model, real, fit),
+        rms_refitted=_compute_refitted_rms(robot, record, axis, tap, model, real, fit),
     )
 
 
-def _refitted(
+def _compute_refitted_rms(
     robot: Robot,
     record: Record,
     axis: str,
@@ -171,11 +182,15 @@ def _refitted(
     real: FloatArray,
     fit: Collection[str],
 ) -> float | None:
-    """RMS after least squares; gain scales the motion of the linear plant, offset shifts it."""
+    """Return the rms difference after re-fitting the parameters in ``fit`` by least squares.
+
+    The gain scales the motion of the linear plant, and the offset shifts it.
+    """
     if not fit or record.closed_loop:
         return None
-    if tap is Tap.U:  # neither gain nor offset of the axis acts on its amplifier
-        return _rms(real - model)
+    # The gain and the offset of the axis do not affect the output of its amplifier.
+    if tap is Tap.U:
+        return _compute_rms(real - model)
     offset = robot.axes[axis].offset if tap is Tap.MEAS else 0.0
     motion = model - offset
     columns, target = [], real - offset
@@ -189,20 +204,20 @@ def _refitted(
     scale = np.linalg.norm(matrix, axis=0)
     scale[scale == 0.0] = 1.0
     solution, *_ = np.linalg.lstsq(matrix / scale, target, rcond=None)
-    return _rms(target - (matrix / scale) @ solution)
+    return _compute_rms(target - (matrix / scale) @ solution)
 
 
-def _span(robot: Robot, axis: str, tap: Tap) -> float | None:
-    described = robot.axes[axis]
+def _find_span(robot: Robot, axis: str, tap: Tap) -> float | None:
+    axis_model = robot.axes[axis]
     if tap is not Tap.U:
-        return described.span
-    if described.voltage_range is not None:
-        return described.voltage_range[1] - described.voltage_range[0]
-    return 2.0 * described.controller.limit if described.controller else None
+        return axis_model.span
+    if axis_model.voltage_range is not None:
+        return axis_model.voltage_range[1] - axis_model.voltage_range[0]
+    return 2.0 * axis_model.controller.limit if axis_model.controller else None
 
 
-def _rms(signal: FloatArray) -> float:
-    """Return the root mean square; scaled, so that squares of huge readings stay numbers."""
+def _compute_rms(signal: FloatArray) -> float:
+    # The signal is scaled, so that the squares of huge readings do not overflow.
     largest = float(np.abs(signal).max())
     if largest == 0.0 or not np.isfinite(largest):
         return largest

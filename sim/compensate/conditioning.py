@@ -1,9 +1,9 @@
-"""A sweep that gives an inverse and its axis the same history.
+"""A conditioning sweep, which gives an inverse and its axis the same history.
 
-An inverse that is put on does not know what its axis went through, which decides where an axis with
-hysteresis stands. A swing through the inverse over all that it saw wipes out what was before, in
-the axis and in the inverse alike (Mayergoyz, "Mathematical Models of Hysteresis" (1991), sec. 1.2).
-What creeps continues creeping.
+An inverse that is switched on does not know the history of its axis, which determines the position
+of an axis with hysteresis. A sweep through the inverse over its whole training range erases the
+earlier history of both (Mayergoyz, "Mathematical Models of Hysteresis" (1991), sec. 1.2). It does
+not stop creep.
 """
 
 from math import inf, isfinite
@@ -11,101 +11,104 @@ from math import inf, isfinite
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.compensate.errors import CompensationError
-from rotemina.sim.compensate.inverse import Exceedance, Inverse
+from rotemina.sim.compensate.inverse import Inverse, InverseExceedance
 from rotemina.sim.compensate.inverse_parameters import InverseModel
-from rotemina.sim.messages import message
-from rotemina.sim.quantities import exact
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.model import Robot
-from rotemina.sim.shaping.moves import MotionLimits, minimum_jerk, shortest_minimum_jerk
+from rotemina.sim.errors import CompensationError
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot import Robot
+from rotemina.sim.shaping import (
+    MotionLimits,
+    make_minimum_jerk,
+    make_shortest_minimum_jerk,
+)
+from rotemina.sim.units import format_exact
 
-NAME = "conditioning sweep"
+SWEEP_NAME = "conditioning sweep"
 _RATE_HZ = 500.0
-_LEG_S, _REST_S = 0.8, 0.2  # of each of the three legs at least; after it
-_INSETS = (0.01, 0.03, 0.05, 0.08, 0.12, 0.16, 0.2)  # of the span: how far from the ends it turns
-_SLACK = 1e-3  # of the span
+# Shortest duration of each of the three legs, and the rest after it.
+_MIN_LEG_S, _REST_S = 0.8, 0.2
+# Distances from the ends of the range at which the sweep turns, as shares of the span. The smallest
+# feasible one is used.
+_INSET_SHARES = (0.01, 0.03, 0.05, 0.08, 0.12, 0.16, 0.2)
+# The start may be outside the range by this share of the span.
+_SLACK_SHARE = 1e-3
 
 
-def conditioning(robot: Robot, model: InverseModel, start: float) -> Record:
+def make_conditioning_sweep(robot: Robot, model: InverseModel, start: float) -> Record:
     """Return a path from ``start`` (m or rad) to the high end, the low end, and back.
 
-    It is to be played with the inverse on. It turns as near to the ends of what the inverse saw
-    as commands stay inside the machine's range; the axis' speed and acceleration are kept.
+    It must be played with the inverse on. It turns as close to the ends of the training range as
+    the command range of the machine allows, within the axis' speed and acceleration limits.
 
     Raises
     ------
     CompensationError
-        If ``start`` is beyond what the inverse saw.
+        If ``start`` is outside the training range of the inverse, or no sweep is possible.
     """
     axis = robot.axes[model.axis]
     low, high = (
         max(model.desired_range[0], axis.range[0]),
         min(model.desired_range[1], axis.range[1]),
     )
-    if not low - _SLACK * model.span <= start <= high + _SLACK * model.span:
+    if not low - _SLACK_SHARE * model.span <= start <= high + _SLACK_SHARE * model.span:
         raise CompensationError(
-            message(
-                "engine",
-                "axis {axis}: a sweep from {start}: must begin between {low} and {high}, the "
-                "training range of its inverse",
-            ).fill(
-                axis=model.axis,
-                start=exact(start, model.unit, size=high),
-                low=exact(low, model.unit, size=high),
-                high=exact(high, model.unit),
-            )
+            "axis {axis}: a sweep from {start}: must begin between {low} and {high}, the "
+            "training range of its inverse",
+            axis=model.axis,
+            start=format_exact(start, model.unit, size=high),
+            low=format_exact(low, model.unit, size=high),
+            high=format_exact(high, model.unit),
         )
     limits = MotionLimits(axis.max_speed or inf, axis.max_acceleration or inf)
     signal = next(
         (
             path
-            for share in _INSETS
-            if _can_be_told(model, path := _sweep(start, low, high, share * model.span, limits))
+            for share in _INSET_SHARES
+            if _is_feasible(
+                model, path := _make_sweep(start, low, high, share * model.span, limits)
+            )
         ),
         None,
     )
     if signal is None:
         raise CompensationError(
-            message(
-                "engine",
-                "axis {axis}: every sweep between {low} and {high} needs commands outside "
-                "the limits of the machine; move the axis to mid-range first",
-            ).fill(
-                axis=model.axis, low=exact(low, model.unit, size=high), high=exact(high, model.unit)
-            )
+            "axis {axis}: every sweep between {low} and {high} needs commands outside "
+            "the limits of the machine; move the axis to mid-range first",
+            axis=model.axis,
+            low=format_exact(low, model.unit, size=high),
+            high=format_exact(high, model.unit),
         )
     return Record.from_signals(
         np.arange(len(signal)) / _RATE_HZ,
         {(model.axis, Tap.CMD): signal},
         {model.axis: model.unit},
-        {"name": NAME},
+        {"name": SWEEP_NAME},
     )
 
 
-def _sweep(start: float, low: float, high: float, inset: float, limits: MotionLimits) -> FloatArray:
-    """Return the way (n,) by the high end and the low one."""
-    path, at = [np.array([start])], start
+def _make_sweep(
+    start: float, low: float, high: float, inset: float, limits: MotionLimits
+) -> FloatArray:
+    parts, position = [np.array([start])], start
     for end in (high - inset, low + inset, start):
-        path.append(_leg(at, end, limits))
-        at = end
-    return np.concatenate(path)
+        parts.append(_make_leg(position, end, limits))
+        position = end
+    return np.concatenate(parts)
 
 
-def _can_be_told(model: InverseModel, path: FloatArray) -> bool:
+def _is_feasible(model: InverseModel, path: FloatArray) -> bool:
     inverse = Inverse(model, 1.0 / _RATE_HZ)
     inverse.run(path)
-    return not inverse.beyond & Exceedance.COMMAND
+    return not inverse.exceedance & InverseExceedance.COMMAND
 
 
-def _leg(start: float, end: float, limits: MotionLimits) -> FloatArray:
-    """Return a move (n,) of minimum jerk with the rest after it."""
-    rest = round(_REST_S * _RATE_HZ)
+def _make_leg(start: float, end: float, limits: MotionLimits) -> FloatArray:
+    rest_rows = round(_REST_S * _RATE_HZ)
     if end == start:
-        return np.full(rest, end)
-    duration_s = _LEG_S
+        return np.full(rest_rows, end)
+    duration_s = _MIN_LEG_S
     if isfinite(limits.speed) or isfinite(limits.acceleration):
-        duration_s = max(duration_s, shortest_minimum_jerk(end - start, limits).duration_s)
-    time_s = np.arange(1, round(duration_s * _RATE_HZ) + rest + 1) / _RATE_HZ
-    move = minimum_jerk(end - start, duration_s)
+        duration_s = max(duration_s, make_shortest_minimum_jerk(end - start, limits).duration_s)
+    time_s = np.arange(1, round(duration_s * _RATE_HZ) + rest_rows + 1) / _RATE_HZ
+    move = make_minimum_jerk(end - start, duration_s)
     return np.asarray(start + move.position(np.minimum(time_s, duration_s)))

@@ -1,21 +1,27 @@
-"""The error of an inverse's commands, and the recommendation of one."""
+"""The residual of an inverse's commands, and the recommendation of a kind of inverse."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
-from rotemina.sim.compensate.errors import CompensationError
 from rotemina.sim.compensate.inverse import Inverse
-from rotemina.sim.compensate.inverse_parameters import InverseModel, Kind
-from rotemina.sim.compensate.lag_and_creep import delayed
-from rotemina.sim.compensate.samples import Samples
-from rotemina.sim.messages import Message, joined, marked, message
-from rotemina.sim.quantities import exact, percent
+from rotemina.sim.compensate.inverse_parameters import InverseKind, InverseModel
+from rotemina.sim.compensate.lag_and_creep import delay_rows
+from rotemina.sim.compensate.samples import TrainingSamples
+from rotemina.sim.errors import CompensationError
+from rotemina.sim.messages import (
+    Message,
+    join_messages,
+    marked,
+    message,
+)
+from rotemina.sim.units import format_exact, format_percent
 
-_ALIKE = 1.02  # residuals that differ by less are taken for the same: the simpler kind is chosen
-_MODEST: frozenset[Kind] = frozenset({"prandtl_ishlinskii", "linear"})
-NAMES: dict[Kind, str] = {
+# Residuals within this ratio count as equal, and the simplest kind is recommended.
+_MAX_EQUAL_RATIO = 1.02
+_SIMPLE_KINDS: frozenset[InverseKind] = frozenset({"prandtl_ishlinskii", "linear"})
+KIND_NAMES: dict[InverseKind, str] = {
     "anfis": "ANFIS",
     "modified_prandtl_ishlinskii": marked("engine", "modified Prandtl–Ishlinskii"),
     "prandtl_ishlinskii": "Prandtl–Ishlinskii",
@@ -24,17 +30,17 @@ NAMES: dict[Kind, str] = {
 
 
 @dataclass(frozen=True, slots=True)
-class Residual:
-    """The difference between the command of an inverse and the recorded one.
+class InverseResidual:
+    """The difference between the commands of an inverse and the recorded commands.
 
     Attributes
     ----------
-    rms, worst : SI, of the command.
-    aligned : rms without the mean, for records whose offset is unknown.
-    share : rms over the range of the commands given.
-    mse : mean square over the square of that range.
-    offset : SI, mean; it is part of the others.
-    beyond : share of rows whose position lay beyond what the inverse saw; they are not judged.
+    rms, worst : rms and largest absolute difference, SI.
+    aligned : rms after the mean is subtracted, for records with an unknown offset.
+    share : rms divided by the range of the recorded commands.
+    mse : mean square divided by the square of that range.
+    offset : mean difference, SI. All figures except ``aligned`` include it.
+    beyond : share of rows outside the training range of the inverse, which are not judged.
     """
 
     rms: float
@@ -50,89 +56,103 @@ class Residual:
         return asdict(self)
 
 
-def residual(model: InverseModel, runs: Sequence[tuple[Samples, int]]) -> Residual:
-    """Feed measured positions to an inverse and compare what it commands with what was commanded.
+def compute_residual(
+    model: InverseModel, runs: Sequence[tuple[TrainingSamples, int]]
+) -> InverseResidual:
+    """Feed measured positions to an inverse and compare its commands with the recorded ones.
 
-    Each of ``runs`` is gone through from its first row, and judged from the row given with it on.
-    What was commanded is taken as late as the axis follows it.
+    Each run is simulated from its first row, but only the rows from its given row on are judged.
+    The recorded commands are delayed by the lag of the axis.
     """
-    apart, given, beyond = [], [], []
+    differences, recorded, outside_parts = [], [], []
     low, high = model.desired_range
-    # Not clamped here: the memory of rows that are judged would be that of others.
-    free = replace(model, desired_range=(-np.inf, np.inf))
-    for samples, first in runs:
-        command = Inverse(free, samples.sample_s, preview=True).run(samples.position)
-        late = model.lag_at(samples.sample_s) if model.lag_s else 0.0
-        true = delayed(samples.command, late / samples.sample_s)
-        apart.append((command - true)[first:])
-        given.append(true[first:])
-        beyond.append(((samples.position < low) | (samples.position > high))[first:])
-    left, span = np.concatenate(apart), float(np.ptp(np.concatenate(given)))
-    outside = np.concatenate(beyond)
-    if outside.all():
+    # Positions are not clamped here, because that would change the history of the judged rows.
+    unclamped_model = replace(model, desired_range=(-np.inf, np.inf))
+    for samples, first_row in runs:
+        command = Inverse(unclamped_model, samples.sample_s, preview=True).run(samples.position)
+        lag_s = model.lag_at(samples.sample_s) if model.lag_s else 0.0
+        delayed_command = delay_rows(samples.command, lag_s / samples.sample_s)
+        differences.append((command - delayed_command)[first_row:])
+        recorded.append(delayed_command[first_row:])
+        outside_parts.append(((samples.position < low) | (samples.position > high))[first_row:])
+    errors, recorded_range = np.concatenate(differences), float(np.ptp(np.concatenate(recorded)))
+    is_outside = np.concatenate(outside_parts)
+    if is_outside.all():
         raise CompensationError(
-            message(
-                "engine",
-                "axis {axis}: no row lies within {low} to {high}, the training range of the "
-                "inverse; use such a record for the check, or train with a wider one",
-            ).fill(
-                axis=model.axis, low=exact(low, model.unit, size=high), high=exact(high, model.unit)
-            )
+            "axis {axis}: no row lies within {low} to {high}, the training range of the "
+            "inverse; use such a record for the check, or train with a wider one",
+            axis=model.axis,
+            low=format_exact(low, model.unit, size=high),
+            high=format_exact(high, model.unit),
         )
-    left = left[~outside]
-    rms = float(np.sqrt(np.mean(left**2)))
-    return Residual(
+    errors = errors[~is_outside]
+    rms = float(np.sqrt(np.mean(errors**2)))
+    return InverseResidual(
         rms=rms,
-        aligned=float(np.std(left)),
-        worst=float(np.abs(left).max()),
-        share=rms / span,
-        mse=(rms / span) ** 2,
-        offset=float(left.mean()),
-        beyond=float(np.mean(outside)),
+        aligned=float(np.std(errors)),
+        worst=float(np.abs(errors).max()),
+        share=rms / recorded_range,
+        mse=(rms / recorded_range) ** 2,
+        offset=float(errors.mean()),
+        beyond=float(np.mean(is_outside)),
     )
 
 
-def recommended(residuals: Mapping[Kind, Residual], *, one_size: bool) -> Kind:
-    """Return the kind that leaves least; among equals the simpler one.
+def recommend_kind(
+    residuals: Mapping[InverseKind, InverseResidual], *, one_size: bool
+) -> InverseKind:
+    """Return the kind with the smallest residual, or the simplest one among equals.
 
-    ``residuals`` go from the richest kind to the simplest. Of ``one_size`` of swings the kinds with
-    a bend or rules learn more than the swings tell, which rows of that size do not show.
+    ``residuals`` go from the richest kind to the simplest. If the swings have only
+    ``one_size``, the kinds with a bend or several rules are left out: they adapt to that size,
+    and rows of the same size do not reveal it.
     """
-    fit = {k: one for k, one in residuals.items() if not one_size or k in _MODEST}
-    least = min(one.rms for one in fit.values())
-    return [kind for kind, one in fit.items() if one.rms <= _ALIKE * least][-1]
+    candidates = {
+        kind: residual
+        for kind, residual in residuals.items()
+        if not one_size or kind in _SIMPLE_KINDS
+    }
+    smallest = min(residual.rms for residual in candidates.values())
+    return [
+        kind for kind, residual in candidates.items() if residual.rms <= _MAX_EQUAL_RATIO * smallest
+    ][-1]
 
 
-def reason(residuals: Mapping[Kind, Residual], chosen: Kind) -> Message:
-    """Return why a kind was recommended."""
+def explain_recommendation(
+    residuals: Mapping[InverseKind, InverseResidual], chosen: InverseKind
+) -> Message:
+    """Return the reason for a recommendation."""
     others = [
-        message("engine", "{kind} {share}").fill(kind=NAMES[kind], share=percent(one.share))
-        for kind, one in residuals.items()
+        message("engine", "{kind} {share}").fill(
+            kind=KIND_NAMES[kind], share=format_percent(residual.share)
+        )
+        for kind, residual in residuals.items()
         if kind != chosen
     ]
-    said = [
+    sentences = [
         message(
             "engine",
             "{kind} leaves {share} of the range on rows that no inverse was trained on; {others}.",
         ).fill(
-            kind=NAMES[chosen],
-            share=percent(residuals[chosen].share),
-            others=joined(others, ", "),
+            kind=KIND_NAMES[chosen],
+            share=format_percent(residuals[chosen].share),
+            others=join_messages(others, ", "),
         )
     ]
-    least = min(one.rms for one in residuals.values())
-    if residuals[chosen].rms > _ALIKE * least:
-        said.append(
+    smallest = min(residual.rms for residual in residuals.values())
+    if residuals[chosen].rms > _MAX_EQUAL_RATIO * smallest:
+        sentences.append(
             message(
                 "engine",
                 "All swings have one size, so richer kinds would only guess at other sizes: "
                 "train with swings that grow or fade.",
             )
         )
-    elif residuals[chosen].rms > least:
-        said.append(
-            message("engine", "It is the simplest of those within {share} of the least.").fill(
-                share=percent(_ALIKE - 1.0)
-            )
+    elif residuals[chosen].rms > smallest:
+        sentences.append(
+            message(
+                "engine",
+                "It is the simplest kind whose residual is within {share} of the smallest.",
+            ).fill(share=format_percent(_MAX_EQUAL_RATIO - 1.0))
         )
-    return joined(said, " ")
+    return join_messages(sentences, " ")

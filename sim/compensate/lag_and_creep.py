@@ -1,7 +1,7 @@
 """Lag and creep of an axis, fitted together with its hysteresis by variable projection.
 
-What is linear in its coefficients (the stops of the position) is solved for at every trial of what
-is not (Golub and Pereyra, Inverse Problems 19 (2003) R1–R26).
+For every trial of the nonlinear parameters, the linear ones (factors of the stops of the position)
+are solved by least squares (Golub and Pereyra, Inverse Problems 19 (2003) R1–R26).
 """
 
 from collections.abc import Sequence
@@ -12,29 +12,38 @@ import scipy
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.compensate import kernel
-from rotemina.sim.compensate.samples import Samples
-from rotemina.sim.stops import stops
+from rotemina.sim.compensate.prandtl_ishlinskii import compute_stops
+from rotemina.sim.compensate.samples import TrainingSamples
 
-PLAYS = 12
-MOST_LAG = 20  # samples more than the least
-_QUICKEST_S = 0.1  # what creeps faster is part of the loop
-_DECADE = 10.0  # between neighbouring relaxations
-_MOST_CREEP = 0.1  # of a move, by each relaxation
-_ROWS = 20_000  # to find the stages on; more rows add time, not knowledge
-_MOST_LOW = 0.1  # of the range, by which the low end lies off its nominal place
-_LATE = 5.0  # samples more than the least
-_UNEVEN = 0.03  # difference of neighbouring relaxations
-_DOUBT = 1e-3  # rms, as a share, that must be gained for each of these to be believed
-_SMALL = 1e-9
+PLAY_COUNT = 12
+# The lag may exceed the smallest possible one by this much.
+MAX_EXTRA_LAG_SAMPLES = 20
+# Faster creep is part of the hysteresis loop.
+_MIN_CREEP_TIME_S = 0.1
+# Ratio of the time constants of neighbouring relaxations.
+_CREEP_TIME_RATIO = 10.0
+# Largest creep of each relaxation, as a share of a move.
+_MAX_CREEP_SHARE = 0.1
+# More rows take more time, but do not improve the fit.
+_MAX_ROWS = 20_000
+# Largest share of the range by which the low end may differ from its nominal position.
+_MAX_LOW_END_SHARE = 0.1
+# One unit of penalty corresponds to this lag in excess of the smallest possible one, or to this
+# difference between the weights of neighbouring relaxations.
+_LAG_PENALTY_SAMPLES = 5.0
+_CREEP_PENALTY_DIFFERENCE = 0.03
+# Rms (share of the range) by which the fit must improve for one unit of a penalty.
+_PENALTY_RMS_SHARE = 1e-3
+_DAMPING_RATIO = 1e-9
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Stages:
-    """What comes after the hysteresis: lag, s, and relaxations ``(c,)`` as an inverse holds them.
+class LagAndCreep:
+    """The stages after the hysteresis: the lag (s) and relaxations ``(c,)`` as in an inverse.
 
-    ``origin`` of the position, ``command_origin`` and ``span`` make shares of both. ``memory``
-    says where plays are at the low end, in shares of their radii: 0 in their middle, as in a fresh
-    material, 1 as after a long way down; ``low`` is the position there, a share.
+    ``origin`` of the position, ``command_origin`` and ``span`` convert both to shares. ``memory``
+    is the state of the plays at the low end, in shares of their radii: 0 means the middle, as in
+    virgin material, and 1 means after a long descent. ``low`` is the position there, a share.
     """
 
     origin: float
@@ -49,107 +58,132 @@ class Stages:
 
     @property
     def initial(self) -> FloatArray:
-        """States (p,) of plays of the position at the low end."""
-        return self.low + self.memory * thresholds()
+        """States (p,) of the plays of the position at the low end."""
+        return self.low + self.memory * make_radii()
 
-    def position(self, samples: Samples) -> FloatArray:
+    def compute_positions(self, samples: TrainingSamples) -> FloatArray:
         """Return the positions (n,) without creep, shares."""
         shares = (samples.position - self.origin) / self.span
-        return kernel.uncrept(self._creep(), shares)
+        return kernel.subtract_creep(self._make_creep_table(), shares)
 
-    def command(self, samples: Samples) -> FloatArray:
-        """Return the commands (n,) as late as the axis follows them, shares."""
+    def compute_commands(self, samples: TrainingSamples) -> FloatArray:
+        """Return the commands (n,) delayed by the lag, shares."""
         shares = (samples.command - self.command_origin) / self.span
-        return delayed(shares, self.lag_s / self.sample_s)
+        return delay_rows(shares, self.lag_s / self.sample_s)
 
-    def _creep(self) -> FloatArray:
-        moved = -np.expm1(-self.sample_s / self.creep_times_s)
-        return np.stack([moved, self.creep_weights])
-
-
-def delayed(values: FloatArray, rows: float) -> FloatArray:
-    """Return ``values`` (n,) so many rows late, straight between them, the first one before."""
-    places = np.arange(len(values), dtype=np.float64)
-    return np.asarray(np.interp(places - rows, places, values), dtype=np.float64)
+    def _make_creep_table(self) -> FloatArray:
+        step_fractions = -np.expm1(-self.sample_s / self.creep_times_s)
+        return np.stack([step_fractions, self.creep_weights])
 
 
-def thresholds(count: int = PLAYS) -> FloatArray:
+def delay_rows(values: FloatArray, rows: float) -> FloatArray:
+    """Return ``values`` (n,) delayed by ``rows``, with linear interpolation.
+
+    The first value is repeated before the first row.
+    """
+    index = np.arange(len(values), dtype=np.float64)
+    return np.asarray(np.interp(index - rows, index, values), dtype=np.float64)
+
+
+def make_radii(count: int = PLAY_COUNT) -> FloatArray:
     """Return radii of plays, shares: closer where they are small, up to half the range."""
     return 0.5 * ((np.arange(count) + 0.5) / count) ** 1.5
 
 
-def find_stages(
-    samples: Sequence[Samples],
+def fit_lag_and_creep(
+    samples: Sequence[TrainingSamples],
     origin: float,
     command_origin: float,
     span: float,
-    least_lag_s: float,
-) -> Stages:
-    """Find lag, memory at the low end and creep of an axis from runs at one rate."""
+    min_lag_s: float,
+) -> LagAndCreep:
+    """Fit lag, memory at the low end, and creep of an axis to runs at one rate."""
     sample_s = samples[0].sample_s
-    longest_s = max(len(each.command) for each in samples) * sample_s
-    times_s = _times(longest_s)
-    least = least_lag_s / sample_s
+    longest_s = max(len(run.command) for run in samples) * sample_s
+    times_s = _make_creep_times(longest_s)
+    min_lag = min_lag_s / sample_s
 
-    def of(values: FloatArray) -> Stages:
-        late_s = float(values[0]) * sample_s
-        shares = (origin, command_origin, span, sample_s)
-        memory, low = float(values[1]), float(values[2])
-        return Stages(*shares, late_s, memory, low, times_s, values[3:].copy())
+    def make_stages(parameters: FloatArray) -> LagAndCreep:
+        lag_s = float(parameters[0]) * sample_s
+        normalisation = (origin, command_origin, span, sample_s)
+        memory, low = float(parameters[1]), float(parameters[2])
+        return LagAndCreep(*normalisation, lag_s, memory, low, times_s, parameters[3:].copy())
 
-    every = max(sum(len(each.command) for each in samples) // _ROWS, 1)
+    stride = max(sum(len(run.command) for run in samples) // _MAX_ROWS, 1)
 
-    def tail(values: FloatArray) -> FloatArray:
-        rows, goals = _rows(of(values), samples, every)
-        apart = goals - rows @ solved(rows, goals)
-        odd = np.concatenate(
-            [[values[2] / _MOST_LOW, (values[0] - least) / _LATE], np.diff(values[3:]) / _UNEVEN]
+    def compute_residuals(parameters: FloatArray) -> FloatArray:
+        rows, goals = _make_regression_rows(make_stages(parameters), samples, stride)
+        residual = goals - rows @ solve_damped(rows, goals)
+        penalties = np.concatenate(
+            [
+                [
+                    parameters[2] / _MAX_LOW_END_SHARE,
+                    (parameters[0] - min_lag) / _LAG_PENALTY_SAMPLES,
+                ],
+                np.diff(parameters[3:]) / _CREEP_PENALTY_DIFFERENCE,
+            ]
         )
-        return np.concatenate([apart, _DOUBT * np.sqrt(len(rows)) * odd])
+        return np.concatenate([residual, _PENALTY_RMS_SHARE * np.sqrt(len(rows)) * penalties])
 
-    start = np.concatenate([[least + 0.3, 0.5, 0.0], np.full(len(times_s), 1e-3)])
-    low = np.concatenate([[least, 0.0, -_MOST_LOW], np.full(len(times_s), -0.1 * _MOST_CREEP)])
-    high = np.concatenate([[least + MOST_LAG, 1.0, _MOST_LOW], np.full(len(times_s), _MOST_CREEP)])
+    initial_parameters = np.concatenate([[min_lag + 0.3, 0.5, 0.0], np.full(len(times_s), 1e-3)])
+    low = np.concatenate(
+        [[min_lag, 0.0, -_MAX_LOW_END_SHARE], np.full(len(times_s), -0.1 * _MAX_CREEP_SHARE)]
+    )
+    high = np.concatenate(
+        [
+            [min_lag + MAX_EXTRA_LAG_SAMPLES, 1.0, _MAX_LOW_END_SHARE],
+            np.full(len(times_s), _MAX_CREEP_SHARE),
+        ]
+    )
     scale = np.concatenate([[0.3, 0.3, 0.03], np.full(len(times_s), 1e-2)])
-    found = scipy.optimize.least_squares(
-        tail,
-        start,
+    solution = scipy.optimize.least_squares(
+        compute_residuals,
+        initial_parameters,
         bounds=(low, high),
         x_scale=scale,
-        diff_step=np.full(len(start), 1e-3),
+        diff_step=np.full(len(initial_parameters), 1e-3),
         max_nfev=25,
     )
-    return of(found.x)
+    return make_stages(solution.x)
 
 
-def _times(longest_s: float) -> FloatArray:
-    decades = np.log10(max(longest_s, _QUICKEST_S) / _QUICKEST_S)
-    return np.asarray(_QUICKEST_S * _DECADE ** np.arange(int(decades + 1.0)), dtype=np.float64)
+def _make_creep_times(longest_s: float) -> FloatArray:
+    decades = np.log10(max(longest_s, _MIN_CREEP_TIME_S) / _MIN_CREEP_TIME_S)
+    return np.asarray(
+        _MIN_CREEP_TIME_S * _CREEP_TIME_RATIO ** np.arange(int(decades + 1.0)), dtype=np.float64
+    )
 
 
-def _rows(stages: Stages, samples: Sequence[Samples], every: int) -> tuple[FloatArray, FloatArray]:
+def _make_regression_rows(
+    stages: LagAndCreep, samples: Sequence[TrainingSamples], stride: int
+) -> tuple[FloatArray, FloatArray]:
     rows, goals = [], []
-    for each in samples:
-        z = stages.position(each)
-        known = slice(each.first, None, every)
-        rows.append(_bent_features(z[known], stops_of(z, stages.initial)[known]))
-        goals.append(stages.command(each)[known])
+    for run in samples:
+        z = stages.compute_positions(run)
+        selected = slice(run.first, None, stride)
+        rows.append(_make_bent_features(z[selected], find_axis_stops(z, stages.initial)[selected]))
+        goals.append(stages.compute_commands(run)[selected])
     return np.concatenate(rows), np.concatenate(goals)
 
 
-def _bent_features(z: FloatArray, held: FloatArray) -> FloatArray:
-    """Return what can tell a loop (n, …) whose slope and width change along the range."""
+def _make_bent_features(z: FloatArray, stops_of_z: FloatArray) -> FloatArray:
+    """Return features of a loop (n, …) whose slope and width change along the range."""
     powers = z[:, None] ** np.arange(5)
-    return np.column_stack([powers, held, held * z[:, None], held * z[:, None] ** 2])
+    return np.column_stack(
+        [powers, stops_of_z, stops_of_z * z[:, None], stops_of_z * z[:, None] ** 2]
+    )
 
 
-def stops_of(z: FloatArray, initial: FloatArray) -> FloatArray:
-    """Return the stops (n, p) of z (n,), whose plays begin in ``initial`` (p,) states."""
-    return stops(z, thresholds(), initial.copy())
+def find_axis_stops(z: FloatArray, initial: FloatArray) -> FloatArray:
+    """Return the stops (n, p) of z (n,), whose plays begin in the states ``initial`` (p,)."""
+    return compute_stops(z, make_radii(), initial.copy())
 
 
-def solved(rows: FloatArray, goals: FloatArray) -> FloatArray:
-    """Return the least squares of ``rows`` (n, c) for ``goals`` (n,), hardly damped."""
+def solve_damped(rows: FloatArray, goals: FloatArray) -> FloatArray:
+    """Return the least-squares solution (c,) of ``rows`` (n, c) for ``goals`` (n,).
+
+    It is damped slightly, so that it exists for any rows.
+    """
     square = rows.T @ rows
-    square[np.diag_indices_from(square)] += _SMALL * len(rows)
+    square[np.diag_indices_from(square)] += _DAMPING_RATIO * len(rows)
     return np.asarray(np.linalg.solve(square, rows.T @ goals))

@@ -1,55 +1,61 @@
 """Bandwidth of an amplifier: fast changes arrive late and attenuated.
 
-The parameter is a time constant τ, not a bandwidth ``1/(2πτ)``: the effect starts in proportion to
-τ, and τ = 0 is exactly an amplifier without lag. A fit needs no infinity for that.
+The parameter is a time constant τ, not a bandwidth ``1/(2πτ)``: the effect grows in proportion to
+τ, and τ = 0 is exactly an amplifier without lag. A fit needs no infinite value for that.
 
-The mechanics get the mean of the output over each step, which is exact. Held, it has the right
-impulse, so the answer to a step of the input is off by about ``(ωh)²/12`` of its height, with ω the
-axis' own rate and h the step, however short τ is. The inner step therefore depends only on the
-axis, and the answer stays smooth in τ.
+The mechanics receive the exact mean of the output over each inner step. This mean, held over the
+inner step, has the right impulse. The response to a step change of the input is therefore off by
+only about ``(ωh)²/12`` of its height, however short τ is. Here ω is the natural angular frequency
+of the axis, and h is the inner step. So the inner step depends only on the axis, and the response
+is a smooth function of τ.
 """
 
 from math import inf
 
 import numpy as np
 
-from rotemina.sim.effects.facts import Facts
+from rotemina.sim.effects.facts import AxisProperties
 from rotemina.sim.effects.formulation import (
     EVERY_KIND,
-    Drive,
     Effect,
+    EffectParameter,
+    EffectStage,
+    EffectTrait,
     Formulation,
-    Parameter,
-    Stage,
-    Trait,
+    InputFunction,
     Values,
 )
-from rotemina.sim.effects.identification import Identification
-from rotemina.sim.effects.kinship import Family, Kinship
-from rotemina.sim.effects.starts import lag_lateness, lag_share, late
+from rotemina.sim.effects.identification import IdentificationHints
+from rotemina.sim.effects.kinship import EffectFamily, EffectRelations
+from rotemina.sim.effects.starts import (
+    compute_lag_delay,
+    compute_lag_delay_ratio,
+    start_from_delays,
+)
 
-_INNER_SHARE = 1.0 / 40.0  # of the axis' period: steps are answered to 0.2 % of their height
+# Inner step in periods of the axis: the step response is then accurate to 0.2 % of its height.
+_INNER_STEP_PERIODS = 1.0 / 40.0
 
 
-def first_order(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
-    """``τ ẏ + y = x``. p: τ; s: y."""
+def apply_first_order_lag(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """Apply ``τ ẏ + y = x``. p: τ; s: y."""
     if p[0] <= 0.0:
         s[0] = x
         return x
     if h == 0.0:
         return s[0]
-    gap = s[0] - x
-    fallen = -np.expm1(-h / p[0])
-    s[0] = x + gap * (1.0 - fallen)
-    return x + gap * fallen * p[0] / h
+    error = s[0] - x
+    decayed_fraction = -np.expm1(-h / p[0])
+    s[0] = x + error * (1.0 - decayed_fraction)
+    return x + error * decayed_fraction * p[0] / h
 
 
-def second_order(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
-    """``τ² ÿ + 2ζτ ẏ + y = x``; its integral over the step gives the mean.
+def apply_second_order_lag(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """Apply ``τ² ÿ + 2ζτ ẏ + y = x``; its integral over the step gives the mean.
 
     With ``e = y − x``, ``z = τ ẏ``, ``θ = h/τ`` and ``w = √|1 − ζ²|``: ``e₁ = C e + S (z + ζ e)``
     and ``z₁ = C z − S (ζ z + e)``, where ``C = exp(−ζθ) cos wθ`` and ``S = exp(−ζθ) sin(wθ)/w``,
-    hyperbolic for ζ > 1.
+    or their hyperbolic forms for ζ > 1.
 
     p: τ, ζ; s: y, z.
     """
@@ -58,28 +64,37 @@ def second_order(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  #
         return x
     if h == 0.0:
         return s[0]
-    ratio, theta = p[1], h / p[0]
-    width = np.sqrt(abs(1.0 - ratio * ratio))
-    if ratio < 1.0:
-        decay = np.exp(-ratio * theta)
-        c, sine = decay * np.cos(width * theta), decay * np.sin(width * theta) / width
+    damping_ratio, theta = p[1], h / p[0]
+    root_distance = np.sqrt(abs(1.0 - damping_ratio * damping_ratio))
+    if damping_ratio < 1.0:
+        decay = np.exp(-damping_ratio * theta)
+        damped_cosine, damped_sine = (
+            decay * np.cos(root_distance * theta),
+            decay * np.sin(root_distance * theta) / root_distance,
+        )
     else:
-        decay = np.exp(-theta / (ratio + width))  # (ζ − w) θ without cancellation
-        fallen = -np.expm1(-2.0 * width * theta)
-        c = decay * (1.0 - 0.5 * fallen)
-        sine = decay * fallen / (2.0 * width) if width > 0.0 else decay * theta
-    gap, pace = s[0] - x, s[1]
-    gap_after = c * gap + sine * (pace + ratio * gap)
-    pace_after = c * pace - sine * (ratio * pace + gap)
-    s[0], s[1] = x + gap_after, pace_after
-    return x - (pace_after - pace + 2.0 * ratio * (gap_after - gap)) / theta
+        # This is (ζ − w) θ without cancellation.
+        decay = np.exp(-theta / (damping_ratio + root_distance))
+        decayed_fraction = -np.expm1(-2.0 * root_distance * theta)
+        damped_cosine = decay * (1.0 - 0.5 * decayed_fraction)
+        damped_sine = (
+            decay * decayed_fraction / (2.0 * root_distance)
+            if root_distance > 0.0
+            else decay * theta
+        )
+    error, speed = s[0] - x, s[1]
+    error_after = damped_cosine * error + damped_sine * (speed + damping_ratio * error)
+    speed_after = damped_cosine * speed - damped_sine * (damping_ratio * speed + error)
+    s[0], s[1] = x + error_after, speed_after
+    return x - (speed_after - speed + 2.0 * damping_ratio * (error_after - error)) / theta
 
 
-def third_order(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
-    """``τ₁ u̇ + u = x``, then ``τ² ÿ + 2ζτ ẏ + y = u`` with τ₁ = r τ and ζ < 1.
+def apply_third_order_lag(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """Apply ``τ₁ u̇ + u = x``, then ``τ² ÿ + 2ζτ ẏ + y = u`` with τ₁ = r τ and ζ < 1.
 
     While x is held, u approaches it by ``g exp(−t/τ₁)``, and y follows ``x + G exp(−t/τ₁)`` with
-    ``G = g/(1 − 2ζ/r + 1/r²)``; the difference is a free oscillation, as in `second_order`.
+    ``G = g/(1 − 2ζ/r + 1/r²)`` (``forced`` in the code). The difference is a free oscillation, as
+    in `apply_second_order_lag`.
 
     p: τ, ζ, r; s: y, τ ẏ, u.
     """
@@ -88,65 +103,73 @@ def third_order(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # 
         return x
     if h == 0.0:
         return s[0]
-    ratio, theta, share = p[1], h / p[0], 1.0 / p[2]
-    width = np.sqrt(1.0 - ratio * ratio)
-    decay = np.exp(-ratio * theta)
-    c, sine = decay * np.cos(width * theta), decay * np.sin(width * theta) / width
-    fallen = -np.expm1(-theta * share)
-    lead = (s[2] - x) / (1.0 - 2.0 * ratio * share + share * share)
-    gap, pace = s[0] - x - lead, s[1] + lead * share
-    gap_after = c * gap + sine * (pace + ratio * gap)
-    pace_after = c * pace - sine * (ratio * pace + gap)
-    left = lead * (1.0 - fallen)
-    s[0], s[1] = x + left + gap_after, pace_after - left * share
-    s[2] = x + (s[2] - x) * (1.0 - fallen)
-    mean = lead * fallen / (theta * share)
-    return x + mean - (pace_after - pace + 2.0 * ratio * (gap_after - gap)) / theta
+    damping_ratio, theta, rate_ratio = p[1], h / p[0], 1.0 / p[2]
+    root_distance = np.sqrt(1.0 - damping_ratio * damping_ratio)
+    decay = np.exp(-damping_ratio * theta)
+    damped_cosine, damped_sine = (
+        decay * np.cos(root_distance * theta),
+        decay * np.sin(root_distance * theta) / root_distance,
+    )
+    decayed_fraction = -np.expm1(-theta * rate_ratio)
+    forced = (s[2] - x) / (1.0 - 2.0 * damping_ratio * rate_ratio + rate_ratio * rate_ratio)
+    error, speed = s[0] - x - forced, s[1] + forced * rate_ratio
+    error_after = damped_cosine * error + damped_sine * (speed + damping_ratio * error)
+    speed_after = damped_cosine * speed - damped_sine * (damping_ratio * speed + error)
+    forced_after = forced * (1.0 - decayed_fraction)
+    s[0], s[1] = x + forced_after + error_after, speed_after - forced_after * rate_ratio
+    s[2] = x + (s[2] - x) * (1.0 - decayed_fraction)
+    forced_mean = forced * decayed_fraction / (theta * rate_ratio)
+    return (
+        x
+        + forced_mean
+        - (speed_after - speed + 2.0 * damping_ratio * (error_after - error)) / theta
+    )
 
 
-def inner_step(values: Values, facts: Facts) -> float:
-    """Return a step over which the mean of the output may be held.
+def compute_inner_step(values: Values, facts: AxisProperties) -> float:
+    """Return the longest step, s, over which the mean of the output may be held.
 
-    An axis without inertia takes the output itself at each sample, which is exact.
+    An axis without inertia follows the output itself at each sample, which is exact.
     """
-    idle = values.get("time_constant") == 0.0 or facts.is_static
-    return inf if idle else _INNER_SHARE / facts.pace_hz
+    needs_no_inner_step = values.get("time_constant") == 0.0 or facts.is_static
+    return inf if needs_no_inner_step else _INNER_STEP_PERIODS / facts.pace_hz
 
 
-TIME_CONSTANT = Parameter("time_constant", "τ; the bandwidth is 1/(2πτ)", "s", 0.0, 0.1, 5e-4)
+TIME_CONSTANT = EffectParameter("time_constant", "τ; the bandwidth is 1/(2πτ)", "s", 0.0, 0.1, 5e-4)
 _SOURCE = (
     "Fleming and Leang, Design, Modeling and Control of Nanopositioning Systems (2014), ch. 14"
 )
-_LINEAR = frozenset({Trait.LINEAR, Trait.TRANSIENT, Trait.MEMORYLESS})
+_LINEAR_TRAITS = frozenset({EffectTrait.LINEAR, EffectTrait.TRANSIENT, EffectTrait.MEMORYLESS})
 
 AMPLIFIER_LAG = Effect(
     id="amplifier_lag",
     title="Amplifier lag",
     summary="Phase and gain both fall with frequency; a recorded u shows it.",
-    stage=Stage.ELECTRONICS,
+    stage=EffectStage.ELECTRONICS,
     kinds=EVERY_KIND,
-    identification=Identification(
-        starts=late("time_constant", (0.5, 2.0, 8.0), lag_share), lateness_s=lag_lateness
+    identification=IdentificationHints(
+        starts=start_from_delays("time_constant", (0.5, 2.0, 8.0), compute_lag_delay_ratio),
+        lateness_s=compute_lag_delay,
     ),
-    kinship=Kinship(family=Family.LATE, prior=0.6),
+    kinship=EffectRelations(family=EffectFamily.LATE, prior=0.6),
     formulations=(
         Formulation(
             name="first_order",
             equation="τ ẏ + y = x",
             source=_SOURCE,
             parameters=(TIME_CONSTANT,),
-            acts=Drive(step=first_order, states=1, timed=True),
-            inner_step_s=inner_step,
-            traits=_LINEAR,
+            acts=InputFunction(step=apply_first_order_lag, states=1, timed=True),
+            inner_step_s=compute_inner_step,
+            traits=_LINEAR_TRAITS,
         ),
         Formulation(
             name="second_order",
             equation="τ² ÿ + 2ζτ ẏ + y = x",
             source=_SOURCE,
-            parameters=(TIME_CONSTANT, Parameter("damping_ratio", "ζ", "", 0.05, 5.0, 0.7)),
-            acts=Drive(step=second_order, states=2, timed=True),
-            inner_step_s=inner_step,
-            traits=_LINEAR,
+            parameters=(TIME_CONSTANT, EffectParameter("damping_ratio", "ζ", "", 0.05, 5.0, 0.7)),
+            acts=InputFunction(step=apply_second_order_lag, states=2, timed=True),
+            inner_step_s=compute_inner_step,
+            traits=_LINEAR_TRAITS,
         ),
         Formulation(
             name="third_order",
@@ -154,12 +177,14 @@ AMPLIFIER_LAG = Effect(
             source=_SOURCE,
             parameters=(
                 TIME_CONSTANT,
-                Parameter("damping_ratio", "ζ; 0.5 with r = 1: Butterworth", "", 0.05, 0.95, 0.5),
-                Parameter("ratio", "r, ratio of both time constants", "", 0.05, 20.0, 1.0),
+                EffectParameter(
+                    "damping_ratio", "ζ; 0.5 with r = 1: Butterworth", "", 0.05, 0.95, 0.5
+                ),
+                EffectParameter("ratio", "r, ratio of both time constants", "", 0.05, 20.0, 1.0),
             ),
-            acts=Drive(step=third_order, states=3, timed=True),
-            inner_step_s=inner_step,
-            traits=_LINEAR,
+            acts=InputFunction(step=apply_third_order_lag, states=3, timed=True),
+            inner_step_s=compute_inner_step,
+            traits=_LINEAR_TRAITS,
         ),
     ),
 )

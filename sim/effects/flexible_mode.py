@@ -1,102 +1,98 @@
-"""A further vibration mode that the axis' nominal model lacks."""
+"""Further vibration mode that the nominal model of the axis lacks."""
 
 import numpy as np
 
-from rotemina.sim.effects.errors import EffectError
-from rotemina.sim.effects.facts import Facts
+from rotemina.sim.effects.facts import AxisProperties
 from rotemina.sim.effects.formulation import (
     EVERY_KIND,
+    AddedStates,
     Effect,
+    EffectParameter,
+    EffectStage,
+    EffectTrait,
     Formulation,
     LinearPart,
-    Parameter,
-    Part,
-    Stage,
-    Trait,
     Values,
 )
-from rotemina.sim.effects.identification import Identification
-from rotemina.sim.effects.kinship import Family, Kinship
-from rotemina.sim.effects.modes import modal_parameters, modal_part
-from rotemina.sim.effects.starts import modes
-from rotemina.sim.messages import message
+from rotemina.sim.effects.identification import IdentificationHints
+from rotemina.sim.effects.kinship import EffectFamily, EffectRelations
+from rotemina.sim.effects.modes import make_modal_parameters, make_modal_part
+from rotemina.sim.effects.starts import start_from_modes
+from rotemina.sim.errors import EffectError
 
-FREQUENCY = Parameter("frequency", "of the mode", "Hz", 0.02, 50.0, 1.7, per="pace_hz")
-DAMPING = Parameter("damping_ratio", "of the mode", "", 1e-4, 2.0, 0.03)
-
-
-def _oscillator(values: Values) -> tuple[float, float]:
-    rate = 2.0 * np.pi * values["frequency"]
-    return rate, 2.0 * values["damping_ratio"] * rate
+FREQUENCY = EffectParameter("frequency", "of the mode", "Hz", 0.02, 50.0, 1.7, per="pace_hz")
+DAMPING = EffectParameter("damping_ratio", "of the mode", "", 1e-4, 2.0, 0.03)
 
 
-def _appendage(values: Values, facts: Facts) -> LinearPart:
-    """Hang a mass on a spring on the axis: ``μ M ξ̈ = −f``, f the force on the axis."""
+def _compute_oscillator(values: Values) -> tuple[float, float]:
+    omega = 2.0 * np.pi * values["frequency"]
+    return omega, 2.0 * values["damping_ratio"] * omega
+
+
+def _make_appendage(values: Values, facts: AxisProperties) -> LinearPart:
+    """Attach a mass to the axis by a spring: ``μ M ξ̈ = −f``, with f the force on the axis."""
     if facts.mass == 0.0:
         raise EffectError(
-            message(
-                "engine",
-                "flexible_mode: formulation 'appendage' pulls on the mass of an axis, but "
-                "this axis is static; give it mass, damping and stiffness, or choose another "
-                "formulation",
-            )
+            "flexible_mode: formulation 'appendage' pulls on the mass of an axis, but "
+            "this axis is static; give it mass, damping and stiffness, or choose another "
+            "formulation"
         )
-    rate, loss = _oscillator(values)
+    omega, damping = _compute_oscillator(values)
     mass = values["mass_ratio"] * facts.mass
     return LinearPart(
-        a=np.array([[0.0, 1.0], [-(rate**2), -loss]]),
-        b=np.array([[0.0, 0.0, 0.0], [rate**2, loss, 0.0]]),
+        a=np.array([[0.0, 1.0], [-(omega**2), -damping]]),
+        b=np.array([[0.0, 0.0, 0.0], [omega**2, damping, 0.0]]),
         output=np.zeros(2),
-        force=mass * np.array([rate**2, loss]),
-        reaction=(-mass * rate**2, -mass * loss),
+        force=mass * np.array([omega**2, damping]),
+        reaction=(-mass * omega**2, -mass * damping),
     )
 
 
-def _parallel(values: Values, facts: Facts) -> LinearPart:
-    """Give the input a second path to the position, with a mode of its own.
+def _make_parallel_path(values: Values, facts: AxisProperties) -> LinearPart:
+    """Add a second path from the input to the position, with its own mode.
 
-    A free axis has no static motion to share: the mode is added to it, and r is its modal mass over
-    the axis' (``z̈ + 2ζω ż + ω² z = gain/M · u``).
+    A free axis has no static motion to share. Its mode is added to the motion, and r is the modal
+    mass over that of the axis (``z̈ + 2ζω ż + ω² z = gain/M · u``).
     """
-    rate, loss = _oscillator(values)
+    omega, damping = _compute_oscillator(values)
     share = values["share"]
-    free = facts.stiffness == 0.0 and facts.mass > 0.0
-    drive = rate**2
+    is_free = facts.stiffness == 0.0 and facts.mass > 0.0
+    drive_gain = omega**2
     if facts.kind == "force":
-        drive = facts.gain / facts.mass if free else rate**2 * facts.gain / facts.stiffness
+        drive_gain = facts.gain / facts.mass if is_free else omega**2 * facts.gain / facts.stiffness
     return LinearPart(
-        a=np.array([[0.0, 1.0], [-(rate**2), -loss]]),
-        b=np.array([[0.0, 0.0, 0.0], [0.0, 0.0, drive]]),
+        a=np.array([[0.0, 1.0], [-(omega**2), -damping]]),
+        b=np.array([[0.0, 0.0, 0.0], [0.0, 0.0, drive_gain]]),
         output=np.array([share, 0.0]),
-        share=0.0 if free else share,
+        share=0.0 if is_free else share,
     )
 
 
-def _series(values: Values, _facts: Facts) -> LinearPart:
-    """Put a flexible link between the axis and the point that is seen."""
-    rate, loss = _oscillator(values)
+def _make_series_link(values: Values, _facts: AxisProperties) -> LinearPart:
+    omega, damping = _compute_oscillator(values)
     share = values["share"]
     return LinearPart(
-        a=np.array([[0.0, 1.0], [-(rate**2), -loss]]),
-        b=np.array([[0.0, 0.0, 0.0], [rate**2, 0.0, 0.0]]),
+        a=np.array([[0.0, 1.0], [-(omega**2), -damping]]),
+        b=np.array([[0.0, 0.0, 0.0], [omega**2, 0.0, 0.0]]),
         output=np.array([share, 0.0]),
         share=share,
     )
 
 
-_LINEAR = frozenset({Trait.LINEAR, Trait.TRANSIENT, Trait.MEMORYLESS})
+_LINEAR_TRAITS = frozenset({EffectTrait.LINEAR, EffectTrait.TRANSIENT, EffectTrait.MEMORYLESS})
 
 FLEXIBLE_MODE = Effect(
     id="flexible_mode",
     title="Flexible mode",
     summary="A peak or a dip where the model has none.",
-    stage=Stage.MECHANICS,
+    stage=EffectStage.MECHANICS,
     kinds=EVERY_KIND,
-    identification=Identification(
-        starts=modes,
-        domain={"damping_ratio": (1e-4, 0.35)},  # a lag, beyond
+    identification=IdentificationHints(
+        starts=start_from_modes,
+        # With more damping it would be a lag.
+        domain={"damping_ratio": (1e-4, 0.35)},
     ),
-    kinship=Kinship(brings_along={Family.RESONANCE: 1.0}),
+    kinship=EffectRelations(brings_along={EffectFamily.RESONANCE: 1.0}),
     formulations=(
         Formulation(
             name="parallel",
@@ -105,12 +101,12 @@ FLEXIBLE_MODE = Effect(
             parameters=(
                 FREQUENCY,
                 DAMPING,
-                Parameter(
+                EffectParameter(
                     "share", "r, share of the static motion along this path", "", -2.0, 2.0, 0.05
                 ),
             ),
-            acts=Part(part=_parallel),
-            traits=_LINEAR,
+            acts=AddedStates(part=_make_parallel_path),
+            traits=_LINEAR_TRAITS,
         ),
         Formulation(
             name="appendage",
@@ -119,12 +115,12 @@ FLEXIBLE_MODE = Effect(
             parameters=(
                 FREQUENCY,
                 DAMPING,
-                Parameter(
+                EffectParameter(
                     "mass_ratio", "μ, ratio of its mass to the axis' mass", "", 0.0, 2.0, 0.05
                 ),
             ),
-            acts=Part(part=_appendage),
-            traits=_LINEAR,
+            acts=AddedStates(part=_make_appendage),
+            traits=_LINEAR_TRAITS,
         ),
         Formulation(
             name="series",
@@ -133,20 +129,20 @@ FLEXIBLE_MODE = Effect(
             parameters=(
                 FREQUENCY,
                 DAMPING,
-                Parameter(
+                EffectParameter(
                     "share", "r, share of the motion seen through the link", "", -2.0, 2.0, 0.3
                 ),
             ),
-            acts=Part(part=_series),
-            traits=_LINEAR,
+            acts=AddedStates(part=_make_series_link),
+            traits=_LINEAR_TRAITS,
         ),
         Formulation(
             name="modes",
             equation="y = q + Σ (aₖ zₖ + bₖ żₖ/ωₖ), z̈ₖ + 2ζₖωₖ żₖ + ωₖ² zₖ = ωₖ² U",
             source="Gustavsen and Semlyen, IEEE Trans. Power Delivery 14 (1999) 1052-1061",
-            parameters=modal_parameters(""),
-            acts=Part(part=modal_part),
-            traits=frozenset({Trait.LINEAR, Trait.MEMORYLESS}),
+            parameters=make_modal_parameters(""),
+            acts=AddedStates(part=make_modal_part),
+            traits=frozenset({EffectTrait.LINEAR, EffectTrait.MEMORYLESS}),
             kinds=frozenset({"piezo", "stepper"}),
             by_spectra=True,
         ),

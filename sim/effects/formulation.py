@@ -1,40 +1,46 @@
 """The parts of an effect: its parameters, and its action on a signal.
 
-An :class:`Effect` has one or several :class:`Formulation`, each the same effect by other
+An :class:`Effect` has one or more :class:`Formulation` objects, which describe it by different
 equations. A formulation *acts* in one of these ways:
 
-========== ======================================================================================
-`Drive`    on the input of an axis, held while ``h`` lasts: electronics, actuator
-`Force`    on the axis as a force: friction, contact
-`Motion`   on the position that an axis takes, seen from outside: backlash, screw
-`Reading`  on what the axis' own sensor says
-`Part`     as further linear states, stepped exactly with the axis': flexible modes
-`Change`   by other figures of the axis itself: its resonance
-`Late`     by letting inputs act later
-`Skew`     by stamping readings with a clock that runs fast or slow
-========== ======================================================================================
+=================== =============================================================================
+`InputFunction`     on the input of an axis, held for ``h`` seconds: electronics, actuator
+`ForceFunction`     on the axis as a force: friction, contact
+`PositionFunction`  on the position of an axis as seen from outside: backlash, screw error
+`ReadingFunction`   on the reading of the axis' own sensor
+`AddedStates`       by adding linear states, stepped exactly with the axis: flexible modes
+`AxisChange`        by changing the properties of the axis itself: its resonance
+`InputDelay`        by delaying inputs
+`ClockSkew`         by stamping readings with a clock that runs fast or slow
+=================== =============================================================================
+
+The first four are step functions ``step(x, other, t, h, a, b, p, s)``, which
+:mod:`rotemina.sim.effects.step` describes. Their classes say what ``x``, ``other``, ``h``, ``a``
+and ``b`` mean.
 """
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from math import inf
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.effects.facts import Facts
-from rotemina.sim.effects.identification import Identification
-from rotemina.sim.effects.kinship import Kinship
+from rotemina.sim.compatibility import FormerMember, serve_former_names
+from rotemina.sim.effects.facts import AxisProperties
+from rotemina.sim.effects.identification import IdentificationHints
+from rotemina.sim.effects.kinship import EffectRelations
 from rotemina.sim.effects.step import StepFunction
 from rotemina.sim.plugin_points import API_VERSIONS
-from rotemina.sim.robot.model import Axis
+from rotemina.sim.robot import Axis
 
 Values = Mapping[str, float]
 
 
-class Stage(StrEnum):
-    """Where in the signal chain an effect lives."""
+class EffectStage(StrEnum):
+    """Stage of the signal chain in which an effect acts."""
 
     ELECTRONICS = "electronics"
     ACTUATOR = "actuator"
@@ -42,16 +48,18 @@ class Stage(StrEnum):
     SENSOR = "sensor"
 
 
-class Trait(StrEnum):
-    """A property that sets an effect apart, and that the effect's check measures.
+class EffectTrait(StrEnum):
+    """Property that distinguishes an effect, and that the effect's check measures.
 
-    ``LINEAR``: what it adds obeys superposition. ``MEMORYLESS``: at rest, what it adds depends on
-    the command alone, whatever came before. ``RATE_INDEPENDENT``: a slow path leaves the same
-    trace at any pace. ``TRANSIENT``: adds nothing at rest. ``LOCKED_TO_TIME``: acts without
-    motion, and the same whatever the command. ``LOCKED_TO_POSITION``: what it adds depends on the
-    position alone, at any speed and either way. ``READING_ONLY``: the true motion stays as it is.
-    ``RANDOM``: differs from seed to seed, and is absent without one.
-    ``DISSIPATIVE``: never adds energy.
+    The *deviation* is the motion or reading with the effect minus that without it.
+
+    ``LINEAR``: the deviation obeys superposition. ``MEMORYLESS``: at rest, the deviation depends
+    only on the command, not on the path to it. ``RATE_INDEPENDENT``: the deviation along a slow
+    path does not depend on the speed. ``TRANSIENT``: there is no deviation at rest.
+    ``LOCKED_TO_TIME``: the effect also acts at rest, and in the same way for any command.
+    ``LOCKED_TO_POSITION``: the deviation depends only on the position, at any speed and in both
+    directions. ``READING_ONLY``: the true motion does not change. ``RANDOM``: the deviation differs
+    from seed to seed, and is absent without a seed. ``DISSIPATIVE``: the effect never adds energy.
     """
 
     LINEAR = "linear"
@@ -66,24 +74,26 @@ class Trait(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Parameter:
-    """One parameter of a formulation.
+class EffectParameter:
+    """Parameter of a formulation.
 
     Attributes
     ----------
     name, meaning : str
     unit : str
-        With ``q`` for the axis' unit of position, ``u`` for that of its input and ``N`` for that
-        of its force (``N`` or ``N m``); empty for a pure number.
+        ``q`` stands for the axis' unit of position, ``u`` for that of its input and ``N`` for that
+        of its force (``N`` or ``N m``). The text is empty for a pure number.
     low, high, typical : float
         Bounds, and the preset.
     per : str, optional
-        A figure of :class:`~rotemina.sim.effects.facts.Facts` that these three are multiples of.
+        Name of the property in :class:`~rotemina.sim.effects.AxisProperties` by whose
+        magnitude ``low``, ``high`` and ``typical`` are multiplied.
     spare : str, optional
-        A figure by which it may be less: what the axis itself has of it already.
+        Name of the axis property that this parameter adds to, such as the damping. Because the
+        nominal axis already has that amount, the value may fall below ``low`` by the same amount.
     linear : bool
-        Whether it is an amount of either sign in which the effect is linear, so that a fit needs
-        no search for it.
+        Whether the effect is linear in this parameter, which may have either sign. A fit then
+        solves for it instead of searching.
     """
 
     name: str
@@ -96,61 +106,65 @@ class Parameter:
     spare: str | None = None
     linear: bool = False
 
-    def scale(self, facts: Facts) -> float:
-        """Return what bounds and preset are multiples of, on this axis."""
+    def scale(self, facts: AxisProperties) -> float:
+        """Return the factor by which bounds and preset are multiplied on this axis."""
         return abs(float(getattr(facts, self.per))) if self.per is not None else 1.0
 
-    def bounds(self, facts: Facts) -> tuple[float, float]:
-        """Return the least and greatest value on this axis, SI."""
+    def bounds(self, facts: AxisProperties) -> tuple[float, float]:
+        """Return the smallest and largest value on this axis, SI."""
         scale = self.scale(facts)
-        return self.low * scale - self.spared(facts), self.high * scale
+        return self.low * scale - self.compute_spare(facts), self.high * scale
 
-    def spared(self, facts: Facts) -> float:
-        """Return by how much it may be less on this axis, SI."""
+    def compute_spare(self, facts: AxisProperties) -> float:
+        """Return how far the value may fall below ``low`` on this axis, SI."""
         return float(getattr(facts, self.spare)) if self.spare is not None else 0.0
 
-    def preset(self, facts: Facts) -> float:
+    def preset(self, facts: AxisProperties) -> float:
         """Return the typical value on this axis, SI."""
         return self.typical * self.scale(facts)
 
-    def unit_on(self, facts: Facts) -> str:
-        """Return the unit on this axis."""
+    def unit_on(self, facts: AxisProperties) -> str:
+        """Return the unit, with its letters ``q``, ``u`` and ``N`` replaced for this axis."""
         names = {
             "q": facts.unit,
             "u": facts.unit if facts.kind == "stepper" else "V",
             "N": "N" if facts.unit == "m" else "N m",
         }
-        return "".join(names.get(part, part) for part in _tokens(self.unit))
+        return "".join(names.get(part, part) for part in _split_unit(self.unit))
+
+    # Former names, which work for one more release.
+    spared = FormerMember("compute_spare")
 
 
-def _tokens(unit: str) -> list[str]:
-    """Split ``"N s/q"`` into words and separators."""
+def _split_unit(unit: str) -> list[str]:
     tokens, word = [], ""
-    for letter in unit:
-        if letter.isalpha():
-            word += letter
+    for character in unit:
+        if character.isalpha():
+            word += character
             continue
-        tokens += [word, letter]
+        tokens += [word, character]
         word = ""
     return [*tokens, word]
 
 
-def no_inner_step(_values: Values, _facts: Facts) -> float:
-    """Return that steps from sample to sample will do."""
+def allow_any_step(_values: Values, _facts: AxisProperties) -> float:
+    """Return infinity: no step shorter than the sampling interval is needed."""
     return inf
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Drive:
-    """A step function on the input of an axis.
+class InputFunction:
+    """Step function on the input of an axis.
 
-    Electronics see ``x`` in the unit of the input (V; position of a stepper), actuators as the
-    requested position (V on a force axis). ``x`` is held for the next ``h`` seconds, and the answer
-    is the mean of the output meanwhile. With ``h = 0`` the function reads: it returns its output at
-    this instant and changes no state; a memory without time may follow ``x``. ``other`` is the
-    present position of the axis.
+    In the stage ``ELECTRONICS``, ``x`` is the input itself: V, or the commanded position of a
+    stepper. In the stage ``ACTUATOR``, ``x`` is the requested position (V on a force axis). ``x``
+    is held for the next ``h`` seconds, and the function returns the mean of its output during that
+    time. With ``h = 0`` no time passes: the function returns its output at this instant, and must
+    not change its memory. Only a rate-independent memory, such as that of hysteresis, may follow
+    ``x``. ``other`` is the current position of the axis.
 
-    ``timed``: the output moves while the input is held, so it is called at every inner step.
+    ``timed``: the output changes while the input is held, so the function is called at every inner
+    step.
     """
 
     step: StepFunction
@@ -159,13 +173,13 @@ class Drive:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Force:
-    """A step function that answers a force on the axis, held for the next ``h`` seconds.
+class ForceFunction:
+    """Step function that returns a force on the axis, held for the next ``h`` seconds.
 
-    ``x`` is the position at mid-step and ``other`` the speed at its end, both without this force;
-    a unit force would move the position at the end of the step by ``a`` (so at mid-step by about
-    ``a/2``) and the speed there by ``b``. With these, stiff forces can be solved for and dry
-    friction can hold exactly.
+    ``x`` is the position at mid-step and ``other`` the speed at the end of the step, both without
+    this force. The arguments ``a`` and ``b`` are the displacement and the change of speed that a
+    unit force would cause by the end of the step. At mid-step the displacement is about ``a/2``.
+    With these, the function can solve for stiff forces, and dry friction can hold the axis exactly.
     """
 
     step: StepFunction
@@ -173,10 +187,10 @@ class Force:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Motion:
-    """A step function on the position of an axis; ``h`` is the time since it was last called.
+class PositionFunction:
+    """Step function on the position of an axis; ``h`` is the time since the last call.
 
-    ``other`` is the position of ``from_axis``, 0 where the effect names none.
+    ``other`` is the position of ``from_axis``, or 0 if the effect has none.
     """
 
     step: StepFunction
@@ -184,12 +198,13 @@ class Motion:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Reading:
-    """A step function on the reading of a sensor; ``h`` is the time since the last call.
+class ReadingFunction:
+    """Step function on the reading of a sensor; ``h`` is the time since the last call.
 
-    ``other`` is the true position. ``random``: ``a`` is a standard normal variate, 0 without
-    chance, and the function is called only at samples. ``digital``: its input already contains the
-    sensor's own noise, offset and resolution, and it is called only at samples.
+    ``other`` is the true position. ``random``: the argument ``a`` is a standard normal variate (0
+    in a run without noise), and the function is called only at samples. ``digital``: the input
+    already contains the sensor's own noise, offset and resolution, and the function is called only
+    at samples.
     """
 
     step: StepFunction
@@ -200,18 +215,19 @@ class Reading:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LinearPart:
-    """Further states z (n,) of an axis at q under the input U, and their effect on it.
+    """Added states z (n,) of an axis at q with input U, and their effect on the axis.
 
     ::
 
-        ż = A z + B [q, q̇, U],   force = K z + L [q, q̇],   position = (1 − r) q + R z
+        ż = A z + B [q, q̇, U],   force = K z + L [q, q̇],   position = (1 − s) q + R z
 
-    where U is in the unit of position (V on a force axis). At rest the force must be zero. With
-    ``port`` the position of the axis itself stays q, and ``R z + r q`` leaks from it into the axis
-    that carries the effect.
+    U is in the unit of position (V on a force axis). At rest the force must be zero. The last
+    equation holds without a ``from_axis``: the added states replace the share s of the motion. With
+    a ``from_axis``, the position of that axis stays q, and ``s q + R z`` is added to the position
+    of the axis that carries the effect.
 
-    Attributes: ``a`` (n, n), ``b`` (n, 3), ``force`` (n,), ``reaction`` (2,), ``output`` (n,),
-    ``share`` r.
+    Attributes: ``a`` (n, n) is A, ``b`` (n, 3) is B, ``force`` (n,) is the gain K, ``reaction``
+    (2,) is the gain L, ``output`` (n,) is the gain R, and ``share`` is s.
     """
 
     a: FloatArray
@@ -223,99 +239,114 @@ class LinearPart:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Part:
-    """Linear states added to those of the axis, or of ``from_axis`` if they leak from it."""
+class AddedStates:
+    """Linear states added to those of the axis, or of ``from_axis`` if the effect has one."""
 
-    part: Callable[[Values, Facts], LinearPart]
+    part: Callable[[Values, AxisProperties], LinearPart]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Change:
-    """Another axis in place of the nominal one."""
+class AxisChange:
+    """Replacement of the nominal axis by another one."""
 
     change: Callable[[Values, Axis], Axis]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Late:
-    """Inputs that act later by ``delay_s``."""
+class InputDelay:
+    """Delay of all inputs by ``delay_s``."""
 
     delay_s: Callable[[Values], float]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Skew:
-    """Readings taken later by ``rate`` seconds for each second of the run."""
+class ClockSkew:
+    """Clock drift: the reading at the time t of a run shows the motion at ``(1 − rate) t``."""
 
     rate: Callable[[Values], float]
 
 
-Action = Drive | Force | Motion | Reading | Part | Change | Late | Skew
+Action = (
+    InputFunction
+    | ForceFunction
+    | PositionFunction
+    | ReadingFunction
+    | AddedStates
+    | AxisChange
+    | InputDelay
+    | ClockSkew
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Formulation:
-    """An effect by one set of equations.
+    """Effect described by one set of equations.
 
     Attributes
     ----------
     name, equation, source : str
-    parameters : tuple of Parameter
+    parameters : tuple of EffectParameter
     acts : Action
-    traits : frozenset of Trait
-        What the effect's check measures.
+        Where in the signal chain the formulation acts, and how.
+    traits : frozenset of EffectTrait
+        Traits that the effect's check measures.
     prepare : callable
-        Makes the numbers ``p`` of a step function from values and facts; by default the values
-        in the order of ``parameters``.
+        Computes the argument ``p`` of the step function from the values and the axis properties. By
+        default these are the values in the order of ``parameters``.
     inner_step_s : callable
-        The longest step with which it is accurate, from values and facts.
+        Returns the longest step at which the formulation is accurate, from the same arguments
+        as ``prepare``.
     kinds : frozenset of str
-        Axis kinds that can carry it; empty for all those of its effect.
+        Axis kinds to which this formulation applies; if empty, those of the effect.
     by_spectra : bool
-        Whether a diagnosis finds its many parameters at once, from spectra, and not by a search.
+        Whether a diagnosis finds all parameters together from spectra, not by a search.
     """
 
     name: str
     equation: str
     source: str
-    parameters: tuple[Parameter, ...]
+    parameters: tuple[EffectParameter, ...]
     acts: Action
-    traits: frozenset[Trait] = frozenset()
-    prepare: Callable[[Values, Facts], Sequence[float]] | None = None
-    inner_step_s: Callable[[Values, Facts], float] = no_inner_step
+    traits: frozenset[EffectTrait] = frozenset()
+    prepare: Callable[[Values, AxisProperties], Sequence[float]] | None = None
+    inner_step_s: Callable[[Values, AxisProperties], float] = allow_any_step
     kinds: frozenset[str] = frozenset()
     by_spectra: bool = False
 
-    def numbers(self, values: Values, facts: Facts) -> FloatArray:
+    def compute_numbers(self, values: Values, facts: AxisProperties) -> FloatArray:
         """Return the argument ``p`` of the step function."""
         if self.prepare is not None:
             return np.asarray(self.prepare(values, facts), dtype=np.float64)
         return np.array([values[p.name] for p in self.parameters], dtype=np.float64)
 
-    def parameter(self, name: str) -> Parameter | None:
-        """Return a parameter by name, or None."""
+    def find_parameter(self, name: str) -> EffectParameter | None:
+        """Return the parameter of this name, or None."""
         return next((p for p in self.parameters if p.name == name), None)
+
+    # Former names, which work for one more release.
+    numbers = FormerMember("compute_numbers")
+    parameter = FormerMember("find_parameter")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Effect:
-    """One effect of the catalogue.
+    """Effect of the catalogue.
 
     Attributes
     ----------
     id, title, summary : str
-        The id of reports and files, a name for screens, and what sets the effect apart.
-    stage : Stage
+        The id in reports and files, the name on screens, and the feature that distinguishes it.
+    stage : EffectStage
     kinds : frozenset of str
-        Axis kinds that can carry it.
+        Axis kinds to which the effect applies.
     formulations : tuple of Formulation
-        The first is the usual one.
+        The first is the default.
     coupled : bool
-        Whether it needs a ``from_axis``.
-    identification : Identification
-        How it is found in records.
-    kinship : Kinship
-        How it stands to others.
+        Whether the effect needs a ``from_axis``.
+    identification : IdentificationHints
+        How a fit finds the effect in records.
+    kinship : EffectRelations
+        How the effect relates to other effects.
     api_version : int
         The version of this interface that the effect was written for.
     """
@@ -323,19 +354,39 @@ class Effect:
     id: str
     title: str
     summary: str
-    stage: Stage
+    stage: EffectStage
     kinds: frozenset[str]
     formulations: tuple[Formulation, ...]
     coupled: bool = False
-    identification: Identification = field(default_factory=Identification)
-    kinship: Kinship = field(default_factory=Kinship)
+    identification: IdentificationHints = field(default_factory=IdentificationHints)
+    kinship: EffectRelations = field(default_factory=EffectRelations)
     api_version: int = API_VERSIONS["rotemina.effects"]
 
-    def formulation(self, name: str | None = None) -> Formulation | None:
-        """Return a formulation by name, by default the usual one, or None."""
+    def find_formulation(self, name: str | None = None) -> Formulation | None:
+        """Return the formulation of this name, by default the first one, or None."""
         if name is None:
             return self.formulations[0]
         return next((f for f in self.formulations if f.name == name), None)
 
+    # Former names, which work for one more release.
+    formulation = FormerMember("find_formulation")
+
 
 EVERY_KIND = frozenset({"piezo", "stepper", "force"})
+
+if not TYPE_CHECKING:
+    __getattr__ = serve_former_names(
+        __name__,
+        Change="AxisChange",
+        Drive="InputFunction",
+        Force="ForceFunction",
+        Late="InputDelay",
+        Motion="PositionFunction",
+        Parameter="EffectParameter",
+        Part="AddedStates",
+        Reading="ReadingFunction",
+        Skew="ClockSkew",
+        Stage="EffectStage",
+        Trait="EffectTrait",
+        no_inner_step="allow_any_step",
+    )

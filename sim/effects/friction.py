@@ -1,4 +1,4 @@
-"""Friction in guides and screw: a force against motion and its onset."""
+"""Friction in guides and screw: a force that opposes motion and the start of motion."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -6,36 +6,40 @@ from math import inf, pi, sqrt
 
 import numpy as np
 
-from rotemina.sim.effects.errors import EffectError
-from rotemina.sim.effects.facts import Facts
+from rotemina.sim.effects.facts import AxisProperties
 from rotemina.sim.effects.formulation import (
-    Change,
+    AxisChange,
     Effect,
-    Force,
+    EffectParameter,
+    EffectStage,
+    EffectTrait,
+    ForceFunction,
     Formulation,
-    Parameter,
-    Stage,
-    Trait,
     Values,
 )
-from rotemina.sim.effects.identification import Identification, Retuning, View
-from rotemina.sim.effects.kinship import Family, Kinship
-from rotemina.sim.messages import message
-from rotemina.sim.robot.model import Axis
+from rotemina.sim.effects.identification import FitView, IdentificationHints, RetunedParameters
+from rotemina.sim.effects.kinship import EffectFamily, EffectRelations
+from rotemina.sim.errors import EffectError
+from rotemina.sim.robot import Axis
 
-SPRINGS = 8
-_INNER_SHARE = 1.0 / 60.0  # of the axis' period: the force is held for so long
-_FREE_STEP_S = 5e-4  # where no spring sets a period
-_BRISTLE_SHARE = 0.1  # of the period of the axis on its bristles, as far as
-_FINER = 4.0  # times finer steps will do it
+SPRING_COUNT = 8
+# Inner step in periods of the axis, during which the force is held.
+_INNER_STEP_PERIODS = 1.0 / 60.0
+# Inner step of an axis without stiffness, which has no period.
+_FREE_AXIS_STEP_S = 5e-4
+# Inner step in periods of the axis on its bristles or springs.
+_BRISTLE_STEP_PERIODS = 0.1
+# Inner steps are refined at most by this factor to follow the bristles or springs.
+_MAX_REFINEMENT_RATIO = 4.0
 
 
-def coulomb(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
-    """Return the dry and viscous force that goes with the speed at the end of the step.
+def compute_stribeck_force(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """Return the dry and viscous friction at the speed at the end of the step.
 
-    ``|f| ≤ Fs`` brings the speed ``v + b f`` to zero where it can: the axis sticks. Else
-    ``f = −F(v) sign v − D v`` by direction, with ``F = Fc + (Fs − Fc) exp(−(v/vs)²)``, is solved
-    for the speed that it leaves: from below, so that an axis that breaks loose meets Fs first.
+    A force ``|f| ≤ Fs`` brings the speed ``v + b f`` to zero if it can: the axis sticks.
+    Otherwise ``f = −F(v) sign v − D v``, which depends on the direction, with
+    ``F = Fc + (Fs − Fc) exp(−(v/vs)²)``, is solved for the speed after the step. The solution
+    starts from low speed, so that an axis that breaks loose meets Fs first.
 
     p: Fc+, Fc−, Fs/Fc, vs, D+, D−.
     """
@@ -43,94 +47,99 @@ def coulomb(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # comp
     dry = p[0] if forward else p[1]
     viscous = p[4] if forward else p[5]
     speed = abs(other)
-    most = dry * p[2]
-    if speed <= b * most:
+    limit = dry * p[2]
+    if speed <= b * limit:
         return -other / b
-    left = (speed - b * most) / (1.0 + b * viscous)
+    speed_after = (speed - b * limit) / (1.0 + b * viscous)
     if p[2] > 1.0:
         for _ in range(3):
-            most = dry * (1.0 + (p[2] - 1.0) * np.exp(-((left / p[3]) ** 2)))
-            left = (speed - b * most) / (1.0 + b * viscous)
-    force = most + viscous * left
+            limit = dry * (1.0 + (p[2] - 1.0) * np.exp(-((speed_after / p[3]) ** 2)))
+            speed_after = (speed - b * limit) / (1.0 + b * viscous)
+    force = limit + viscous * speed_after
     return -force if forward else force
 
 
-def lugre(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
-    """``f = −σ₀ z − σ₁(v) ż − D v, ż = v − |v| z / (zs g(v))``, solved for the end of the step.
+def compute_lugre_force(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """Return ``f = −σ₀ z − σ₁(v) ż − D v, ż = v − |v| z / (zs g(v))`` at the end of the step.
 
-    With ``g = 1 + (Fs/Fc − 1) exp(−(v/vs)²)`` and σ₁ of the speed found before, backward Euler
-    for z leaves a quadratic for the speed with one root of the right sign, at any stiffness:
-    ``(v (1 + b D) − v₀ − b σ₁ z₀/h) (1 + c v) + b (σ₀ + σ₁/h) (z₀ + h v) = 0``,
-    ``c = h/(zs g)``. The damping of the bristles fades as ``σ₁/(1 + σ₁ |v|/(Fc g))``, which keeps
-    the model passive at any speed.
+    With ``g = 1 + (Fs/Fc − 1) exp(−(v/vs)²)``, and σ₁ at the previous iterate of the speed,
+    backward Euler for z leaves a quadratic equation for the speed. It has one root of the right
+    sign, at any stiffness:
+    ``(v (1 + b D) − v₀ − b σ₁ z₀/h) (1 + c v) + b (σ₀ + σ₁/h) (z₀ + h v) = 0``, ``c = h/(zs g)``.
+    The damping of the bristles fades as ``σ₁/(1 + σ₁ |v|/(Fc g))``, which keeps the model passive
+    at any speed.
 
     p: σ₀, zs, Fs/Fc − 1, vs, σ₁, σ₁/Fc, D; s: z.
     """
     forward = other - b * p[0] * s[0] >= 0.0
-    free = other if forward else -other
-    bent = s[0] if forward else -s[0]
-    heavy = 1.0 + b * p[6]
-    speed, bend, damping, rise = 0.0, bent, 0.0, 1.0 + p[2]
-    for again in range(3):
-        if again > 0:
-            rise = 1.0 + p[2] * np.exp(-((speed / p[3]) ** 2)) if p[2] > 0.0 else 1.0
-        damping = p[4] / (1.0 + p[5] * speed / rise) / h
-        limit = h / (p[1] * rise)
-        known = free + b * damping * bent
-        square = limit * heavy
-        linear = heavy - limit * known + b * (p[0] + damping) * h
-        rest = max(free - b * p[0] * bent, 0.0)
-        root = np.sqrt(linear * linear + 4.0 * square * rest)
-        speed = 2.0 * rest / (linear + root) if linear > 0.0 else (root - linear) / (2.0 * square)
-        bend = (bent + h * speed) / (1.0 + limit * speed)
-    s[0] = bend if forward else -bend
-    force = p[0] * bend + damping * (bend - bent) + p[6] * speed
+    free_speed = other if forward else -other
+    bend_before = s[0] if forward else -s[0]
+    viscous_factor = 1.0 + b * p[6]
+    speed, bend_after, damping, stribeck_factor = 0.0, bend_before, 0.0, 1.0 + p[2]
+    for iteration in range(3):
+        if iteration > 0:
+            stribeck_factor = 1.0 + p[2] * np.exp(-((speed / p[3]) ** 2)) if p[2] > 0.0 else 1.0
+        damping = p[4] / (1.0 + p[5] * speed / stribeck_factor) / h
+        c = h / (p[1] * stribeck_factor)
+        explicit_speed = free_speed + b * damping * bend_before
+        quadratic = c * viscous_factor
+        linear = viscous_factor - c * explicit_speed + b * (p[0] + damping) * h
+        constant = max(free_speed - b * p[0] * bend_before, 0.0)
+        root = np.sqrt(linear * linear + 4.0 * quadratic * constant)
+        speed = (
+            2.0 * constant / (linear + root)
+            if linear > 0.0
+            else (root - linear) / (2.0 * quadratic)
+        )
+        bend_after = (bend_before + h * speed) / (1.0 + c * speed)
+    s[0] = bend_after if forward else -bend_after
+    force = p[0] * bend_after + damping * (bend_after - bend_before) + p[6] * speed
     return -force if forward else force
 
 
-def springs(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
-    """``f = −Σ kᵢ zᵢ − D v``; each spring follows the motion up to the deflection where it slips.
+def compute_springs_force(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """Return ``f = −Σ kᵢ zᵢ − D v``; a spring follows the motion up to its slip deflection.
 
-    Solved for the speed that the force leaves at the end of the step, ``v + b f``: the sum rises
-    with the speed and is straight between the slips, so Newton's steps end exactly. A spring that
-    the step resolves pulls by the mean of start and end, which conserves its energy; a stiffer one
-    by the end, which damps.
+    The equation is solved for the speed at the end of the step, ``v + b f``. The sum increases with
+    the speed and is linear between the slips, so Newton's method ends exactly. A spring that the
+    step resolves acts by the mean of its force at start and end, which conserves its energy. A
+    stiffer one acts by its force at the end, which damps.
 
     p: force of one spring, backward over forward, D, each kᵢ; s: each zᵢ.
     """
-    heavy = 1.0 + b * p[2]
+    viscous_factor = 1.0 + b * p[2]
     speed = other
-    for _ in range(4 * SPRINGS):
+    for _ in range(4 * SPRING_COUNT):
         total, slope = 0.0, 0.0
-        for i in range(SPRINGS):
-            stiff = b * p[3 + i] * h
-            late = (0.5 + stiff) / (1.0 + stiff)
-            before = p[3 + i] * s[i]
-            pulled = before + p[3 + i] * h * speed
-            if pulled > p[0]:
-                pulled = p[0]
-            elif pulled < -p[0] * p[1]:
-                pulled = -p[0] * p[1]
+        for i in range(SPRING_COUNT):
+            stiffness_ratio = b * p[3 + i] * h
+            end_weight = (0.5 + stiffness_ratio) / (1.0 + stiffness_ratio)
+            start_force = p[3 + i] * s[i]
+            end_force = start_force + p[3 + i] * h * speed
+            if end_force > p[0]:
+                end_force = p[0]
+            elif end_force < -p[0] * p[1]:
+                end_force = -p[0] * p[1]
             else:
-                slope += late * p[3 + i] * h
-            total += late * pulled + (1.0 - late) * before
-        change = (speed * heavy - other + b * total) / (heavy + b * slope)
+                slope += end_weight * p[3 + i] * h
+            total += end_weight * end_force + (1.0 - end_weight) * start_force
+        change = (speed * viscous_factor - other + b * total) / (viscous_factor + b * slope)
         speed -= change
         if abs(change) <= 1e-12 * abs(speed):
             break
     force = p[2] * speed
-    for i in range(SPRINGS):
-        stiff = b * p[3 + i] * h
-        late = (0.5 + stiff) / (1.0 + stiff)
-        before = p[3 + i] * s[i]
-        pulled = min(max(before + p[3 + i] * h * speed, -p[0] * p[1]), p[0])
-        s[i] = pulled / p[3 + i] if p[3 + i] > 0.0 else 0.0
-        force += late * pulled + (1.0 - late) * before
+    for i in range(SPRING_COUNT):
+        stiffness_ratio = b * p[3 + i] * h
+        end_weight = (0.5 + stiffness_ratio) / (1.0 + stiffness_ratio)
+        start_force = p[3 + i] * s[i]
+        end_force = min(max(start_force + p[3 + i] * h * speed, -p[0] * p[1]), p[0])
+        s[i] = end_force / p[3 + i] if p[3 + i] > 0.0 else 0.0
+        force += end_weight * end_force + (1.0 - end_weight) * start_force
     return -force
 
 
-def dampened(values: Values, axis: Axis) -> Axis:
-    """Return the axis with more damping, or less.
+def with_damping(values: Values, axis: Axis) -> Axis:
+    """Return the axis with the viscous friction added to its damping.
 
     Raises
     ------
@@ -139,11 +148,7 @@ def dampened(values: Values, axis: Axis) -> Axis:
     """
     inertia = axis.inertia
     if inertia is None:
-        raise EffectError(
-            message(
-                "engine", "friction: a static axis has no motion to damp; give it mass and damping"
-            )
-        )
+        raise EffectError("friction: a static axis has no motion to damp; give it mass and damping")
     return replace(
         axis,
         mass=inertia.mass,
@@ -154,8 +159,11 @@ def dampened(values: Values, axis: Axis) -> Axis:
     )
 
 
-def _bristles(values: Values, facts: Facts) -> tuple[float, ...]:
-    """Return the numbers of :func:`lugre`; σ₁ is the damping ratio of the mass on its bristles."""
+def _compute_bristle_numbers(values: Values, facts: AxisProperties) -> tuple[float, ...]:
+    """Return p of :func:`compute_lugre_force`.
+
+    σ₁ is set by the damping ratio of the mass on its bristles.
+    """
     dry, deflection = values["coulomb"], values["deflection"]
     stiffness = dry / deflection
     damping = 2.0 * values["bristle_damping"] * sqrt(stiffness * facts.mass)
@@ -170,99 +178,118 @@ def _bristles(values: Values, facts: Facts) -> tuple[float, ...]:
     )
 
 
-def _springs(values: Values, facts: Facts) -> tuple[float, ...]:
-    """Give all springs one force; the i-th of n slips at the deflection ``L ((i + 1)/n)^s``."""
-    force = values["coulomb"] / SPRINGS
-    slips = [values["deflection"] * ((i + 1) / SPRINGS) ** values["shape"] for i in range(SPRINGS)]
+def _compute_spring_numbers(values: Values, facts: AxisProperties) -> tuple[float, ...]:
+    """Return p: equal forces; spring i of n slips at the deflection ``L ((i + 1)/n)^s``."""
+    force = values["coulomb"] / SPRING_COUNT
+    slips = [
+        values["deflection"] * ((i + 1) / SPRING_COUNT) ** values["shape"]
+        for i in range(SPRING_COUNT)
+    ]
     return force, values["backward"], values["viscous"], *(force / slip for slip in slips)
 
 
-def _inner_step(_values: Values, facts: Facts) -> float:
-    return _INNER_SHARE / facts.frequency_hz if facts.frequency_hz > 0.0 else _FREE_STEP_S
+def _compute_inner_step(_values: Values, facts: AxisProperties) -> float:
+    return (
+        _INNER_STEP_PERIODS / facts.frequency_hz if facts.frequency_hz > 0.0 else _FREE_AXIS_STEP_S
+    )
 
 
-def _bristle_step(values: Values, facts: Facts) -> float:
-    """Return a step that follows the axis on its bristles, if that asks for little more work."""
-    return _following(values["coulomb"] / values["deflection"], facts)
+def _compute_bristle_step(values: Values, facts: AxisProperties) -> float:
+    return _refine_step(values["coulomb"] / values["deflection"], facts)
 
 
-def _springs_step(values: Values, facts: Facts) -> float:
-    """Return a step that follows the axis on all its springs, if that asks for little more work."""
-    return _following(sum(_springs(values, facts)[3:]), facts)
+def _compute_springs_step(values: Values, facts: AxisProperties) -> float:
+    return _refine_step(sum(_compute_spring_numbers(values, facts)[3:]), facts)
 
 
-def _following(stiffness: float, facts: Facts) -> float:
-    longest = _inner_step({}, facts)
+def _refine_step(stiffness: float, facts: AxisProperties) -> float:
+    longest_step_s = _compute_inner_step({}, facts)
     rate = sqrt(stiffness / facts.mass)
     period = 2.0 * pi / rate if rate > 0.0 else inf
-    return min(longest, max(_BRISTLE_SHARE * period, longest / _FINER))
+    return min(
+        longest_step_s, max(_BRISTLE_STEP_PERIODS * period, longest_step_s / _MAX_REFINEMENT_RATIO)
+    )
 
 
-def _dry(name: str, meaning: str) -> Parameter:
-    return Parameter(name, meaning, "N", 0.0, 100.0, 0.05, per="force")
+def _make_dry(name: str, meaning: str) -> EffectParameter:
+    return EffectParameter(name, meaning, "N", 0.0, 100.0, 0.05, per="force")
 
 
-def _viscous(name: str, meaning: str) -> Parameter:
-    """Return a viscous friction that may remove the model's own, on a free axis."""
-    return Parameter(name, meaning, "N s/q", 0.0, inf, 0.0, spare="free_damping")
+def _make_viscous(name: str, meaning: str) -> EffectParameter:
+    """Return a viscous friction parameter; if negative, it reduces the damping of a free axis."""
+    return EffectParameter(name, meaning, "N s/q", 0.0, inf, 0.0, spare="free_damping")
 
 
-_STATIC_RATIO = Parameter("static_ratio", "ratio of static to dry friction", "", 1.0, 3.0, 1.0)
-_STRIBECK = Parameter("stribeck_speed", "speed where static friction fades", "q/s", 1e-6, 1.0, 1e-3)
+_STATIC_RATIO = EffectParameter(
+    "static_ratio", "ratio of static to dry friction", "", 1.0, 3.0, 1.0
+)
+_STRIBECK = EffectParameter(
+    "stribeck_speed", "speed where static friction fades", "q/s", 1e-6, 1.0, 1e-3
+)
 
-_LADDER = (0.3, 3.0, 20.0)  # presets
-_DEFLECTIONS = (0.3, 2.0)
+# Multiples of the preset from which a fit starts.
+_FORCE_FACTORS = (0.3, 3.0, 20.0)
+_DEFLECTION_FACTORS = (0.3, 2.0)
 
 
-def _slips(view: View) -> Iterator[Values]:
-    dry = next(name for name in ("coulomb", "coulomb_forward", "viscous") if name in view.values)
-    for share in (1.0,) if dry == "viscous" else _LADDER:
-        start = {dry: view.values[dry] * share}
+def _start_from_sizes(view: FitView) -> Iterator[Values]:
+    friction_name = next(
+        name for name in ("coulomb", "coulomb_forward", "viscous") if name in view.values
+    )
+    for factor in (1.0,) if friction_name == "viscous" else _FORCE_FACTORS:
+        start = {friction_name: view.values[friction_name] * factor}
         if "shape" not in view.values:
             yield start
             continue
-        for times in _DEFLECTIONS:
-            yield {**start, "deflection": view.values["deflection"] * times}
+        for deflection_factor in _DEFLECTION_FACTORS:
+            yield {**start, "deflection": view.values["deflection"] * deflection_factor}
 
 
-def _damping(facts: Facts) -> Retuning | None:
-    """Return that the damping of a free, force-driven axis is viscous friction."""
-    free = facts.kind == "force" and facts.mass > 0.0 and facts.stiffness == 0.0
-    return Retuning("viscous", {"viscous": 0.0}) if free else None
+def _find_retuning(facts: AxisProperties) -> RetunedParameters | None:
+    """Return the re-tuned viscous friction of a free, force-driven axis.
+
+    The damping of its model is the same parameter.
+    """
+    is_free = facts.kind == "force" and facts.mass > 0.0 and facts.stiffness == 0.0
+    return RetunedParameters("viscous", {"viscous": 0.0}) if is_free else None
 
 
 FRICTION = Effect(
     id="friction",
     title="Friction",
     summary="Spikes at reversals, stick-slip at low speed; damps ringing.",
-    stage=Stage.MECHANICS,
+    stage=EffectStage.MECHANICS,
     kinds=frozenset({"stepper", "force"}),
-    identification=Identification(starts=_slips, retunes=_damping, scout="springs"),
-    kinship=Kinship(family=Family.LOST_MOTION, brings_along={Family.RESONANCE: 0.25}),
+    identification=IdentificationHints(
+        starts=_start_from_sizes, retunes=_find_retuning, scout="springs"
+    ),
+    kinship=EffectRelations(
+        family=EffectFamily.LOST_MOTION, brings_along={EffectFamily.RESONANCE: 0.25}
+    ),
     formulations=(
         Formulation(
             name="stribeck",
             equation="f = −(Fc + (Fs − Fc) exp(−(v/vs)²)) sign v − D v, each by direction",
             source="Armstrong-Hélouvry, Dupont, Canudas de Wit, Automatica 30 (1994) 1083–1138",
             parameters=(
-                _dry("coulomb_forward", "dry friction forward"),
-                _dry("coulomb_backward", "dry friction backward"),
+                _make_dry("coulomb_forward", "dry friction forward"),
+                _make_dry("coulomb_backward", "dry friction backward"),
                 _STATIC_RATIO,
                 _STRIBECK,
-                _viscous("viscous_forward", "viscous friction forward"),
-                _viscous("viscous_backward", "viscous friction backward"),
+                _make_viscous("viscous_forward", "viscous friction forward"),
+                _make_viscous("viscous_backward", "viscous friction backward"),
             ),
-            acts=Force(step=coulomb),
-            inner_step_s=_inner_step,
-            traits=frozenset({Trait.DISSIPATIVE}),
+            acts=ForceFunction(step=compute_stribeck_force),
+            inner_step_s=_compute_inner_step,
+            traits=frozenset({EffectTrait.DISSIPATIVE}),
         ),
         Formulation(
             name="lugre",
             equation="f = −σ₀ z − σ₁ ż − D v, ż = v − σ₀ |v| z / (Fc + (Fs − Fc) exp(−(v/vs)²))",
             source="Canudas de Wit, Olsson, Åström, Lischinsky, IEEE TAC 40 (1995) 419–425",
             parameters=(
-                _dry("coulomb", "dry friction"),
-                Parameter(
+                _make_dry("coulomb", "dry friction"),
+                EffectParameter(
                     "deflection",
                     "Fc/σ₀, deflection of the bristles",
                     "q",
@@ -271,26 +298,28 @@ FRICTION = Effect(
                     1e-5,
                     per="span",
                 ),
-                Parameter("bristle_damping", "damping ratio of the bristles", "", 0.0, 2.0, 0.5),
+                EffectParameter(
+                    "bristle_damping", "damping ratio of the bristles", "", 0.0, 2.0, 0.5
+                ),
                 _STATIC_RATIO,
                 _STRIBECK,
-                _viscous("viscous", "viscous friction"),
+                _make_viscous("viscous", "viscous friction"),
             ),
-            acts=Force(step=lugre, states=1),
-            prepare=_bristles,
-            inner_step_s=_bristle_step,
-            traits=frozenset({Trait.DISSIPATIVE}),
+            acts=ForceFunction(step=compute_lugre_force, states=1),
+            prepare=_compute_bristle_numbers,
+            inner_step_s=_compute_bristle_step,
+            traits=frozenset({EffectTrait.DISSIPATIVE}),
         ),
         Formulation(
             name="springs",
             equation="f = −Σ kᵢ zᵢ − D v, |kᵢ zᵢ| ≤ Fc/n, slipping at L (i/n)^s, i = 1…n = 8",
             source="Iwan, J. Applied Mechanics 33 (1966) 893–900",
             parameters=(
-                _dry("coulomb", "dry friction forward"),
-                Parameter(
+                _make_dry("coulomb", "dry friction forward"),
+                EffectParameter(
                     "backward", "ratio of dry friction, backward to forward", "", 0.3, 3.0, 1.0
                 ),
-                Parameter(
+                EffectParameter(
                     "deflection",
                     "L, deflection where all springs slip",
                     "q",
@@ -299,21 +328,21 @@ FRICTION = Effect(
                     3e-5,
                     per="span",
                 ),
-                Parameter("shape", "s, 0: all springs slip together", "", 0.0, 4.0, 1.0),
-                _viscous("viscous", "viscous friction"),
+                EffectParameter("shape", "s, 0: all springs slip together", "", 0.0, 4.0, 1.0),
+                _make_viscous("viscous", "viscous friction"),
             ),
-            acts=Force(step=springs, states=SPRINGS),
-            prepare=_springs,
-            inner_step_s=_springs_step,
-            traits=frozenset({Trait.DISSIPATIVE}),
+            acts=ForceFunction(step=compute_springs_force, states=SPRING_COUNT),
+            prepare=_compute_spring_numbers,
+            inner_step_s=_compute_springs_step,
+            traits=frozenset({EffectTrait.DISSIPATIVE}),
         ),
         Formulation(
             name="viscous",
             equation="f = −D v, the damping of an axis that nothing holds being D too",
             source="Armstrong-Hélouvry, Dupont, Canudas de Wit, Automatica 30 (1994) 1083–1138",
-            parameters=(_viscous("viscous", "viscous friction"),),
-            acts=Change(change=dampened),
-            traits=frozenset({Trait.LINEAR, Trait.MEMORYLESS}),
+            parameters=(_make_viscous("viscous", "viscous friction"),),
+            acts=AxisChange(change=with_damping),
+            traits=frozenset({EffectTrait.LINEAR, EffectTrait.MEMORYLESS}),
             kinds=frozenset({"force"}),
         ),
     ),

@@ -1,147 +1,153 @@
 """Hysteresis of a piezo: rising and falling paths differ at any speed.
 
-The gain from end to end of the range stays 1 (approximately if the loop is bent, or ℓ is not short
-compared with the range), which separates hysteresis from a gain error. A run starts as after a
-first rise from the low end, where all operators are at rest.
+The gain from end to end of the range stays 1, which separates hysteresis from a gain error. (It is
+only approximately 1 if the loop is bent, or if ℓ is not short compared with the range.) A run
+starts as after a first rise from the low end, where all operators are at rest.
 """
 
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.effects.facts import Facts
+from rotemina.sim.effects.facts import AxisProperties
 from rotemina.sim.effects.formulation import (
-    Drive,
     Effect,
+    EffectParameter,
+    EffectStage,
+    EffectTrait,
     Formulation,
-    Parameter,
-    Stage,
-    Trait,
+    InputFunction,
     Values,
 )
-from rotemina.sim.effects.identification import Identification
-from rotemina.sim.effects.kinship import Family, Kinship
-from rotemina.sim.effects.starts import sizes
+from rotemina.sim.effects.identification import IdentificationHints
+from rotemina.sim.effects.kinship import EffectFamily, EffectRelations
+from rotemina.sim.effects.starts import start_from_sizes
 
-PLAYS = 10
-DEAD_ZONES = 8
-_SUBSTEP = 0.1  # of the length over which the Bouc–Wen loop bends
-_MOST_SUBSTEPS = 1000
-_SHORT = 0.003  # of that length: steps of which the midpoint rule leaves less than 1e-6 of it
+PLAY_COUNT = 10
+DEAD_ZONE_COUNT = 8
+# Substep of the integration, relative to the length ℓ over which the Bouc–Wen loop bends.
+_SUBSTEP_RATIO = 0.1
+_MAX_SUBSTEP_COUNT = 1000
+# Steps shorter than this, relative to ℓ, use the midpoint rule: its error is below 1e-6 of ℓ.
+_MAX_MIDPOINT_STEP_RATIO = 0.003
 
 
-def play_operators(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
-    """``y = w₀ x + Σ wᵢ Pᵢ(x)``; play ``Pᵢ = max(x − rᵢ, min(x + rᵢ, Pᵢ))``, from the low end.
+def apply_plays(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """Apply ``y = w₀ x + Σ wᵢ Pᵢ(x)``, ``Pᵢ = max(x − rᵢ, min(x + rᵢ, Pᵢ))``, from the low end.
 
     p: x₀, w₀, then r and w of each play.
     """
     x -= p[0]
     y = p[1] * x
-    for i in range(PLAYS):
+    for i in range(PLAY_COUNT):
         s[i] = max(x - p[2 + i], min(x + p[2 + i], s[i]))
-        y += p[2 + PLAYS + i] * s[i]
+        y += p[2 + PLAY_COUNT + i] * s[i]
     return p[0] + y
 
 
-def plays_and_dead_zones(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
-    """``y = v₀ z + v Σ max(z − dⱼ, 0)`` of z, the sum of :func:`play_operators`.
+def apply_plays_and_dead_zones(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """Apply ``y = v₀ z + v Σ max(z − dⱼ, 0)`` to z, the output of :func:`apply_plays`.
 
     p: as there, then v₀, v and the spacing of the dⱼ.
     """
     x -= p[0]
     z = p[1] * x
-    for i in range(PLAYS):
+    for i in range(PLAY_COUNT):
         s[i] = max(x - p[2 + i], min(x + p[2 + i], s[i]))
-        z += p[2 + PLAYS + i] * s[i]
-    y = p[2 + 2 * PLAYS] * z
-    for j in range(DEAD_ZONES):
-        y += p[3 + 2 * PLAYS] * max(z - p[4 + 2 * PLAYS] * j, 0.0)
+        z += p[2 + PLAY_COUNT + i] * s[i]
+    y = p[2 + 2 * PLAY_COUNT] * z
+    for j in range(DEAD_ZONE_COUNT):
+        y += p[3 + 2 * PLAY_COUNT] * max(z - p[4 + 2 * PLAY_COUNT] * j, 0.0)
     return p[0] + y
 
 
-def bouc_wen(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
-    """``y = k x − (W/2) ζ``, ``ℓ dζ = dx − |ζ|ⁿ (β |dx| sign ζ + (1 − β) dx)(1 + δ sign ζ)``.
+def apply_bouc_wen(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """Apply ``y = k x − (W/2) ζ``, ``ℓ dζ = dx − |ζ|ⁿ (β |dx| sign ζ + (1 − β) dx)(1 + δ sign ζ)``.
 
-    Integrated along x by the classical Runge–Kutta rule in steps that are short compared with ℓ; by
-    the midpoint rule, equally accurate, if they are very short.
+    The equation is integrated along x by the classical Runge–Kutta rule, in steps that are short
+    compared with ℓ. Very short steps use the midpoint rule, which is then equally accurate.
 
     p: x₀, k, W/2, ℓ, n, β, δ; s: ζ, x, from the low end.
     """
     x -= p[0]
-    way = (x - s[1]) / p[3]
-    if way != 0.0:
-        count = min(np.ceil(abs(way) / _SUBSTEP), _MOST_SUBSTEPS)
-        step, up = way / count, 1.0 if way > 0.0 else -1.0
-        left, zeta = count, s[0]
-        while left > 0.0:
+    distance = (x - s[1]) / p[3]
+    if distance != 0.0:
+        substep_count = min(np.ceil(abs(distance) / _SUBSTEP_RATIO), _MAX_SUBSTEP_COUNT)
+        step, direction = distance / substep_count, 1.0 if distance > 0.0 else -1.0
+        remaining_count, zeta = substep_count, s[0]
+        while remaining_count > 0.0:
             total, slope = 0.0, 0.0
             for k in range(4):
-                at = zeta + step * slope * (0.0 if k == 0 else (1.0 if k == 3 else 0.5))
-                side = 1.0 if at > 0.0 else -1.0
-                pull = abs(at) ** p[4] * (p[5] * side * up + 1.0 - p[5])
-                slope = 1.0 - pull * (1.0 + p[6] * side)
-                if k == 1 and abs(step) < _SHORT:
+                stage_zeta = zeta + step * slope * (0.0 if k == 0 else (1.0 if k == 3 else 0.5))
+                zeta_sign = 1.0 if stage_zeta > 0.0 else -1.0
+                slope_reduction = abs(stage_zeta) ** p[4] * (
+                    p[5] * zeta_sign * direction + 1.0 - p[5]
+                )
+                slope = 1.0 - slope_reduction * (1.0 + p[6] * zeta_sign)
+                if k == 1 and abs(step) < _MAX_MIDPOINT_STEP_RATIO:
                     total = 6.0 * slope
                     break
                 total += slope * (2.0 if k == 1 or k == 2 else 1.0)
             zeta += step * total / 6.0
-            left -= 1.0
+            remaining_count -= 1.0
         s[0], s[1] = zeta, x
     return p[0] + p[1] * x - p[2] * s[0]
 
 
-def _thresholds() -> FloatArray:
-    """Return the plays' thresholds over the range: evenly up to half of it."""
-    return 0.5 * (np.arange(PLAYS) + 0.5) / PLAYS
+def _compute_even_thresholds() -> FloatArray:
+    return 0.5 * (np.arange(PLAY_COUNT) + 0.5) / PLAY_COUNT
 
 
-def _fine_thresholds() -> FloatArray:
-    """Return thresholds over the range that lie closer where they are small.
+def _compute_fine_thresholds() -> FloatArray:
+    """Return thresholds over the range that lie closer together at small values.
 
-    A real loop leaves its turning points steeply, and most of its loops are small ones.
+    A real hysteresis curve leaves its turning points steeply, and most of its loops are small.
     """
-    return 0.5 * ((np.arange(PLAYS) + 0.5) / PLAYS) ** 2
+    return 0.5 * ((np.arange(PLAY_COUNT) + 0.5) / PLAY_COUNT) ** 2
 
 
-def _played(weights: FloatArray, thresholds: FloatArray, facts: Facts) -> tuple[float, ...]:
-    """Return the numbers of plays; w₀ such that the gain from end to end is 1.
+def _compute_play_numbers(
+    weights: FloatArray, thresholds: FloatArray, facts: AxisProperties
+) -> tuple[float, ...]:
+    """Return p of the plays, with w₀ such that the gain from end to end is 1.
 
-    There and back a play of threshold r moves by 2 r less than its input.
+    Over the range and back, a play of threshold r moves by 2 r less than its input.
     """
-    direct = 1.0 - float(np.sum(weights * (1.0 - 2.0 * thresholds)))
-    return (facts.low, direct, *(facts.span * thresholds), *weights)
+    direct_weight = 1.0 - float(np.sum(weights * (1.0 - 2.0 * thresholds)))
+    return (facts.low, direct_weight, *(facts.span * thresholds), *weights)
 
 
-def _spread(values: Values, facts: Facts) -> tuple[float, ...]:
-    """Shape the weights to the asked width.
+def _compute_shaped_numbers(values: Values, facts: AxisProperties) -> tuple[float, ...]:
+    """Return p, with the weights scaled to the width of the loop.
 
-    A loop from end to end is widest where it is half way. Over a range S, a play of threshold r is
-    ``min(2 r, S − 2 r)`` wide there, so the weights, growing as ``r^(shape − 1)``, are scaled for
-    ``width = Σ wᵢ min(2 rᵢ, S − 2 rᵢ)``.
+    A loop from end to end is widest half way. Over a range S, a play of threshold r is
+    ``min(2 r, S − 2 r)`` wide there. The weights, which grow as ``r^(shape − 1)``, are scaled so
+    that ``width = Σ wᵢ min(2 rᵢ, S − 2 rᵢ)``.
     """
-    thresholds = _thresholds()
+    thresholds = _compute_even_thresholds()
     weights = thresholds ** (values["shape"] - 1.0)
     widths = np.minimum(2.0 * thresholds, 1.0 - 2.0 * thresholds)
     weights *= values["width"] / facts.span / float(np.sum(weights * widths))
-    return _played(weights, thresholds, facts)
+    return _compute_play_numbers(weights, thresholds, facts)
 
 
-def _single(values: Values, facts: Facts) -> tuple[float, ...]:
-    weights = np.array([values[f"weight_{i + 1}"] for i in range(PLAYS)])
-    return _played(weights, _fine_thresholds(), facts)
+def _compute_ten_play_numbers(values: Values, facts: AxisProperties) -> tuple[float, ...]:
+    weights = np.array([values[f"weight_{i + 1}"] for i in range(PLAY_COUNT)])
+    return _compute_play_numbers(weights, _compute_fine_thresholds(), facts)
 
 
-def _bent(values: Values, facts: Facts) -> tuple[float, ...]:
-    """Add the dead zones: slopes from ``1 − α/2`` at the low end to ``1 + α/2`` at the high one.
+def _compute_dead_zone_numbers(values: Values, facts: AxisProperties) -> tuple[float, ...]:
+    """Return p with the dead zones.
 
-    The first dead zone starts at the low end and acts only above it.
+    The slope rises from ``1 − α/2`` at the low end to ``1 + α/2`` at the high end. The first dead
+    zone starts at the low end and acts only above it.
     """
-    spacing = 1.0 / DEAD_ZONES
-    more = values["asymmetry"] / (DEAD_ZONES - 1)
-    gained = more * float(np.sum(1.0 - spacing * np.arange(DEAD_ZONES)))
-    return (*_spread(values, facts), 1.0 - gained, more, facts.span * spacing)
+    spacing = 1.0 / DEAD_ZONE_COUNT
+    slope = values["asymmetry"] / (DEAD_ZONE_COUNT - 1)
+    added_gain = slope * float(np.sum(1.0 - spacing * np.arange(DEAD_ZONE_COUNT)))
+    return (*_compute_shaped_numbers(values, facts), 1.0 - added_gain, slope, facts.span * spacing)
 
 
-def _wound(values: Values, facts: Facts) -> tuple[float, ...]:
+def _compute_bouc_wen_numbers(values: Values, facts: AxisProperties) -> tuple[float, ...]:
     width = values["width"]
     gain = 1.0 + width / facts.span
     return (
@@ -155,23 +161,25 @@ def _wound(values: Values, facts: Facts) -> tuple[float, ...]:
     )
 
 
-WIDTH = Parameter("width", "width of the loop from end to end", "q", 0.0, 0.5, 0.1, per="span")
-SHAPE = Parameter(
+WIDTH = EffectParameter(
+    "width", "width of the loop from end to end", "q", 0.0, 0.5, 0.1, per="span"
+)
+SHAPE = EffectParameter(
     "shape", "1: equal weights of all plays; more: larger weights of wide plays", "", 0.5, 4.0, 1.0
 )
-_TRAITS = frozenset({Trait.RATE_INDEPENDENT, Trait.DISSIPATIVE})
+_TRAITS = frozenset({EffectTrait.RATE_INDEPENDENT, EffectTrait.DISSIPATIVE})
 
 HYSTERESIS = Effect(
     id="hysteresis",
     title="Hysteresis",
     summary="Loops whose width grows faster than their amplitude, at any speed; odd distortion.",
-    stage=Stage.ACTUATOR,
+    stage=EffectStage.ACTUATOR,
     kinds=frozenset({"piezo"}),
-    identification=Identification(starts=sizes(width=(0.3, 1.0))),
-    kinship=Kinship(
-        family=Family.LOOP,
-        brings_along={Family.GAIN: 1.0, Family.CURVE: 0.1},
-        accompanied_by=Family.CREEP,
+    identification=IdentificationHints(starts=start_from_sizes(width=(0.3, 1.0))),
+    kinship=EffectRelations(
+        family=EffectFamily.LOOP,
+        brings_along={EffectFamily.GAIN: 1.0, EffectFamily.CURVE: 0.1},
+        accompanied_by=EffectFamily.CREEP,
         narrow=frozenset({"bouc_wen"}),
     ),
     formulations=(
@@ -180,8 +188,8 @@ HYSTERESIS = Effect(
             equation="y = w₀ x + Σ wᵢ Pᵢ(x), Pᵢ = max(x − rᵢ, min(x + rᵢ, Pᵢ)), i = 1…10",
             source="Kuhnen, European Journal of Control 9 (2003) 407–418",
             parameters=(WIDTH, SHAPE),
-            acts=Drive(step=play_operators, states=PLAYS),
-            prepare=_spread,
+            acts=InputFunction(step=apply_plays, states=PLAY_COUNT),
+            prepare=_compute_shaped_numbers,
             traits=_TRAITS,
         ),
         Formulation(
@@ -192,10 +200,12 @@ HYSTERESIS = Effect(
             parameters=(
                 WIDTH,
                 SHAPE,
-                Parameter("asymmetry", "growth of the slope from end to end", "", -1.0, 1.0, 0.2),
+                EffectParameter(
+                    "asymmetry", "growth of the slope from end to end", "", -1.0, 1.0, 0.2
+                ),
             ),
-            acts=Drive(step=plays_and_dead_zones, states=PLAYS),
-            prepare=_bent,
+            acts=InputFunction(step=apply_plays_and_dead_zones, states=PLAY_COUNT),
+            prepare=_compute_dead_zone_numbers,
             traits=_TRAITS,
         ),
         Formulation(
@@ -204,7 +214,7 @@ HYSTERESIS = Effect(
             "ℓ dζ = dx − |ζ|ⁿ (β |dx| sign ζ + (1 − β) dx)(1 + δ sign ζ)",
             source="Song and Der Kiureghian, Journal of Engineering Mechanics 132 (2006) 610–618",
             parameters=(
-                Parameter(
+                EffectParameter(
                     "width",
                     "W, width of a loop that is long compared with ℓ",
                     "q",
@@ -213,17 +223,19 @@ HYSTERESIS = Effect(
                     0.1,
                     per="span",
                 ),
-                Parameter(
+                EffectParameter(
                     "reach", "ℓ, length over which the loop bends", "q", 0.03, 2.0, 0.25, per="span"
                 ),
-                Parameter("sharpness", "n", "", 1.0, 6.0, 1.0),
-                Parameter("winding", "β; 1/2: straight line after a reversal", "", 0.5, 1.5, 1.0),
-                Parameter(
+                EffectParameter("sharpness", "n", "", 1.0, 6.0, 1.0),
+                EffectParameter(
+                    "winding", "β; 1/2: straight line after a reversal", "", 0.5, 1.5, 1.0
+                ),
+                EffectParameter(
                     "asymmetry", "δ, asymmetry of the way up and the way down", "", -0.8, 0.8, 0.1
                 ),
             ),
-            acts=Drive(step=bouc_wen, states=2),
-            prepare=_wound,
+            acts=InputFunction(step=apply_bouc_wen, states=2),
+            prepare=_compute_bouc_wen_numbers,
             traits=_TRAITS,
         ),
         Formulation(
@@ -231,7 +243,7 @@ HYSTERESIS = Effect(
             equation="y = w₀ x + Σ wᵢ Pᵢ(x), every wᵢ by itself, rᵢ = ((i − ½)/10)²/2 of the range",
             source="Kuhnen, European Journal of Control 9 (2003) 407–418",
             parameters=tuple(
-                Parameter(
+                EffectParameter(
                     f"weight_{i}",
                     f"w{i}, weight of the play with threshold {((i - 0.5) / 10) ** 2 / 2:g}",
                     "",
@@ -239,10 +251,10 @@ HYSTERESIS = Effect(
                     2.0,
                     0.04,
                 )
-                for i in range(1, PLAYS + 1)
+                for i in range(1, PLAY_COUNT + 1)
             ),
-            acts=Drive(step=play_operators, states=PLAYS),
-            prepare=_single,
+            acts=InputFunction(step=apply_plays, states=PLAY_COUNT),
+            prepare=_compute_ten_play_numbers,
             traits=_TRAITS,
         ),
     ),

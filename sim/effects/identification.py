@@ -1,25 +1,26 @@
-"""Information that a fit needs to find an effect in records, besides its equations.
+"""Information that a fit needs, in addition to the equations, to find an effect in records.
 
-Each effect itself provides the start of a fit, the domain of its parameters, and the parameters of
-a single record, so effects of plugins are found like built-in ones.
+Each effect itself provides the start of a fit, the domain of its parameters, and the parameters
+that differ from record to record. Effects of plugins are therefore found like built-in ones.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.effects.facts import Facts
-from rotemina.sim.records.record import Tap
+from rotemina.sim.compatibility import FormerMember, serve_former_names
+from rotemina.sim.effects.facts import AxisProperties
+from rotemina.sim.records import Tap
 
 Values = Mapping[str, float]
 Signals = Mapping[Tap, FloatArray]
 Interval = tuple[float, float]
 
 
-class Sign(StrEnum):
-    """The trace of an effect that only chance or time determines, and no command predicts."""
+class EffectSignature(StrEnum):
+    """Trace in records of an effect that depends on chance or time, not on a command."""
 
     JUMPS = "jumps"
     TONES = "tones"
@@ -29,19 +30,19 @@ class Sign(StrEnum):
     WANDER = "wander"
 
 
-class Extent(NamedTuple):
-    """What records cover: the least and the greatest command, m or rad; the longest's time."""
+class RecordCoverage(NamedTuple):
+    """Span of a set of records: smallest and largest command, m or rad; longest duration."""
 
     reach: Interval
     longest_s: float
 
 
-class Seen(NamedTuple):
-    """The part of one record that concerns an axis, SI.
+class AxisRecord(NamedTuple):
+    """Signals of one record that concern an axis, SI.
 
-    ``command`` (n,); ``source`` (n,): command of the axis in which an effect originates, if
-    recorded; ``real`` (n,) by tap: measurement; ``floor``: its noise; ``left`` (n,) by tap: present
-    remainder of the model, over the floor.
+    ``command`` (n,); ``source`` (n,): command of the axis in which the effect originates, if
+    recorded; ``real`` (n,) by tap: measurement; ``floor`` by tap: its noise floor; ``remainder``
+    (n,) by tap: current remainder of the model, divided by the noise floor.
     """
 
     time_s: FloatArray
@@ -49,128 +50,131 @@ class Seen(NamedTuple):
     source: FloatArray | None
     real: Signals
     floor: Mapping[Tap, float]
-    left: Signals
+    remainder: Signals
 
 
-class View(Protocol):
-    """The data for the start of a fit: records, and the present remainders of the model.
+class FitView(Protocol):
+    """Records and current remainders of the model, from which a fit starts.
 
-    It is made for one formulation of an effect: ``values`` are its parameters, presets included,
-    and ``given`` tells whether any came from another, fitted formulation.
+    A view is made for one formulation of an effect. ``values`` are its parameters, presets
+    included. ``starts_from_other_fit`` tells whether any of them come from the fit of another
+    formulation.
     """
 
     @property
-    def facts(self) -> Facts:
-        """The axis."""
+    def facts(self) -> AxisProperties:
+        """Properties of the axis."""
 
     @property
     def values(self) -> Values:
         """All parameters, SI."""
 
     @property
-    def given(self) -> bool:
-        """Whether the parameters are those of another formulation as fitted."""
+    def starts_from_other_fit(self) -> bool:
+        """Whether parameters come from the fit of another formulation."""
 
     @property
-    def extent(self) -> Extent:
-        """What the records cover."""
+    def extent(self) -> RecordCoverage:
+        """Range of commands and time that the records cover."""
 
     @property
-    def records(self) -> Sequence[Seen]:
+    def records(self) -> Sequence[AxisRecord]:
         """The records."""
 
     @property
     def answers(self) -> Sequence[Signals]:
-        """The model's answer for each record (n,), SI; runs a simulation."""
+        """The model's response (n,) to each record, SI; this runs a simulation."""
 
     @property
-    def unbent(self) -> tuple[Sequence[Signals], Sequence[Signals]]:
-        """Answers and remainders, by record, with the model's original own parameters."""
+    def untuned(self) -> tuple[Sequence[Signals], Sequence[Signals]]:
+        """Responses and remainders, by record, with the model's original parameters."""
 
     def bounds(self, name: str) -> Interval:
         """Return the bounds of a parameter on this axis, SI."""
 
     def domain(self, name: str) -> Interval:
-        """Return how far a fit to these records may take a parameter, SI."""
+        """Return the range in which a fit to these records may vary a parameter, SI."""
 
     def periods(self, bounds: Interval) -> Sequence[float]:
-        """Return periods over position of the strongest lines of the remainder, m or rad."""
+        """Return the position periods, m or rad, of the strongest lines of the remainder."""
 
     def frequency(self, bounds: Interval) -> float | None:
-        """Return the frequency of the strongest line over time of the remainder, Hz."""
+        """Return the frequency, Hz, of the strongest line in time of the remainder."""
 
     def grid(
         self, bounds: Interval, origin: float, gain: float, *, at_input: bool
     ) -> Values | None:
-        """Return ``step`` and ``shift`` of the teeth in the remainder, if there are any.
+        """Return ``step`` and ``shift`` of the quantization grid in the remainder, if any.
 
-        They are ``at_input``, over the command, or in the reading. ``bounds`` of their width and
-        their ``origin`` are in m or rad; ``gain`` converts the step's own unit.
+        The grid lies over the command (``at_input``) or in the reading. ``bounds`` of its step and
+        its ``origin`` are in m or rad; ``gain`` converts to the unit of ``step``.
         """
 
 
-Starts = Callable[[View], Iterable[Values]]
-Domain = Interval | Callable[[Values, Facts, Interval, Extent], Interval]
+Starts = Callable[[FitView], Iterable[Values]]
+Domain = Interval | Callable[[Values, AxisProperties, Interval, RecordCoverage], Interval]
 
 
-def presets(_view: View) -> Iterator[Values]:
-    """Begin with the presets."""
+def start_from_presets(_view: FitView) -> Iterator[Values]:
+    """Yield the presets as the only start."""
     yield {}
 
 
 @dataclass(frozen=True, slots=True)
-class Retuning:
-    """The model's own parameters that a formulation re-tunes, as the model has them."""
+class RetunedParameters:
+    """Parameters of the model that a formulation re-tunes, with their values in the model."""
 
     formulation: str | None
     values: Values
 
 
-def nothing_own(_facts: Facts) -> Retuning | None:
-    """Return that an effect re-tunes no parameter of the model."""
+def retune_nothing(_facts: AxisProperties) -> RetunedParameters | None:
+    """Return None: the effect re-tunes no parameter of the model."""
     return None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Identification:
-    """How an effect is found in records.
+class IdentificationHints:
+    """Hints for finding an effect in records.
 
     Attributes
     ----------
     starts : callable
-        Gives parameters, SI, from which a fit is tried; those left out have their preset.
+        Yields parameters, SI, from which a fit is tried. Omitted parameters have their presets.
     domain : mapping
-        By parameter how far a fit may take it, SI, where its bounds are not the answer: an
-        interval, or a function of values, facts, bounds and what the records cover.
+        Range in which a fit may vary a parameter, SI, by parameter name, if it differs from the
+        bounds: an interval, or a function of values, axis properties, bounds and record coverage.
     retunes : callable
-        Tells, on an axis, which of the model's own numbers the effect changes: it is fitted beside
-        every other one then, and counts as a cause only by what it closes itself.
+        Returns the parameters of the model itself that the effect changes on an axis. The effect is
+        then fitted together with every other effect, and counts as a cause only for the part of the
+        gap that it alone closes.
     stepped : bool
-        Whether it acts by jumps on a grid: slopes over its parameters tell nothing beside others.
+        Whether the effect acts by jumps on a grid. Derivatives with respect to its parameters are
+        then useless in a joint fit.
     of_the_record : frozenset of str
-        Parameters that each record has for itself, as the phase of what is fixed in time.
+        Parameters that differ from record to record, such as the phase of an effect fixed in time.
     moved : callable, optional
-        Of what is locked to the position: makes of parameters those of a record that counts its
-        place from elsewhere, by so much less, m or rad.
-    shows_as : Sign, optional
-        How it is found where it does not follow from commands.
+        For effects locked to the position: converts parameters to a record whose position is
+        smaller by the given offset, m or rad.
+    shows_as : EffectSignature, optional
+        The trace by which the effect is found if it does not follow from commands.
     fitted : bool
-        Whether it can be fitted to a response, and not only be found by its sign.
+        Whether the effect can be fitted to a response; otherwise only its trace can be found.
     scout : str, optional
-        The formulation that is examined first where none is quick to simulate.
+        The formulation that is examined first if none is quick to simulate.
     from_other : callable, optional
-        Makes parameters of another formulation, as fitted, those from which this one begins.
+        Converts the fitted parameters of another formulation to the start of this one.
     lateness_s : callable, optional
-        How late it makes a signal, s, by its parameters.
+        Returns the delay that the effect adds to a signal, s, from its parameters.
     """
 
-    starts: Starts = presets
+    starts: Starts = start_from_presets
     domain: Mapping[str, Domain] = field(default_factory=dict)
-    retunes: Callable[[Facts], Retuning | None] = nothing_own
+    retunes: Callable[[AxisProperties], RetunedParameters | None] = retune_nothing
     stepped: bool = False
     of_the_record: frozenset[str] = frozenset()
     moved: Callable[[Values, float], Values] | None = None
-    shows_as: Sign | None = None
+    shows_as: EffectSignature | None = None
     fitted: bool = True
     scout: str | None = None
     from_other: Callable[[Values], Values] | None = None
@@ -178,5 +182,20 @@ class Identification:
 
     @property
     def is_retuning(self) -> bool:
-        """Whether the effect changes numbers that the model has itself."""
-        return self.retunes is not nothing_own
+        """Whether the effect changes parameters that the model itself has."""
+        return self.retunes is not retune_nothing
+
+
+if not TYPE_CHECKING:
+    AxisRecord.left = FormerMember("remainder")
+    __getattr__ = serve_former_names(
+        __name__,
+        Extent="RecordCoverage",
+        Identification="IdentificationHints",
+        Retuning="RetunedParameters",
+        Seen="AxisRecord",
+        Sign="EffectSignature",
+        View="FitView",
+        nothing_own="retune_nothing",
+        presets="start_from_presets",
+    )

@@ -1,14 +1,17 @@
-"""Properties of an effect for the rules that decide between effects: family and companions.
+"""Relations of an effect to others, for the rules that decide between effects.
 
-An effect without these properties is fitted and compared like any other.
+An effect without these relations is fitted and compared like any other.
 """
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
+from typing import TYPE_CHECKING
+
+from rotemina.sim.compatibility import serve_former_names
 
 
-class Family(StrEnum):
+class EffectFamily(StrEnum):
     """Family of effects that change a signal in a similar way, anywhere in the chain."""
 
     GAIN = "gain"
@@ -24,28 +27,38 @@ class Family(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Kinship:
-    """How an effect relates to others.
+class EffectRelations:
+    """Relations of an effect to other effects.
 
     Attributes
     ----------
-    family : Family, optional
+    family : EffectFamily, optional
     prior : float
-        How often it is met, beside others whose prior is 1.
-    brings_along : mapping of Family to float
-        What moves along with it on the same axis, with the share of the gap's power that this must
-        close to be a cause of its own; 1: it never is.
-    accompanied_by : Family, optional
-        What comes with it by its nature, however little that closes beside it.
-    imitated_by : frozenset of Family
-        What a slow formulation of it may be taken for, as that bends to anything.
+        How often the effect occurs, relative to effects whose prior is 1.
+    brings_along : mapping of EffectFamily to float
+        Families whose effects usually appear with this one on the same axis. The number is the
+        share of the gap's power that such an effect must close to count as a separate cause; with 1
+        it never does.
+    accompanied_by : EffectFamily, optional
+        A family that always appears with this effect, even if it closes very little of the gap.
+    imitated_by : frozenset of EffectFamily
+        Families that can imitate a slow formulation of this effect, because their curves fit
+        almost any shape.
     narrow : frozenset of str
-        Formulations that hardly hold beyond the swings that they were fitted to.
+        Formulations that are hardly valid beyond the amplitudes to which they were fitted.
     """
 
-    family: Family | None = None
+    family: EffectFamily | None = None
     prior: float = 1.0
-    brings_along: Mapping[Family, float] = field(default_factory=dict)
-    accompanied_by: Family | None = None
-    imitated_by: frozenset[Family] = frozenset()
+    brings_along: Mapping[EffectFamily, float] = field(default_factory=dict)
+    accompanied_by: EffectFamily | None = None
+    imitated_by: frozenset[EffectFamily] = frozenset()
     narrow: frozenset[str] = frozenset()
+
+
+if not TYPE_CHECKING:
+    __getattr__ = serve_former_names(
+        __name__,
+        Family="EffectFamily",
+        Kinship="EffectRelations",
+    )

@@ -1,68 +1,78 @@
-"""Error of the lead screw: the table runs ahead and behind once a turn."""
+"""Error of the lead screw: the table runs ahead and lags behind once per turn."""
 
-from rotemina.sim.effects.facts import Facts
+from rotemina.sim.effects.facts import AxisProperties
 from rotemina.sim.effects.formulation import (
     Effect,
+    EffectParameter,
+    EffectStage,
+    EffectTrait,
     Formulation,
-    Motion,
-    Parameter,
-    Stage,
-    Trait,
+    PositionFunction,
 )
-from rotemina.sim.effects.harmonics import from_mid_range, moved, two_harmonics
-from rotemina.sim.effects.identification import Extent, Identification, Interval, Values
-from rotemina.sim.effects.kinship import Family, Kinship
-from rotemina.sim.effects.starts import periods
+from rotemina.sim.effects.harmonics import add_two_harmonics, compute_numbers, make_amplitude_shift
+from rotemina.sim.effects.identification import (
+    IdentificationHints,
+    Interval,
+    RecordCoverage,
+    Values,
+)
+from rotemina.sim.effects.kinship import EffectFamily, EffectRelations
+from rotemina.sim.effects.starts import start_from_periods
 
-_SLACK = 0.02  # of a period, by which it may differ from a turn or half of one
-_BETWEEN = 0.75  # of a turn, from which a period is a whole one's
+# Relative tolerance of a period of one turn or half a turn.
+_PERIOD_TOLERANCE_RATIO = 0.02
+# A longer period, in turns, is that of a whole turn; a shorter one is at most half a turn.
+_MIN_WHOLE_TURN_RATIO = 0.75
 
 
-def _amplitude(name: str, meaning: str, typical: float) -> Parameter:
-    return Parameter(name, meaning, "q", -0.02, 0.02, typical, per="pitch", linear=True)
+def _make_amplitude(name: str, meaning: str, typical: float) -> EffectParameter:
+    return EffectParameter(name, meaning, "q", -0.02, 0.02, typical, per="pitch", linear=True)
 
 
-def _of_a_turn(values: Values, facts: Facts, bounds: Interval, extent: Extent) -> Interval:
-    """Return periods near a turn, or of half of one at most, where a robot file names the pitch.
+def _limit_period(
+    values: Values, facts: AxisProperties, bounds: Interval, extent: RecordCoverage
+) -> Interval:
+    """Return periods near a turn, or up to half a turn, if a robot file declares the pitch.
 
-    What repeats otherwise along the way is not the screw's.
+    Any other error that is periodic in position does not come from the screw.
     """
     if not facts.has_pitch:
         return bounds
-    if values["period"] > _BETWEEN * facts.pitch:
-        return facts.pitch * (1.0 - _SLACK), facts.pitch * (1.0 + _SLACK)
-    return bounds[0], 0.5 * facts.pitch * (1.0 + _SLACK)
+    low_ratio, high_ratio = 1.0 - _PERIOD_TOLERANCE_RATIO, 1.0 + _PERIOD_TOLERANCE_RATIO
+    if values["period"] > _MIN_WHOLE_TURN_RATIO * facts.pitch:
+        return facts.pitch * low_ratio, facts.pitch * high_ratio
+    return bounds[0], 0.5 * facts.pitch * high_ratio
 
 
 LEADSCREW_ERROR = Effect(
     id="leadscrew_error",
     title="Lead screw error",
     summary="Periodic in position, once per turn: its frequency grows with speed.",
-    stage=Stage.MECHANICS,
+    stage=EffectStage.MECHANICS,
     kinds=frozenset({"stepper", "force"}),
-    identification=Identification(
-        starts=periods(1.0),
-        domain={"period": _of_a_turn},
-        moved=moved(("sine", "cosine"), ("sine_2", "cosine_2")),
+    identification=IdentificationHints(
+        starts=start_from_periods(1.0),
+        domain={"period": _limit_period},
+        moved=make_amplitude_shift(("sine", "cosine"), ("sine_2", "cosine_2")),
     ),
-    kinship=Kinship(family=Family.PERIOD),
+    kinship=EffectRelations(family=EffectFamily.PERIOD),
     formulations=(
         Formulation(
             name="harmonics",
             equation="y = x + s₁ sin α + c₁ cos α + s₂ sin 2α + c₂ cos 2α, α = 2π (x − xₘ)/P",
             source="ISO 3408-3 (2006): travel deviation within 2π rad",
             parameters=(
-                Parameter(
+                EffectParameter(
                     "period", "P, one turn or a fraction of it", "q", 0.05, 1.2, 1.0, per="pitch"
                 ),
-                _amplitude("sine", "s₁, counted from mid-range xₘ", 0.002),
-                _amplitude("cosine", "c₁", 0.0),
-                _amplitude("sine_2", "s₂, twice a period", 0.0),
-                _amplitude("cosine_2", "c₂, twice a period", 0.0),
+                _make_amplitude("sine", "s₁, counted from mid-range xₘ", 0.002),
+                _make_amplitude("cosine", "c₁", 0.0),
+                _make_amplitude("sine_2", "s₂, twice a period", 0.0),
+                _make_amplitude("cosine_2", "c₂, twice a period", 0.0),
             ),
-            acts=Motion(step=two_harmonics),
-            prepare=from_mid_range,
-            traits=frozenset({Trait.MEMORYLESS, Trait.RATE_INDEPENDENT}),
+            acts=PositionFunction(step=add_two_harmonics),
+            prepare=compute_numbers,
+            traits=frozenset({EffectTrait.MEMORYLESS, EffectTrait.RATE_INDEPENDENT}),
         ),
     ),
 )

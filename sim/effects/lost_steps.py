@@ -1,27 +1,30 @@
-"""Lost steps: an overloaded stepper falls into a later detent, four full steps off."""
+"""Lost steps: an overloaded stepper falls into a later detent, four full steps away."""
 
 import numpy as np
 
 from rotemina.sim.effects.formulation import (
-    Drive,
     Effect,
+    EffectParameter,
+    EffectStage,
+    EffectTrait,
     Formulation,
-    Parameter,
-    Stage,
-    Trait,
+    InputFunction,
 )
-from rotemina.sim.effects.identification import Identification, Sign
+from rotemina.sim.effects.identification import EffectSignature, IdentificationHints
 
-_STEPS = 4.0  # full steps of one electrical period
-_LONG_S = 1e8  # longer than any run: the way to the start
-_INNER_SHARE = 1.0 / 40.0  # of the axis' period: how finely the lag is watched
+# Full steps of one electrical period.
+_FULL_STEPS_PER_PERIOD = 4.0
+# An input held longer than any run lasts stands for the approach to the start of the run.
+_MIN_INITIAL_HOLD_S = 1e8
+# Inner step in periods of the axis, fine enough to follow the lag.
+_INNER_STEP_PERIODS = 1.0 / 40.0
 
 
-def overload(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
-    """``y = x + n P``: n moves towards the axis as soon as it is further than ``limit`` from y.
+def apply_overload(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """Apply ``y = x + n P``: n moves towards the axis when it is further than ``limit`` from y.
 
-    The field looks the same every P, so the axis settles in the detent that is nearest when it
-    tears off. p: limit, P; s: n.
+    The field repeats every P, so the axis settles in the detent that is nearest when it breaks
+    away. p: limit, P; s: n.
     """
     lag = x + s[0] * p[1] - other
     if h > 0.0 and abs(lag) > p[0]:
@@ -30,9 +33,12 @@ def overload(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # com
     return x + s[0] * p[1]
 
 
-def event(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
-    """``y = x + n P`` from t₁ on; the mean while h lasts, so smooth in t₁. p: t₁, n P."""
-    if h > _LONG_S or t + h < p[0]:
+def apply_event(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """Apply ``y = x + n P`` from t₁ on. p: t₁, n P.
+
+    The mean over the step is returned, so that the result is continuous in t₁.
+    """
+    if h > _MIN_INITIAL_HOLD_S or t + h < p[0]:
         return x
     if t >= p[0]:
         return x + p[1]
@@ -43,9 +49,9 @@ LOST_STEPS = Effect(
     id="lost_steps",
     title="Lost steps",
     summary="Permanent jumps by multiples of four full steps, at high load.",
-    stage=Stage.ACTUATOR,
+    stage=EffectStage.ACTUATOR,
     kinds=frozenset({"stepper"}),
-    identification=Identification(shows_as=Sign.JUMPS, fitted=False),
+    identification=IdentificationHints(shows_as=EffectSignature.JUMPS, fitted=False),
     formulations=(
         Formulation(
             name="overload",
@@ -53,7 +59,7 @@ LOST_STEPS = Effect(
             source="Kenjo and Sugawara, Stepping Motors and Their Microprocessor Controls, "
             "2nd ed. (1994), ch. 4: past two full steps the torque pulls to the next detent",
             parameters=(
-                Parameter(
+                EffectParameter(
                     "limit",
                     "limit of the lag behind the field",
                     "q",
@@ -63,17 +69,20 @@ LOST_STEPS = Effect(
                     per="full_step",
                 ),
             ),
-            acts=Drive(step=overload, states=1, timed=True),
-            prepare=lambda values, facts: (values["limit"], _STEPS * facts.full_step),
-            inner_step_s=lambda _, facts: _INNER_SHARE / facts.pace_hz,
+            acts=InputFunction(step=apply_overload, states=1, timed=True),
+            prepare=lambda values, facts: (
+                values["limit"],
+                _FULL_STEPS_PER_PERIOD * facts.full_step,
+            ),
+            inner_step_s=lambda _, facts: _INNER_STEP_PERIODS / facts.pace_hz,
         ),
         Formulation(
             name="event",
             equation="y = x + 4 n full steps from t₁ on",
             source="definition",
             parameters=(
-                Parameter("time", "t₁, from the start of the run", "s", 0.0, 1e6, 1.0),
-                Parameter(
+                EffectParameter("time", "t₁, from the start of the run", "s", 0.0, 1e6, 1.0),
+                EffectParameter(
                     "slips",
                     "n; an integer on a machine, any number here so that a fit can vary it",
                     "",
@@ -82,12 +91,12 @@ LOST_STEPS = Effect(
                     -1.0,
                 ),
             ),
-            acts=Drive(step=event),
+            acts=InputFunction(step=apply_event),
             prepare=lambda values, facts: (
                 values["time"],
-                _STEPS * facts.full_step * values["slips"],
+                _FULL_STEPS_PER_PERIOD * facts.full_step * values["slips"],
             ),
-            traits=frozenset({Trait.LOCKED_TO_TIME}),
+            traits=frozenset({EffectTrait.LOCKED_TO_TIME}),
         ),
     ),
 )

@@ -1,48 +1,48 @@
-"""Saturation: the output ends before the range of the input."""
+"""Saturation: the output is limited to less than the range of the input."""
 
 from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.effects.facts import Facts
+from rotemina.sim.effects.facts import AxisProperties
 from rotemina.sim.effects.formulation import (
-    Drive,
     Effect,
+    EffectParameter,
+    EffectStage,
+    EffectTrait,
     Formulation,
-    Parameter,
-    Stage,
-    Trait,
+    InputFunction,
     Values,
 )
-from rotemina.sim.effects.identification import Identification, View
-from rotemina.sim.effects.kinship import Family, Kinship
-from rotemina.sim.effects.soft_ends import bent_ends
-from rotemina.sim.records.record import Tap
+from rotemina.sim.effects.identification import FitView, IdentificationHints
+from rotemina.sim.effects.kinship import EffectFamily, EffectRelations
+from rotemina.sim.effects.soft_ends import fit_limits
+from rotemina.sim.records import Tap
 
 
-def hard(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
-    """``y = max(L, min(H, x))``. p: L, H."""
+def apply_hard_limits(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """Apply ``y = max(L, min(H, x))``. p: L, H."""
     return max(p[0], min(p[1], x))
 
 
-def soft(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
-    """``y = c + A v (1 + |v|ⁿ)^(−1/n)``, v = (x − c)/A, 1/n the softness; hard where that is 0.
+def apply_soft_limits(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """Apply ``y = c + A v (1 + |v|ⁿ)^(−1/n)``, v = (x − c)/A, 1/n the softness; hard if that is 0.
 
     p: L, H, 1/n, with c the middle and A half the length of L…H.
     """
     if p[2] <= 0.0:
         return max(p[0], min(p[1], x))
-    middle, half = 0.5 * (p[0] + p[1]), 0.5 * (p[1] - p[0])
-    v = (x - middle) / half
-    size = abs(v)
-    if size <= 1.0:
-        return middle + half * v * np.exp(-p[2] * np.log1p(size ** (1.0 / p[2])))
-    end = half * np.exp(-p[2] * np.log1p(size ** (-1.0 / p[2])))
-    return middle + end if v > 0.0 else middle - end
+    middle, half_range = 0.5 * (p[0] + p[1]), 0.5 * (p[1] - p[0])
+    v = (x - middle) / half_range
+    magnitude = abs(v)
+    if magnitude <= 1.0:
+        return middle + half_range * v * np.exp(-p[2] * np.log1p(magnitude ** (1.0 / p[2])))
+    distance = half_range * np.exp(-p[2] * np.log1p(magnitude ** (-1.0 / p[2])))
+    return middle + distance if v > 0.0 else middle - distance
 
 
-def _ends(values: Values, facts: Facts) -> tuple[float, ...]:
+def _compute_limits(values: Values, facts: AxisProperties) -> tuple[float, ...]:
     return (
         facts.input_low + values["low_margin"],
         facts.input_high - values["high_margin"],
@@ -50,96 +50,101 @@ def _ends(values: Values, facts: Facts) -> tuple[float, ...]:
     )
 
 
-def _margin(name: str, end: str) -> Parameter:
+def _make_margin(name: str, end: str) -> EffectParameter:
     meaning = f"distance of the output's limit from the {end} end of the input range"
-    return Parameter(name, meaning, "u", -0.5, 0.45, 0.05, per="input_span")
+    return EffectParameter(name, meaning, "u", -0.5, 0.45, 0.05, per="input_span")
 
 
-_MARGINS = (_margin("low_margin", "low"), _margin("high_margin", "high"))
-_TRAITS = frozenset({Trait.MEMORYLESS, Trait.RATE_INDEPENDENT})
+_MARGIN_PARAMETERS = (_make_margin("low_margin", "low"), _make_margin("high_margin", "high"))
+_TRAITS = frozenset({EffectTrait.MEMORYLESS, EffectTrait.RATE_INDEPENDENT})
 
-_BEYOND = (0.04, 0.15)  # of the way, which a saturated amplifier does not go
-_SOFT_ENDS = (0.0, 0.1)  # of the way that was seen, that a soft end lies beyond it
-_RARELY = 0.002  # of the rows
+# Parts of the travel that saturation may cut off.
+_MISSING_TRAVEL_RATIOS = (0.04, 0.15)
+# Distances of a soft limit from the end of the observed travel, relative to the travel.
+_SOFT_MARGIN_RATIOS = (0.0, 0.1)
+# Share of the rows that may be outliers.
+_OUTLIER_RATIO = 0.002
 
 
-def _margins(view: View) -> Iterator[Values]:
-    """Return limits of an amplifier, a little inside the requested range."""
-    facts, soft = view.facts, "softness" in view.values
-    seen = [one.real[Tap.U] for one in view.records if Tap.U in one.real]
-    if seen:
-        yield from _ends_seen(view, seen)
-    if facts.kind == "force":  # whose commands ask for no voltage
-        if not seen:
+def _start_from_margins(view: FitView) -> Iterator[Values]:
+    facts, is_soft = view.facts, "softness" in view.values
+    voltages = [record.real[Tap.U] for record in view.records if Tap.U in record.real]
+    if voltages:
+        yield from _start_from_voltages(view, voltages)
+    # The commands of a force axis request no voltage.
+    if facts.kind == "force":
+        if not voltages:
             yield {}
         return
     gain = facts.gain if facts.kind == "piezo" else 1.0
-    went = _way(view) / gain
-    for beyond in _SOFT_ENDS if soft else (0.0,):
-        further = beyond * float(np.ptp(went))
-        yield _between(facts, went[0] - further, went[1] + further)
-    least, most = (end / gain for end in view.extent.reach)
-    low, high = least - facts.input_low, facts.input_high - most
-    for share in _BEYOND:
-        beyond = share * (most - least)
-        yield {"low_margin": low + beyond, "high_margin": high + beyond}
-        yield {"low_margin": low - beyond, "high_margin": high + beyond}
-        yield {"low_margin": low + beyond, "high_margin": high - beyond}
+    travel = _find_travel(view) / gain
+    for ratio in _SOFT_MARGIN_RATIOS if is_soft else (0.0,):
+        margin = ratio * float(np.ptp(travel))
+        yield _make_margins(facts, travel[0] - margin, travel[1] + margin)
+    lowest, highest = (end / gain for end in view.extent.reach)
+    low, high = lowest - facts.input_low, facts.input_high - highest
+    for ratio in _MISSING_TRAVEL_RATIOS:
+        missing_travel = ratio * (highest - lowest)
+        yield {"low_margin": low + missing_travel, "high_margin": high + missing_travel}
+        yield {"low_margin": low - missing_travel, "high_margin": high + missing_travel}
+        yield {"low_margin": low + missing_travel, "high_margin": high - missing_travel}
 
 
-def _ends_seen(view: View, seen: Sequence[FloatArray]) -> Iterator[Values]:
-    """Give the ends of the voltages (n,) that were seen: what saturates goes no further."""
+def _start_from_voltages(view: FitView, voltages: Sequence[FloatArray]) -> Iterator[Values]:
+    """Yield limits at the ends of the measured voltages (n,), where a saturated output stops."""
     facts = view.facts
-    ends = min(float(u.min()) for u in seen), max(float(u.max()) for u in seen)
-    yield _between(facts, *ends)
+    ends = min(float(u.min()) for u in voltages), max(float(u.max()) for u in voltages)
+    yield _make_margins(facts, *ends)
     if facts.kind == "piezo" and "softness" in view.values:
-        # An end that these voltages do not come near may as well lie beyond the range.
-        asked = [
-            answer[Tap.U]
-            for record, answer in zip(view.records, view.answers, strict=True)
+        # If the voltages do not come near a limit, it may also lie outside the range.
+        requested_voltages = [
+            response[Tap.U]
+            for record, response in zip(view.records, view.answers, strict=True)
             if Tap.U in record.real
         ]
-        bend = bent_ends(np.concatenate(asked), np.concatenate(seen), ends)
-        for one in (
-            bend,
-            bend.without_low(facts.input_low),
-            bend.without_high(facts.input_high),
+        limits = fit_limits(np.concatenate(requested_voltages), np.concatenate(voltages), ends)
+        for variant in (
+            limits,
+            limits.without_low(facts.input_low),
+            limits.without_high(facts.input_high),
         ):
-            yield {**_between(facts, one.low, one.high), "softness": one.softness}
+            yield {**_make_margins(facts, variant.low, variant.high), "softness": variant.softness}
 
 
-def _between(facts: Facts, low: float, high: float) -> dict[str, float]:
+def _make_margins(facts: AxisProperties, low: float, high: float) -> dict[str, float]:
     return {"low_margin": low - facts.input_low, "high_margin": facts.input_high - high}
 
 
-def _way(view: View) -> FloatArray:
-    """Return where (2,) the axis was at least and at most, m or rad, but for outliers."""
-    seen = [
-        next(signal for tap, signal in one.real.items() if tap is not Tap.U)
-        for one in view.records
-        if set(one.real) - {Tap.U}
+def _find_travel(view: FitView) -> FloatArray:
+    """Return the smallest and largest position (2,) of the axis, m or rad, without outliers."""
+    positions = [
+        next(signal for tap, signal in record.real.items() if tap is not Tap.U)
+        for record in view.records
+        if set(record.real) - {Tap.U}
     ]
-    if not seen:
+    if not positions:
         return np.asarray(view.extent.reach)
-    return np.asarray(np.quantile(np.concatenate(seen), (_RARELY, 1.0 - _RARELY)))
+    return np.asarray(
+        np.quantile(np.concatenate(positions), (_OUTLIER_RATIO, 1.0 - _OUTLIER_RATIO))
+    )
 
 
 SATURATION = Effect(
     id="saturation",
     title="Saturation",
     summary="The output cannot reach the command, only near the ends of the range.",
-    stage=Stage.ELECTRONICS,
+    stage=EffectStage.ELECTRONICS,
     kinds=frozenset({"piezo", "force"}),
-    identification=Identification(starts=_margins),
-    kinship=Kinship(family=Family.LIMIT),
+    identification=IdentificationHints(starts=_start_from_margins),
+    kinship=EffectRelations(family=EffectFamily.LIMIT),
     formulations=(
         Formulation(
             name="hard",
             equation="y = max(L, min(H, x)), L and H by a margin inside the input's range",
             source="Hu and Lin, Control Systems with Actuator Saturation (2001), ch. 1",
-            parameters=_MARGINS,
-            acts=Drive(step=hard),
-            prepare=_ends,
+            parameters=_MARGIN_PARAMETERS,
+            acts=InputFunction(step=apply_hard_limits),
+            prepare=_compute_limits,
             traits=_TRAITS,
         ),
         Formulation(
@@ -147,11 +152,11 @@ SATURATION = Effect(
             equation="y = c + A v (1 + |v|ⁿ)^(−1/n), v = (x − c)/A, c ± A = L, H",
             source="Rapp, 2nd European Conference on Satellite Communications (1991) 179–184",
             parameters=(
-                *_MARGINS,
-                Parameter("softness", "1/n; 0: hard", "", 0.0, 0.5, 0.08),
+                *_MARGIN_PARAMETERS,
+                EffectParameter("softness", "1/n; 0: hard", "", 0.0, 0.5, 0.08),
             ),
-            acts=Drive(step=soft),
-            prepare=_ends,
+            acts=InputFunction(step=apply_soft_limits),
+            prepare=_compute_limits,
             traits=_TRAITS,
         ),
     ),

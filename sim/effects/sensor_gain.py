@@ -1,19 +1,19 @@
-"""A sensor whose sensitivity differs from its data sheet."""
+"""Sensor whose sensitivity differs from its data sheet."""
 
 from rotemina.sim.effects.formulation import (
     EVERY_KIND,
     Effect,
+    EffectParameter,
+    EffectStage,
+    EffectTrait,
     Formulation,
-    Parameter,
-    Reading,
-    Stage,
-    Trait,
+    ReadingFunction,
 )
-from rotemina.sim.effects.kinship import Family, Kinship
+from rotemina.sim.effects.kinship import EffectFamily, EffectRelations
 
 
-def scaled(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
-    """``y = (1 + e) x``, about the sensor's own zero. p: e."""
+def scale_reading(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """Apply ``y = (1 + e) x``, about the sensor's own zero. p: e."""
     return x + p[0] * x
 
 
@@ -21,18 +21,23 @@ SENSOR_GAIN = Effect(
     id="sensor_gain",
     title="Sensor gain error",
     summary="The reading is off in proportion to the position; the motion is not.",
-    stage=Stage.SENSOR,
+    stage=EffectStage.SENSOR,
     kinds=EVERY_KIND,
-    kinship=Kinship(family=Family.GAIN, prior=0.5),
+    kinship=EffectRelations(family=EffectFamily.GAIN, prior=0.5),
     formulations=(
         Formulation(
             name="proportional",
             equation="y = (1 + e) q",
             source="Fleming, Sensors and Actuators A 190 (2013) 106–126",
-            parameters=(Parameter("error", "e, relative", "", -0.5, 0.5, 0.02),),
-            acts=Reading(step=scaled),
+            parameters=(EffectParameter("error", "e, relative", "", -0.5, 0.5, 0.02),),
+            acts=ReadingFunction(step=scale_reading),
             traits=frozenset(
-                {Trait.LINEAR, Trait.MEMORYLESS, Trait.RATE_INDEPENDENT, Trait.READING_ONLY}
+                {
+                    EffectTrait.LINEAR,
+                    EffectTrait.MEMORYLESS,
+                    EffectTrait.RATE_INDEPENDENT,
+                    EffectTrait.READING_ONLY,
+                }
             ),
         ),
     ),

@@ -1,19 +1,19 @@
-"""A sensor that is noisier than declared."""
+"""Sensor that is noisier than declared."""
 
 from rotemina.sim.effects.formulation import (
     EVERY_KIND,
     Effect,
+    EffectParameter,
+    EffectStage,
+    EffectTrait,
     Formulation,
-    Parameter,
-    Reading,
-    Stage,
-    Trait,
+    ReadingFunction,
 )
-from rotemina.sim.effects.identification import Identification, Sign
+from rotemina.sim.effects.identification import EffectSignature, IdentificationHints
 
 
-def noisy(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
-    """``y = x + σ a``. p: σ."""
+def add_white_noise(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """Apply ``y = x + σ a``. p: σ."""
     return x + p[0] * a
 
 
@@ -21,16 +21,16 @@ SENSOR_NOISE = Effect(
     id="sensor_noise",
     title="Sensor noise",
     summary="White noise of the reading above the declared level, without memory.",
-    stage=Stage.SENSOR,
+    stage=EffectStage.SENSOR,
     kinds=EVERY_KIND,
-    identification=Identification(shows_as=Sign.NOISE),
+    identification=IdentificationHints(shows_as=EffectSignature.NOISE),
     formulations=(
         Formulation(
             name="white",
             equation="y = q + σ n, n independent and standard normal at each sample",
             source="Fleming, Sensors and Actuators A 190 (2013) 106–126",
             parameters=(
-                Parameter(
+                EffectParameter(
                     "rms",
                     "σ, in addition to the declared noise",
                     "q",
@@ -40,8 +40,10 @@ SENSOR_NOISE = Effect(
                     per="noise",
                 ),
             ),
-            acts=Reading(step=noisy, random=True),
-            traits=frozenset({Trait.RANDOM, Trait.READING_ONLY, Trait.LOCKED_TO_TIME}),
+            acts=ReadingFunction(step=add_white_noise, random=True),
+            traits=frozenset(
+                {EffectTrait.RANDOM, EffectTrait.READING_ONLY, EffectTrait.LOCKED_TO_TIME}
+            ),
         ),
     ),
 )

@@ -1,4 +1,4 @@
-"""The saturation of an amplifier, estimated from its output voltages."""
+"""Fit of an amplifier's saturation to its output voltages."""
 
 from typing import NamedTuple
 
@@ -7,69 +7,73 @@ import scipy
 
 from rotemina.sim.arrays import FloatArray
 
-_MOST_ROWS = 5000
-_SOFTNESS = (0.03, 0.1, 0.3)  # from which it is tried
-_SOFTEST = 0.5
-_BEYOND = (0.02, 0.3)  # of what was seen, that an end may lie further out
+_MAX_ROW_COUNT = 5000
+# Softness values from which the fit is started.
+_START_SOFTNESS = (0.03, 0.1, 0.3)
+_MAX_SOFTNESS = 0.5
+# Margins by which the first limits exceed the observed voltages, relative to their range.
+_START_MARGIN_RATIOS = (0.02, 0.3)
 
 
-class Bend(NamedTuple):
-    """The limits of an amplifier's output, V, and their softness."""
+class AmplifierLimits(NamedTuple):
+    """Limits of an amplifier's output, V, and their softness."""
 
     low: float
     high: float
     softness: float
 
-    def without_low(self, low: float) -> "Bend":
-        """Return the same bend only at the high end; the other lies at ``low`` or beyond."""
-        return self._stretched(min(self.low, low), self.high)
+    def without_low(self, low: float) -> "AmplifierLimits":
+        """Return a copy limited only at the high end; its low limit is ``low`` or lower."""
+        return self._with_range(min(self.low, low), self.high)
 
-    def without_high(self, high: float) -> "Bend":
-        """Return the same bend only at the low end; the other lies at ``high`` or beyond."""
-        return self._stretched(self.low, max(self.high, high))
+    def without_high(self, high: float) -> "AmplifierLimits":
+        """Return a copy limited only at the low end; its high limit is ``high`` or higher."""
+        return self._with_range(self.low, max(self.high, high))
 
-    def _stretched(self, low: float, high: float) -> "Bend":
-        # As wide a bend, V, is a smaller share of a longer way.
-        return Bend(low, high, self.softness * (self.high - self.low) / (high - low))
+    def _with_range(self, low: float, high: float) -> "AmplifierLimits":
+        # Softness is relative to the range, so the same bend in V is less soft in a wider range.
+        return AmplifierLimits(low, high, self.softness * (self.high - self.low) / (high - low))
 
 
-def bent_ends(asked: FloatArray, given: FloatArray, seen: tuple[float, float]) -> Bend:
-    """Return the soft saturation with which ``given`` (n,) best follows ``asked`` (n,), V.
+def fit_limits(
+    requested: FloatArray, output: FloatArray, output_range: tuple[float, float]
+) -> AmplifierLimits:
+    """Fit the soft saturation by which ``output`` (n,) follows ``requested`` (n,), V.
 
-    ``seen`` are the smallest and largest outputs. The curve is that of the effect *saturation*;
-    lags between the two count as noise.
+    ``output_range`` is the smallest and largest output. The curve is that of the effect
+    *saturation*; lags between the two signals count as noise.
     """
-    stride = max(len(asked) // _MOST_ROWS, 1)
-    x, y = asked[::stride], given[::stride]
-    low, high = seen
-    reach = high - low
+    stride = max(len(requested) // _MAX_ROW_COUNT, 1)
+    x, y = requested[::stride], output[::stride]
+    low, high = output_range
+    span = high - low
 
-    def off(p: FloatArray) -> FloatArray:
-        return _softly(x, p[0], p[1], p[2]) - y
+    def compute_residual(p: FloatArray) -> FloatArray:
+        return _apply_soft_limits(x, p[0], p[1], p[2]) - y
 
-    found = [
+    fits = [
         scipy.optimize.least_squares(
-            off,
-            (low - beyond * reach, high + beyond * reach, softness),
+            compute_residual,
+            (low - margin_ratio * span, high + margin_ratio * span, softness),
             bounds=(
-                (low - 2.0 * reach, high - 0.1 * reach, 1e-3),
-                (low + 0.1 * reach, high + 2.0 * reach, _SOFTEST),
+                (low - 2.0 * span, high - 0.1 * span, 1e-3),
+                (low + 0.1 * span, high + 2.0 * span, _MAX_SOFTNESS),
             ),
-            x_scale=(reach, reach, 0.1),
+            x_scale=(span, span, 0.1),
         )
-        for beyond in _BEYOND
-        for softness in _SOFTNESS
+        for margin_ratio in _START_MARGIN_RATIOS
+        for softness in _START_SOFTNESS
     ]
-    best = min(found, key=lambda one: one.cost)
-    return Bend(*(float(value) for value in best.x))
+    best = min(fits, key=lambda fit: fit.cost)
+    return AmplifierLimits(*(float(value) for value in best.x))
 
 
-def _softly(x: FloatArray, low: float, high: float, softness: float) -> FloatArray:
+def _apply_soft_limits(x: FloatArray, low: float, high: float, softness: float) -> FloatArray:
     """Return ``c + A v (1 + |v|ⁿ)^(−1/n)`` (n,), v = (x − c)/A, 1/n the softness."""
-    middle, half = 0.5 * (low + high), 0.5 * (high - low)
-    v = (x - middle) / half
-    size = np.abs(v)
-    # The larger of one and |v| is taken out of the root, so that no power overflows.
-    ratio = np.minimum(size, 1.0) / np.maximum(size, 1.0)
+    middle, half_range = 0.5 * (low + high), 0.5 * (high - low)
+    v = (x - middle) / half_range
+    magnitude = np.abs(v)
+    # Factor the larger of 1 and |v| out of the root, so that no power overflows.
+    ratio = np.minimum(magnitude, 1.0) / np.maximum(magnitude, 1.0)
     root = np.exp(-softness * np.log1p(ratio ** (1.0 / softness)))
-    return np.asarray(middle + half * np.sign(v) * np.minimum(size, 1.0) * root)
+    return np.asarray(middle + half_range * np.sign(v) * np.minimum(magnitude, 1.0) * root)

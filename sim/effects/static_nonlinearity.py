@@ -1,4 +1,4 @@
-"""A curved characteristic without memory.
+"""Curved characteristic without memory.
 
 All formulations keep the ends of the range, or of the curved section, in place, which separates
 them from a gain error and an offset.
@@ -7,70 +7,74 @@ them from a gain error and an offset.
 import numpy as np
 
 from rotemina.sim.effects import bends
-from rotemina.sim.effects.facts import Facts
+from rotemina.sim.effects.facts import AxisProperties
 from rotemina.sim.effects.formulation import (
     EVERY_KIND,
-    Drive,
     Effect,
+    EffectParameter,
+    EffectStage,
+    EffectTrait,
     Formulation,
-    Parameter,
-    Stage,
-    Trait,
+    InputFunction,
     Values,
 )
-from rotemina.sim.effects.identification import Identification
-from rotemina.sim.effects.kinship import Family, Kinship
-from rotemina.sim.effects.starts import along_the_way
+from rotemina.sim.effects.identification import IdentificationHints
+from rotemina.sim.effects.kinship import EffectFamily, EffectRelations
+from rotemina.sim.effects.starts import start_along_travel
 
-_CUBIC_PEAK = 2.0 / (3.0 * np.sqrt(3.0))  # of z − z³ within −1…1
+# Maximum of z − z³ within −1…1.
+_CUBIC_PEAK = 2.0 / (3.0 * np.sqrt(3.0))
 
 
-def polynomial(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
-    """``y = x + b (1 − z²) + c (z − z³)``. p: b, c, middle, 1/half the length; z from these."""
+def apply_polynomial(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """Apply ``y = x + b (1 − z²) + c (z − z³)``.
+
+    p: b, c, then the middle and 1/half the length of the section over which z is −1…1.
+    """
     z = (x - p[2]) * p[3]
     return x + (1.0 - z * z) * (p[0] + p[1] * z)
 
 
-def exponential(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
-    """``y = L + S (exp(κz) − 1)/(exp κ − 1)``, z = (x − L)/S. p: κ, L, S."""
+def apply_exponential(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """Apply ``y = L + S (exp(κz) − 1)/(exp κ − 1)``, z = (x − L)/S. p: κ, L, S."""
     if p[0] == 0.0:
         return x
     return p[1] + p[2] * np.expm1(p[0] * (x - p[1]) / p[2]) / np.expm1(p[0])
 
 
-def _ends(facts: Facts) -> tuple[float, float]:
-    """Return the ends of an actuator's input: a position, or V for a force."""
+def _find_input_range(facts: AxisProperties) -> tuple[float, float]:
+    """Return the ends of the actuator's input: positions, or V for a force."""
     if facts.kind == "force":
         return facts.input_low, facts.input_high
     return facts.low, facts.high
 
 
-def _polynomial(values: Values, facts: Facts) -> tuple[float, ...]:
-    low, high = _ends(facts)
+def _compute_polynomial_numbers(values: Values, facts: AxisProperties) -> tuple[float, ...]:
+    low, high = _find_input_range(facts)
     bow, cubic = (high - low) * values["bow"], (high - low) * values["s_shape"]
     return (bow, cubic / _CUBIC_PEAK, 0.5 * (low + high), 2.0 / (high - low))
 
 
-def _exponential(values: Values, facts: Facts) -> tuple[float, ...]:
-    low, high = _ends(facts)
+def _compute_exponential_numbers(values: Values, facts: AxisProperties) -> tuple[float, ...]:
+    low, high = _find_input_range(facts)
     return (values["curvature"], low, high - low)
 
 
-def _series(values: Values, facts: Facts) -> tuple[float, ...]:
-    low, high = _ends(facts)
-    return bends.numbers(values, low, high - low)
+def _compute_series_numbers(values: Values, facts: AxisProperties) -> tuple[float, ...]:
+    low, high = _find_input_range(facts)
+    return bends.compute_numbers(values, low, high - low)
 
 
-_TRAITS = frozenset({Trait.MEMORYLESS, Trait.RATE_INDEPENDENT})
+_TRAITS = frozenset({EffectTrait.MEMORYLESS, EffectTrait.RATE_INDEPENDENT})
 
 STATIC_NONLINEARITY = Effect(
     id="static_nonlinearity",
     title="Static nonlinearity",
     summary="A curve of the command, without memory, filtered by the mechanics.",
-    stage=Stage.ACTUATOR,
+    stage=EffectStage.ACTUATOR,
     kinds=EVERY_KIND,
-    identification=Identification(starts=along_the_way),
-    kinship=Kinship(family=Family.CURVE, brings_along={Family.GAIN: 1.0}),
+    identification=IdentificationHints(starts=start_along_travel),
+    kinship=EffectRelations(family=EffectFamily.CURVE, brings_along={EffectFamily.GAIN: 1.0}),
     formulations=(
         Formulation(
             name="polynomial",
@@ -78,7 +82,7 @@ STATIC_NONLINEARITY = Effect(
             source="Giri and Bai (eds.), Block-oriented Nonlinear System Identification (2010): "
             "polynomial Hammerstein systems",
             parameters=(
-                Parameter(
+                EffectParameter(
                     "bow",
                     "b at mid-range, as a share of the range",
                     "",
@@ -87,7 +91,7 @@ STATIC_NONLINEARITY = Effect(
                     0.02,
                     linear=True,
                 ),
-                Parameter(
+                EffectParameter(
                     "s_shape",
                     "peak of c, as a share of the range",
                     "",
@@ -97,8 +101,8 @@ STATIC_NONLINEARITY = Effect(
                     linear=True,
                 ),
             ),
-            acts=Drive(step=polynomial),
-            prepare=_polynomial,
+            acts=InputFunction(step=apply_polynomial),
+            prepare=_compute_polynomial_numbers,
             traits=_TRAITS,
         ),
         Formulation(
@@ -107,19 +111,21 @@ STATIC_NONLINEARITY = Effect(
             source="Pintelon and Schoukens, System Identification, 2nd ed. (2012), ch. 3: "
             "static nonlinearities",
             parameters=(
-                Parameter("curvature", "κ, logarithm of the slopes' ratio", "", -3.0, 3.0, -0.2),
+                EffectParameter(
+                    "curvature", "κ, logarithm of the slopes' ratio", "", -3.0, 3.0, -0.2
+                ),
             ),
-            acts=Drive(step=exponential),
-            prepare=_exponential,
+            acts=InputFunction(step=apply_exponential),
+            prepare=_compute_exponential_numbers,
             traits=_TRAITS,
         ),
         Formulation(
             name="series",
             equation=bends.EQUATION,
             source=bends.SOURCE,
-            parameters=bends.parameters(),
-            acts=Drive(step=bends.bent),
-            prepare=_series,
+            parameters=bends.make_parameters(),
+            acts=InputFunction(step=bends.add_sine_series),
+            prepare=_compute_series_numbers,
             traits=_TRAITS,
         ),
     ),

@@ -1,4 +1,4 @@
-"""Step functions: the form of an effect's equations, compiled and called by the plant.
+"""Step functions: the equations of an effect, compiled and called by the plant.
 
 A step function is plain Python on floats that numba can compile::
 
@@ -6,16 +6,18 @@ A step function is plain Python on floats that numba can compile::
         ...
         return y
 
-``x`` is the signal that enters and ``y`` the one that leaves, SI. ``p`` holds the numbers that the
-formulation's ``prepare`` made of its parameters, ``s`` its memory, zeros at first, which it may
-change. ``t`` is the time since the run began, s. What ``h``, ``other``, ``a`` and ``b`` are is
-said by the place in the signal chain (:mod:`rotemina.sim.effects.formulation`).
+``x`` is the input signal and ``y`` the output signal, SI. ``p`` holds the numbers that the
+formulation's ``prepare`` computes from its parameters. ``s`` is the memory of the function: it
+may change it, and it is zero at first. ``t`` is the time since the run began, s. The meaning of
+``h``, ``other``, ``a`` and ``b`` depends on the place in the signal chain
+(:mod:`rotemina.sim.effects.formulation`).
 
-Memory outlives a change of parameters in mid-run, so figures that are worked out once and kept in
-``s`` must be worked out again for another ``p``.
+Memory outlives a change of parameters during a run. Values that are computed from ``p`` and cached
+in ``s`` must therefore be computed again when ``p`` changes.
 
-All step functions have one machine signature and are called through their address. So one
-compiled plant serves every robot and every effect, a third party's too, with no compilation again.
+All step functions have the same machine signature and are called through their address. One
+compiled plant therefore serves every robot and every effect, including those of third parties,
+without being compiled again.
 """
 
 from collections.abc import Callable, MutableSequence, Sequence
@@ -30,22 +32,22 @@ StepFunction = Callable[
     [float, float, float, float, float, float, Sequence[float], MutableSequence[float]], float
 ]
 
-_NUMBERS = 6
+_NUMBER_ARGUMENT_COUNT = 6
 _POINTER = types.CPointer(types.float64)  # type: ignore[no-untyped-call]
-_SIGNATURE = types.float64(*([types.float64] * _NUMBERS), _POINTER, _POINTER)
+_SIGNATURE = types.float64(*([types.float64] * _NUMBER_ARGUMENT_COUNT), _POINTER, _POINTER)
 
 
 @cache
-def address_of(step: StepFunction) -> int:
-    """Compile a step function, once, and return where it lies in memory.
+def compile_step_address(step: StepFunction) -> int:
+    """Compile a step function once, and return its address in memory.
 
-    The compiled code is kept on disk. Divisions by zero give infinities, as numpy's do.
+    The compiled code is cached on disk. A division by zero gives infinity, as in numpy.
     """
-    return int(_compiled(step).address)
+    return int(_compile_step(step).address)
 
 
 @cache
-def _compiled(step: StepFunction) -> Any:
+def _compile_step(step: StepFunction) -> Any:
     return cfunc(_SIGNATURE, cache=True, error_model="numpy")(step)
 
 
@@ -59,29 +61,32 @@ def _call_step(
     a: Any,
     b: Any,
     p: Any,
-    p_at: Any,
+    p_offset: Any,
     s: Any,
-    s_at: Any,
+    s_offset: Any,
 ) -> Any:
     """Call the step function at ``address`` from compiled code.
 
-    ``p`` and ``s`` are float64 arrays; the function's own numbers begin at ``p_at`` and ``s_at``.
+    ``p`` and ``s`` are float64 arrays. The numbers of this function begin at ``p_offset`` and
+    ``s_offset``.
     """
     signature = types.float64(
-        types.int64, *([types.float64] * _NUMBERS), p, types.int64, s, types.int64
+        types.int64, *([types.float64] * _NUMBER_ARGUMENT_COUNT), p, types.int64, s, types.int64
     )
 
     def generate(context: Any, builder: Any, _signature: Any, arguments: Any) -> Any:
-        where, *numbers, p_array, p_first, s_array, s_first = arguments
-        number = ir.DoubleType()
-        pointer = number.as_pointer()
-        form = ir.FunctionType(number, [number] * _NUMBERS + [pointer, pointer])
-        function = builder.inttoptr(where, form.as_pointer())
-        own = [
-            builder.gep(context.make_array(kind)(context, builder, array).data, [first])
-            for kind, array, first in ((p, p_array, p_first), (s, s_array, s_first))
+        address_value, *numbers, p_array, p_start, s_array, s_start = arguments
+        float_type = ir.DoubleType()
+        pointer = float_type.as_pointer()
+        function_type = ir.FunctionType(
+            float_type, [float_type] * _NUMBER_ARGUMENT_COUNT + [pointer, pointer]
+        )
+        function = builder.inttoptr(address_value, function_type.as_pointer())
+        pointers = [
+            builder.gep(context.make_array(array_type)(context, builder, array).data, [start])
+            for array_type, array, start in ((p, p_array, p_start), (s, s_array, s_start))
         ]
-        return builder.call(function, [*numbers, *own])
+        return builder.call(function, [*numbers, *pointers])
 
     return signature, generate
 

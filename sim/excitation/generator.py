@@ -1,4 +1,4 @@
-"""Generation of a playable trajectory from excitations of single axes."""
+"""Generation of a playable trajectory from the excitations of its axes."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -7,190 +7,225 @@ from typing import ClassVar, NamedTuple, Protocol
 
 import numpy as np
 
-from rotemina.sim.excitation.assembly import Drawn, assembled
-from rotemina.sim.excitation.axis_draft import Adjustment, Draft, Signal, natural_frequency
-from rotemina.sim.excitation.quantity import ExcitationError
-from rotemina.sim.excitation.sines_and_chirps import Chirp, Multisine, Sine
-from rotemina.sim.excitation.staircase_steps_prbs import Prbs, Staircase, Steps
-from rotemina.sim.excitation.triangles_and_sweeps import DecayingTriangle, Sweeps, Triangle
-from rotemina.sim.messages import message
-from rotemina.sim.quantities import rounded
-from rotemina.sim.records.record import Record
-from rotemina.sim.robot.model import Robot
-from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
-from rotemina.sim.trajectory.dry_run import dry_run
-from rotemina.sim.trajectory.speed_and_acceleration import SETPOINT_PERIOD_S
-from rotemina.sim.trajectory.trajectory_excesses import Quantity, Violation
+from rotemina.sim.errors import ExcitationRequestError, OutOfLimitsError
+from rotemina.sim.excitation.assembly import AxisExcitation, assemble_trajectory
+from rotemina.sim.excitation.axis_draft import (
+    AxisDraft,
+    AxisSignal,
+    ParameterAdjustment,
+    compute_natural_frequency,
+)
+from rotemina.sim.excitation.sines_and_chirps import (
+    ChirpExcitation,
+    MultisineExcitation,
+    SineExcitation,
+)
+from rotemina.sim.excitation.staircase_steps_prbs import (
+    PrbsExcitation,
+    StaircaseExcitation,
+    StepsExcitation,
+)
+from rotemina.sim.excitation.triangles_and_sweeps import (
+    DecayingTriangleExcitation,
+    SweepsExcitation,
+    TriangleExcitation,
+)
+from rotemina.sim.messages import format_rounded
+from rotemina.sim.records import Record
+from rotemina.sim.robot import Robot
+from rotemina.sim.trajectory import (
+    DEFAULT_SETPOINT_PERIOD_S,
+    LimitedQuantity,
+    LimitViolation,
+    dry_run,
+)
 
-_PER_RESONANCE = 4.0  # rows in a period of the fastest resonance, at the default rate
-_RATES_HZ = (1_000.0, 2_000.0, 5_000.0, 10_000.0)
-_FASTEST_HZ = 1e6
-_SLOWEST_HZ = 1.0 / SETPOINT_PERIOD_S  # a device holds a row until the next one is due
+# The default rate has at least this many rows in a period of the fastest resonance.
+_ROWS_PER_RESONANCE = 4.0
+_DEFAULT_RATES_HZ = (1_000.0, 2_000.0, 5_000.0, 10_000.0)
+_MAX_RATE_HZ = 1e6
+# At lower rates, a device rests on each row until the next one is due.
+_MIN_RATE_HZ = 1.0 / DEFAULT_SETPOINT_PERIOD_S
 
-_TRIES = 10  # at amplitudes with which the predicted motion, too, stays inside the range
-_SMALLER = 0.95  # at most, from try to try
-_OF_COMMANDS = (Quantity.RANGE, Quantity.VOLTAGE, Quantity.SPEED, Quantity.ACCELERATION)
+# The amplitudes are reduced up to this many times, until the predicted motion stays in the range.
+_MAX_TRIES = 10
+# Each try multiplies the amplitude by this factor or a smaller one.
+_MAX_REDUCTION_FACTOR = 0.95
+_COMMAND_QUANTITIES = (
+    LimitedQuantity.RANGE,
+    LimitedQuantity.VOLTAGE,
+    LimitedQuantity.SPEED,
+    LimitedQuantity.ACCELERATION,
+)
 
 
-class Kind(Protocol):
-    """What an excitation is: its parameters, and how it is drawn for one axis."""
+class ExcitationKind(Protocol):
+    """A kind of excitation with its parameters, from which the signal of an axis can be drawn."""
 
     kind: ClassVar[str]
 
-    def draw(self, draft: Draft) -> Signal:
-        """Return the positions of an axis inside its limits."""
+    def draw(self, draft: AxisDraft) -> AxisSignal:
+        """Return the signal of an axis, within the limits of the axis."""
 
 
-KINDS: Mapping[str, type[Kind]] = {
+EXCITATION_KINDS: Mapping[str, type[ExcitationKind]] = {
     each.kind: each
     for each in (
-        Sine,
-        Triangle,
-        DecayingTriangle,
-        Staircase,
-        Multisine,
-        Chirp,
-        Prbs,
-        Sweeps,
-        Steps,
+        SineExcitation,
+        TriangleExcitation,
+        DecayingTriangleExcitation,
+        StaircaseExcitation,
+        MultisineExcitation,
+        ChirpExcitation,
+        PrbsExcitation,
+        SweepsExcitation,
+        StepsExcitation,
     )
 }
 
 
 @dataclass(frozen=True, slots=True)
 class Excitation:
-    """A trajectory, and what had to be changed to keep it inside the limits or on whole rows."""
+    """A trajectory, and the adjustments to keep it within limits and on whole rows."""
 
     record: Record
-    adjustments: tuple[Adjustment, ...]
+    adjustments: tuple[ParameterAdjustment, ...]
 
 
 def excite(
     robot: Robot,
-    plan: Mapping[str, Kind],
+    plan: Mapping[str, ExcitationKind],
     *,
     rate_hz: float | None = None,
     seed: int = 0,
     strict: bool = False,
 ) -> Excitation:
-    """Return the trajectory that excites each axis of ``plan`` by its own excitation, all at once.
+    """Return a trajectory that excites all axes of ``plan`` at the same time.
 
     Parameters
     ----------
-    robot : whose limits hold.
-    plan : axis -> excitation.
-    rate_hz : rows a second; by default enough for the fastest resonance of the axes.
-    seed : of phases and sequences. An axis' signal does not depend on the other axes.
-    strict : refuse what exceeds a limit, instead of reducing it.
+    robot : robot whose limits apply.
+    plan : axis -> excitation of that axis.
+    rate_hz : rows per second; by default enough for the fastest resonance of the axes.
+    seed : seed of phases and sequences. The signal of an axis does not depend on the other axes.
+    strict : raise an error for a value that exceeds a limit, instead of reducing it.
 
     Returns
     -------
     Excitation
-        An axis that is done rests at its last position until all are. The record is marked
-        periodic where every axis is, and their common period fits whole times into it.
+        Axes that finish early rest at their last position until the end. The record is marked as
+        periodic if every axis is periodic and their common period divides its length.
 
     Raises
     ------
-    ExcitationError
-        If a parameter is impossible, or in a strict run exceeds a limit: with axis, value, bound.
+    ExcitationRequestError
+        If a parameter is impossible, or exceeds a limit and ``strict`` is set. The message names
+        the axis, the value and the bound.
     TrajectoryError
-        If nothing would make an axis follow.
+        If an axis cannot follow commands.
     OutOfLimitsError
-        If the model predicts a motion beyond the range whatever the amplitude.
+        If the model predicts a motion beyond the range at any amplitude.
     """
     if not plan:
-        raise ExcitationError(message("engine", "excitation: no axis is named; name at least one"))
+        raise ExcitationRequestError("excitation: no axis is named; name at least one")
     _check_names(robot, plan)
-    rate = default_rate(robot, plan) if rate_hz is None else rate_hz
+    rate = choose_default_rate(robot, plan) if rate_hz is None else rate_hz
     _check_rate(robot, plan, rate)
     if seed < 0:
-        raise ExcitationError(message("engine", "seed {seed}: must be 0 or more").fill(seed=seed))
+        raise ExcitationRequestError("seed {seed}: must be 0 or more", seed=seed)
     request = _Request(robot, plan, rate, seed, strict)
-    most: dict[str, float] = {}
-    for _ in range(_TRIES):
-        parts = _drawn(request, most)
-        record = assembled(parts, rate, {"robot": robot.name, "seed": str(seed)})
-        beyond = dry_run(robot, record).violations
-        if not beyond:
-            changes = (each for part in parts.values() for each in part.draft.adjustments)
-            return Excitation(record, tuple(changes))
-        most |= {each.axis: _smaller(parts[each.axis].draft, each) for each in beyond}
-    raise OutOfLimitsError(beyond[0].message)
+    max_amplitudes: dict[str, float] = {}
+    for _ in range(_MAX_TRIES):
+        parts = _draw_axes(request, max_amplitudes)
+        record = assemble_trajectory(parts, rate, {"robot": robot.name, "seed": str(seed)})
+        violations = dry_run(robot, record).violations
+        if not violations:
+            adjustments = (
+                adjustment for part in parts.values() for adjustment in part.draft.adjustments
+            )
+            return Excitation(record, tuple(adjustments))
+        max_amplitudes |= {
+            violation.axis: _reduce_amplitude(parts[violation.axis].draft, violation)
+            for violation in violations
+        }
+    raise OutOfLimitsError(violations[0].message)
 
 
 class _Request(NamedTuple):
     robot: Robot
-    plan: Mapping[str, Kind]
+    plan: Mapping[str, ExcitationKind]
     rate_hz: float
     seed: int
     strict: bool
 
 
-def _drawn(request: _Request, most: Mapping[str, float]) -> dict[str, Drawn]:
-    """Draw every axis with the amplitudes that it may have at most, m or rad."""
+def _draw_axes(request: _Request, max_amplitudes: Mapping[str, float]) -> dict[str, AxisExcitation]:
     parts = {}
-    for name, kind in request.plan.items():
+    for name, excitation in request.plan.items():
         rng = np.random.default_rng([request.seed, list(request.robot.axes).index(name)])
-        draft = Draft.of(
+        draft = AxisDraft.of(
             name,
             request.robot.axes[name],
             request.rate_hz,
             rng,
             strict=request.strict,
-            most=most.get(name, inf),
+            max_amplitude=max_amplitudes.get(name, inf),
         )
-        parts[name] = Drawn(kind.kind, draft, kind.draw(draft))
+        parts[name] = AxisExcitation(excitation.kind, draft, excitation.draw(draft))
     return parts
 
 
-def _smaller(draft: Draft, beyond: Violation) -> float:
-    """Return the amplitude with which an axis ought to stay inside, m or rad.
+def _reduce_amplitude(draft: AxisDraft, violation: LimitViolation) -> float:
+    """Return an amplitude with which an axis is expected to stay in its range, m or rad.
 
-    Commands are inside every limit, so what goes beyond is the motion that the model predicts:
-    in a linear model it grows with the amplitude.
+    The commands are within every limit, so only the predicted motion can exceed one. In a linear
+    model, the motion is proportional to the amplitude.
     """
-    if beyond.quantity in _OF_COMMANDS or beyond.value == draft.centre:
-        raise OutOfLimitsError(beyond.message)
-    share = (beyond.bound - draft.centre) / (beyond.value - draft.centre)
-    return draft.reach * min(share, _SMALLER)
+    if violation.quantity in _COMMAND_QUANTITIES or violation.value == draft.chosen_offset:
+        raise OutOfLimitsError(violation.message)
+    reduction = (violation.bound - draft.chosen_offset) / (violation.value - draft.chosen_offset)
+    return draft.chosen_amplitude * min(reduction, _MAX_REDUCTION_FACTOR)
 
 
-def default_rate(robot: Robot, plan: Mapping[str, Kind]) -> float:
-    """Return a rate with at least four rows in a period of the fastest resonance of the axes, Hz.
+def choose_default_rate(robot: Robot, plan: Mapping[str, ExcitationKind]) -> float:
+    """Return a rate with at least four rows per period of the fastest resonance of the axes, Hz.
 
-    That is 1, 2, 5 or 10 kHz.
+    The rate is 1, 2, 5 or 10 kHz.
     """
-    resonances = (natural_frequency(robot.axes[name]) for name in plan)
-    needed = _PER_RESONANCE * max((each for each in resonances if each is not None), default=0.0)
-    return next((rate for rate in _RATES_HZ if rate >= needed), _RATES_HZ[-1])
+    resonances = (compute_natural_frequency(robot.axes[name]) for name in plan)
+    needed = _ROWS_PER_RESONANCE * max(
+        (resonance_hz for resonance_hz in resonances if resonance_hz is not None), default=0.0
+    )
+    return next((rate for rate in _DEFAULT_RATES_HZ if rate >= needed), _DEFAULT_RATES_HZ[-1])
 
 
-def _check_names(robot: Robot, plan: Mapping[str, Kind]) -> None:
+def _check_names(robot: Robot, plan: Mapping[str, ExcitationKind]) -> None:
     for name in plan:
         if name not in robot.axes:
-            raise ExcitationError(
-                message(
-                    "engine", "axis {name}: robot {robot_name} has no such axis; use one of {names}"
-                ).fill(name=repr(name), robot_name=repr(robot.name), names=", ".join(robot.axes))
+            raise ExcitationRequestError(
+                "axis {name}: robot {robot_name} has no such axis; use one of {names}",
+                name=repr(name),
+                robot_name=repr(robot.name),
+                names=", ".join(robot.axes),
             )
 
 
-def _check_rate(robot: Robot, plan: Mapping[str, Kind], rate_hz: float) -> None:
-    if not (isfinite(rate_hz) and 0 < rate_hz <= _FASTEST_HZ):
-        raise ExcitationError(
-            message("engine", "rate {rate_hz} Hz: must lie above 0 and up to {fastest_hz} Hz").fill(
-                rate_hz=rounded(rate_hz, 6), fastest_hz=rounded(_FASTEST_HZ, 6)
-            )
+def _check_rate(robot: Robot, plan: Mapping[str, ExcitationKind], rate_hz: float) -> None:
+    if not (isfinite(rate_hz) and 0 < rate_hz <= _MAX_RATE_HZ):
+        raise ExcitationRequestError(
+            "rate {rate_hz} Hz: must lie above 0 and up to {fastest_hz} Hz",
+            rate_hz=format_rounded(rate_hz, 6),
+            fastest_hz=format_rounded(_MAX_RATE_HZ, 6),
         )
-    if rate_hz >= _SLOWEST_HZ:
+    if rate_hz >= _MIN_RATE_HZ:
         return
     for name in plan:
         axis = robot.axes[name]
         if axis.max_speed is not None or axis.max_acceleration is not None:
-            raise ExcitationError(
-                message(
-                    "engine",
-                    "axis {name}: rate {rate_hz} Hz is below {slowest_hz} Hz: the device "
-                    "would rest between rows and jump, which exceeds its speed and acceleration",
-                ).fill(name=name, rate_hz=rounded(rate_hz, 6), slowest_hz=rounded(_SLOWEST_HZ, 6))
+            raise ExcitationRequestError(
+                "axis {name}: rate {rate_hz} Hz is below {slowest_hz} Hz: the device "
+                "would rest between rows and jump, which exceeds its speed and acceleration",
+                name=name,
+                rate_hz=format_rounded(rate_hz, 6),
+                slowest_hz=format_rounded(_MIN_RATE_HZ, 6),
             )

@@ -1,7 +1,7 @@
 """Moves from rest to rest within speed and acceleration limits, used by many excitations.
 
-Between two rows the judge of limits sees a second difference; it never exceeds the greatest
-acceleration of a continuous motion with continuous speed, so these bounds hold at any rate.
+The check of limits computes second differences between rows. These never exceed the maximum
+acceleration of a motion with continuous speed, so the limits hold at any rate.
 """
 
 from math import ceil, inf, sqrt
@@ -10,87 +10,97 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 
-# Peaks of the minimum-jerk move's speed, acceleration and jerk over stroke/T, stroke/T², stroke/T³.
+# Peak speed, acceleration and jerk of a minimum-jerk move, over stroke/T, stroke/T², stroke/T³.
 QUINTIC_SPEED = 15.0 / 8.0
 QUINTIC_ACCELERATION = 10.0 / sqrt(3.0)
 QUINTIC_JERK = 60.0
 
-_ON_A_ROW = 1e-9  # of a row: a duration that is this much longer than whole rows is whole
+# A duration may exceed whole rows by this fraction of a row.
+_ROW_TOLERANCE = 1e-9
 
 
-def longest_stroke(duration_s: float, speed: float, acceleration: float) -> float:
-    """Return the longest way from rest to rest in a time, m or rad; bounds may be infinite.
+def compute_longest_stroke(duration_s: float, speed: float, acceleration: float) -> float:
+    """Return the longest distance from rest to rest in a given time, m or rad.
 
-    ``v (T - v/a)`` where the speed v is reached, else ``a T²/4``.
+    The limits may be infinite. The distance is ``v (T - v/a)`` if the speed v is reached, otherwise
+    ``a T²/4``.
     """
     if speed == inf:
         return inf if acceleration == inf else acceleration * duration_s**2 / 4.0
-    starting = speed / acceleration
-    if starting <= duration_s / 2.0:
-        return speed * (duration_s - starting)
+    acceleration_s = speed / acceleration
+    if acceleration_s <= duration_s / 2.0:
+        return speed * (duration_s - acceleration_s)
     return acceleration * duration_s**2 / 4.0
 
 
-def shortest_duration(stroke: float, speed: float, acceleration: float) -> float:
-    """Return the least time for a distance (>= 0) from rest to rest, s; 0 without limits."""
+def compute_shortest_duration(stroke: float, speed: float, acceleration: float) -> float:
+    """Return the shortest time for a distance (>= 0) from rest to rest, s; 0 without limits."""
     if speed == inf or stroke * acceleration <= speed**2:
         return 2.0 * sqrt(stroke / acceleration)
     return stroke / speed + speed / acceleration
 
 
-def shortest_quintic(stroke: float, speed: float, acceleration: float, jerk: float) -> float:
-    """Return the least time of a minimum-jerk move over ``stroke`` >= 0, s."""
-    by_jerk: float = (QUINTIC_JERK * stroke / jerk) ** (1.0 / 3.0)
-    by_acceleration = sqrt(QUINTIC_ACCELERATION * stroke / acceleration)
-    return max(QUINTIC_SPEED * stroke / speed, by_acceleration, by_jerk)
+def compute_shortest_quintic(
+    stroke: float, speed: float, acceleration: float, jerk: float
+) -> float:
+    """Return the shortest time of a minimum-jerk move over ``stroke`` >= 0, s."""
+    jerk_limited_s: float = (QUINTIC_JERK * stroke / jerk) ** (1.0 / 3.0)
+    acceleration_limited_s = sqrt(QUINTIC_ACCELERATION * stroke / acceleration)
+    return max(QUINTIC_SPEED * stroke / speed, acceleration_limited_s, jerk_limited_s)
 
 
-def rows_of(duration_s: float, rate_hz: float) -> int:
-    """Return the rows in which a move of at least this duration fits, 1 or more."""
-    return max(1, ceil(duration_s * rate_hz - _ON_A_ROW))
+def count_rows(duration_s: float, rate_hz: float) -> int:
+    """Return the number of rows that a move of at least this duration needs, 1 or more."""
+    return max(1, ceil(duration_s * rate_hz - _ROW_TOLERANCE))
 
 
-def cruise_speed(stroke: float, duration_s: float, acceleration: float) -> float:
-    """Return the speed of the trapezoid that covers ``stroke`` in a time at an acceleration.
+def compute_cruise_speed(stroke: float, duration_s: float, acceleration: float) -> float:
+    """Return the cruise speed of a trapezoid that covers ``stroke`` in a given time.
 
-    The lesser solution of ``v (T - v/a) = S``, written so that a may be infinite.
+    It is the smaller solution of ``v (T - v/a) = S``, in a form that permits an infinite a.
     """
-    rest = max(duration_s**2 - 4.0 * abs(stroke) / acceleration, 0.0)
-    return 2.0 * abs(stroke) / (duration_s + sqrt(rest))
+    discriminant = max(duration_s**2 - 4.0 * abs(stroke) / acceleration, 0.0)
+    return 2.0 * abs(stroke) / (duration_s + sqrt(discriminant))
 
 
-def trapezoid(
+def make_trapezoid(
     start: float, end: float, rows: int, rate_hz: float, acceleration: float
 ) -> FloatArray:
     """Return the (rows,) positions after ``start``: parabola, constant speed, parabola to ``end``.
 
-    With an infinite acceleration it is a line, over one row a jump.
+    With an infinite acceleration the move is a straight line, or a jump if it has one row.
     """
-    duration = rows / rate_hz
+    duration_s = rows / rate_hz
     stroke = abs(end - start)
-    speed = cruise_speed(stroke, duration, acceleration)
+    speed = compute_cruise_speed(stroke, duration_s, acceleration)
     if speed == 0.0:
         return np.full(rows, end)
-    starting = min(speed / acceleration, duration / 2.0)
-    since = np.arange(1, rows + 1) / rate_hz
-    left = duration - since
-    way = speed * (since - starting / 2.0)
-    if starting > 0.0:
-        rate = speed / starting
-        way = np.where(since < starting, 0.5 * rate * since**2, way)
-        way = np.where(left < starting, stroke - 0.5 * rate * left**2, way)
-    positions = start + np.copysign(way, end - start)
+    acceleration_s = min(speed / acceleration, duration_s / 2.0)
+    elapsed_s = np.arange(1, rows + 1) / rate_hz
+    remaining_s = duration_s - elapsed_s
+    distance = speed * (elapsed_s - acceleration_s / 2.0)
+    if acceleration_s > 0.0:
+        ramp_acceleration = speed / acceleration_s
+        distance = np.where(
+            elapsed_s < acceleration_s, 0.5 * ramp_acceleration * elapsed_s**2, distance
+        )
+        distance = np.where(
+            remaining_s < acceleration_s,
+            stroke - 0.5 * ramp_acceleration * remaining_s**2,
+            distance,
+        )
+    positions = start + np.copysign(distance, end - start)
     positions[-1] = end
     return np.asarray(positions)
 
 
-def quintic(start: float, end: float, rows: int) -> FloatArray:
+def make_quintic(start: float, end: float, rows: int) -> FloatArray:
     """Return the (rows,) positions after ``start`` of the minimum-jerk move to ``end``.
 
-    ``10 s³ - 15 s⁴ + 6 s⁵``: speed and acceleration are 0 at both ends and the jerk is bounded
+    With ``10 s³ - 15 s⁴ + 6 s⁵``, speed and acceleration are 0 at both ends and the jerk is bounded
     (Flash and Hogan, J. Neurosci. 5, 1985).
     """
-    share = np.arange(1, rows + 1) / rows
-    positions = start + (end - start) * share**3 * (10.0 + share * (6.0 * share - 15.0))
+    progress = np.arange(1, rows + 1) / rows
+    positions = start + (end - start) * progress**3 * (10.0 + progress * (6.0 * progress - 15.0))
     positions[-1] = end
     return np.asarray(positions)

@@ -3,26 +3,25 @@
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.excitation.axis_draft import MOST_ROWS, Draft
+from rotemina.sim.errors import ExcitationRequestError
+from rotemina.sim.excitation.axis_draft import MAX_ROWS, AxisDraft
 from rotemina.sim.excitation.moves import (
-    quintic,
-    rows_of,
-    shortest_duration,
-    trapezoid,
+    compute_shortest_duration,
+    count_rows,
+    make_quintic,
+    make_trapezoid,
 )
-from rotemina.sim.excitation.quantity import ExcitationError
-from rotemina.sim.messages import message
-from rotemina.sim.quantities import rounded
+from rotemina.sim.messages import format_rounded
 
 
-class Path:
-    """Positions of one axis, begun at ``start`` and grown by moves from rest to rest.
+class AxisPath:
+    """Positions of one axis from ``start`` on, extended by moves from rest to rest.
 
-    ``acceleration`` is the draft's if not given. Every method raises ExcitationError where there
-    would be more than ``MOST_ROWS`` rows.
+    By default, ``acceleration`` is that of the draft. Every method raises ExcitationRequestError if
+    there would be more than ``MAX_ROWS`` rows.
     """
 
-    def __init__(self, draft: Draft, start: float, acceleration: float | None = None) -> None:
+    def __init__(self, draft: AxisDraft, start: float, acceleration: float | None = None) -> None:
         self._draft = draft
         self._acceleration = draft.acceleration if acceleration is None else acceleration
         self._parts: list[FloatArray] = [np.array([start])]
@@ -30,47 +29,47 @@ class Path:
 
     @property
     def values(self) -> FloatArray:
-        """Positions (n,) so far, m or rad, the start included."""
+        """Positions (n,) so far, m or rad, including the start."""
         return np.concatenate(self._parts)
 
     @property
     def end(self) -> float:
-        """Where it is now, m or rad."""
+        """The present position, m or rad."""
         return float(self._parts[-1][-1])
 
     def hold(self, duration_s: float) -> None:
-        """Rest for a time, rounded to rows."""
-        self._check_room(duration_s)
+        """Hold the present position for a time, rounded to rows."""
+        self._check_row_limit(duration_s)
         self._add(np.full(round(duration_s * self._draft.rate_hz), self.end))
 
     def move(self, end: float, rows: int | None = None) -> None:
-        """Go to ``end`` at the greatest acceleration, in ``rows`` or as fast as allowed."""
-        rate = self._draft.rate_hz
+        """Move to ``end`` at the maximum acceleration, in ``rows`` or as fast as permitted."""
+        rate_hz = self._draft.rate_hz
         if rows is None:
             stroke = abs(end - self.end)
-            duration = shortest_duration(stroke, self._draft.speed, self._acceleration)
-            self._check_room(duration)
-            rows = rows_of(duration, rate)
-        self._check_room(rows / rate)
-        self._add(trapezoid(self.end, end, rows, rate, self._acceleration))
+            duration_s = compute_shortest_duration(stroke, self._draft.speed, self._acceleration)
+            self._check_row_limit(duration_s)
+            rows = count_rows(duration_s, rate_hz)
+        self._check_row_limit(rows / rate_hz)
+        self._add(make_trapezoid(self.end, end, rows, rate_hz, self._acceleration))
 
-    def curve(self, end: float, duration_s: float) -> None:
-        """Go to ``end`` by a minimum-jerk move of this time, or up to a row more."""
-        self._check_room(duration_s)
-        self._add(quintic(self.end, end, rows_of(duration_s, self._draft.rate_hz)))
+    def move_smoothly(self, end: float, duration_s: float) -> None:
+        """Move to ``end`` by a minimum-jerk move of this duration, or up to a row longer."""
+        self._check_row_limit(duration_s)
+        self._add(make_quintic(self.end, end, count_rows(duration_s, self._draft.rate_hz)))
 
-    def _add(self, part: FloatArray) -> None:
-        if len(part):
-            self._parts.append(part)
-            self._rows += len(part)
+    def _add(self, positions: FloatArray) -> None:
+        if len(positions):
+            self._parts.append(positions)
+            self._rows += len(positions)
 
-    def _check_room(self, duration_s: float) -> None:
-        rate = self._draft.rate_hz
-        if not self._rows + duration_s * rate <= MOST_ROWS:
-            raise ExcitationError(
-                message(
-                    "engine",
-                    "axis {axis}: it would take more than {most_rows} rows at {rate} Hz; shorten "
-                    "it, move faster or lower the rate",
-                ).fill(axis=self._draft.axis, most_rows=MOST_ROWS, rate=rounded(rate, 6))
+    def _check_row_limit(self, duration_s: float) -> None:
+        rate_hz = self._draft.rate_hz
+        if not self._rows + duration_s * rate_hz <= MAX_ROWS:
+            raise ExcitationRequestError(
+                "axis {axis}: the excitation would take more than {most_rows} rows at {rate} "
+                "Hz; shorten it, move faster or lower the rate",
+                axis=self._draft.axis,
+                most_rows=MAX_ROWS,
+                rate=format_rounded(rate_hz, 6),
             )

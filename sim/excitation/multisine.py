@@ -1,4 +1,4 @@
-"""Lines and phases of a random-phase odd multisine."""
+"""Spectral lines and phases of a random-phase odd multisine."""
 
 from math import ceil, floor
 
@@ -6,55 +6,58 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray, IntArray
 
-_ROUNDS = 200
-_POINTS = 40_000_000  # of all rounds together: fewer rounds where there are many lines
-_FIRST_CLIP, _LAST_CLIP = 0.75, 0.95  # of the peak
-_OVERSAMPLING = 8  # grid points per period of the highest line
-_SLACK = 1e-9  # a band that ends this near a line has it
+_MAX_ROUNDS = 200
+# The total number of points over all rounds is limited, so many lines mean fewer rounds.
+_MAX_TOTAL_POINTS = 40_000_000
+# Clipping levels in the first and the last round, as fractions of the peak.
+_FIRST_CLIP_RATIO, _LAST_CLIP_RATIO = 0.75, 0.95
+_POINTS_PER_HIGHEST_PERIOD = 8
+# A line that is outside the band by less than this still belongs to it.
+_BAND_TOLERANCE = 1e-9
 
 
-def odd_lines(low: float, high: float, detection: int, rng: np.random.Generator) -> IntArray:
-    """Return the odd harmonics between ``low`` and ``high`` (in harmonics), ascending.
+def choose_odd_lines(low: float, high: float, detection: int, rng: np.random.Generator) -> IntArray:
+    """Return the odd harmonics from ``low`` to ``high`` (in harmonics), ascending.
 
-    Of each whole group of ``detection`` consecutive ones, one drawn by lot is left out; 0 keeps
-    all.
+    From each complete group of ``detection`` consecutive lines, one random line is omitted; 0 omits
+    none.
     """
-    first = max(1, ceil(low - _SLACK))
-    lines = np.arange(first + (first + 1) % 2, floor(high + _SLACK) + 1, 2, dtype=np.int64)
+    first = max(1, ceil(low - _BAND_TOLERANCE))
+    lines = np.arange(first + (first + 1) % 2, floor(high + _BAND_TOLERANCE) + 1, 2, dtype=np.int64)
     if detection == 0:
         return lines
-    groups = len(lines) // detection
-    left_out = np.arange(groups) * detection + rng.integers(detection, size=groups)
-    return np.delete(lines, left_out)
+    group_count = len(lines) // detection
+    omitted = np.arange(group_count) * detection + rng.integers(detection, size=group_count)
+    return np.delete(lines, omitted)
 
 
-def reduced_crest(lines: IntArray, size: FloatArray, rng: np.random.Generator) -> FloatArray:
-    """Return phases (m,), rad, of lines (m,) of amplitudes ``size`` with a low crest factor.
+def reduce_crest(lines: IntArray, amplitudes: FloatArray, rng: np.random.Generator) -> FloatArray:
+    """Return phases (m,), rad, of lines (m,) with the given amplitudes, for a low crest factor.
 
-    From random phases, the signal's peaks are clipped again and again and the phases of what is
-    left are kept (van der Ouderaa, Schoukens and Renneboog, IEEE Trans. Instrum. Meas. 37, 1988);
-    the best found is returned.
+    The phases are random at first. Each round clips the peaks of the signal and continues with the
+    phases of the clipped signal (van der Ouderaa, Schoukens and Renneboog, IEEE Trans. Instrum.
+    Meas. 37, 1988). The phases with the lowest peak are returned.
     """
-    points = _OVERSAMPLING * (int(lines[-1]) + 1)
+    points = _POINTS_PER_HIGHEST_PERIOD * (int(lines[-1]) + 1)
     spectrum = np.zeros(points // 2 + 1, dtype=np.complex128)
     phase = rng.uniform(0.0, 2.0 * np.pi, len(lines))
-    best, lowest = phase, np.inf
-    rounds = min(_ROUNDS, max(10, _POINTS // points))
-    for clip in np.linspace(_FIRST_CLIP, _LAST_CLIP, rounds):
-        spectrum[lines] = size * np.exp(1j * phase)
+    best_phase, lowest_peak = phase, np.inf
+    rounds = min(_MAX_ROUNDS, max(10, _MAX_TOTAL_POINTS // points))
+    for clip_ratio in np.linspace(_FIRST_CLIP_RATIO, _LAST_CLIP_RATIO, rounds):
+        spectrum[lines] = amplitudes * np.exp(1j * phase)
         signal = np.fft.irfft(spectrum, n=points)
         peak = float(np.abs(signal).max())
-        if peak < lowest:
-            best, lowest = phase, peak
-        level = clip * peak
+        if peak < lowest_peak:
+            best_phase, lowest_peak = phase, peak
+        level = clip_ratio * peak
         phase = np.angle(np.fft.rfft(np.clip(signal, -level, level))[lines])
-    return np.asarray(best)
+    return np.asarray(best_phase)
 
 
-def quietest_start(period: FloatArray) -> FloatArray:
-    """Return a period (n,) rolled so that it begins, and ends, as near to rest as it can.
+def rotate_to_quietest_start(period: FloatArray) -> FloatArray:
+    """Return a period (n,), rotated so that it begins and ends as close to rest as possible.
 
-    Its first step, and the last one inside the period, are then the smallest of all such pairs.
+    The rotation minimises the larger of the first and the last step.
     """
     step = np.abs(np.diff(period, append=period[0]))
     start = int(np.argmin(np.maximum(step, np.roll(step, 2))))

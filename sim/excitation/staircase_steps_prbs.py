@@ -7,33 +7,27 @@ from typing import ClassVar
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.excitation.axis_draft import Draft, Signal
+from rotemina.sim.errors import ExcitationRequestError
+from rotemina.sim.excitation.axis_draft import AxisDraft, AxisSignal
 from rotemina.sim.excitation.moves import (
-    longest_stroke,
-    rows_of,
-    shortest_duration,
-    shortest_quintic,
-    trapezoid,
+    compute_longest_stroke,
+    compute_shortest_duration,
+    compute_shortest_quintic,
+    count_rows,
+    make_trapezoid,
 )
-from rotemina.sim.excitation.moves_and_holds import Path
-from rotemina.sim.excitation.quantity import (
-    Amount,
-    ExcitationError,
-    Share,
-    check_count,
-    check_positive,
-)
-from rotemina.sim.messages import marked, message
-from rotemina.sim.quantities import rounded
+from rotemina.sim.excitation.moves_and_holds import AxisPath
+from rotemina.sim.excitation.quantity import Amount, CapabilityShare, check_count, check_positive
+from rotemina.sim.messages import format_rounded, marked, message
 
-_RISE_S = 0.02  # of a step, where nothing is asked
+_DEFAULT_RISE_S = 0.02
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Staircase:
-    """From the lowest of ``levels`` even levels up and down again, resting ``hold_s`` on each.
+class StaircaseExcitation:
+    """A staircase over ``levels`` even levels, up and down again, with rests of ``hold_s``.
 
-    It goes from level to level as fast as the limits allow, and jumps where none are declared.
+    Between levels the axis moves as fast as the limits allow, or jumps if none are declared.
     """
 
     kind: ClassVar[str] = "staircase"
@@ -42,27 +36,27 @@ class Staircase:
     levels: int = 6
     hold_s: float = 1.0
 
-    def draw(self, draft: Draft) -> Signal:
+    def draw(self, draft: AxisDraft) -> AxisSignal:
         """Return the positions of an axis."""
         check_positive(hold_s=self.hold_s)
         check_count(2, 100_000, levels=self.levels)
-        offset = draft.offset(self.offset)
-        amplitude = draft.amplitude(self.amplitude, offset)
+        offset = draft.choose_offset(self.offset)
+        amplitude = draft.choose_amplitude(self.amplitude, offset)
         up = np.linspace(offset - amplitude, offset + amplitude, self.levels).tolist()
-        path = Path(draft, up[0])
+        path = AxisPath(draft, up[0])
         path.hold(self.hold_s)
         for level in up[1:] + up[-2::-1]:
             path.move(level)
             path.hold(self.hold_s)
-        return draft.signal(path.values, levels=self.levels, hold_s=self.hold_s)
+        return draft.make_signal(path.values, levels=self.levels, hold_s=self.hold_s)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Steps:
-    """S-curves from the offset up, back, down and back, ``cycles`` times, with rests between.
+class StepsExcitation:
+    """S-curves from the offset up, back, down and back, ``cycles`` times, with rests between them.
 
-    Each is a minimum-jerk move in ``rise_s``; that grows where speed, acceleration or ``jerk``
-    (m/s³ or rad/s³) ask for more.
+    Each S-curve is a minimum-jerk move of ``rise_s``, which is lengthened to respect the limits of
+    speed, acceleration or ``jerk`` (m/s³ or rad/s³).
     """
 
     kind: ClassVar[str] = "steps"
@@ -73,51 +67,51 @@ class Steps:
     jerk: Amount | None = None
     cycles: int = 1
 
-    def draw(self, draft: Draft) -> Signal:
+    def draw(self, draft: AxisDraft) -> AxisSignal:
         """Return the positions of an axis."""
         check_positive(rise_s=self.rise_s, hold_s=self.hold_s)
         check_count(1, 100_000, cycles=self.cycles)
-        jerk = self._jerk(draft)
-        offset = draft.offset(self.offset)
-        amplitude = draft.amplitude(self.amplitude, offset)
-        rise = self._rise(draft, amplitude, jerk)
-        path = Path(draft, offset)
+        jerk = self._resolve_jerk(draft)
+        offset = draft.choose_offset(self.offset)
+        amplitude = draft.choose_amplitude(self.amplitude, offset)
+        rise = self._resolve_rise(draft, amplitude, jerk)
+        path = AxisPath(draft, offset)
         path.hold(self.hold_s)
-        for way in (1.0, 0.0, -1.0, 0.0) * self.cycles:
-            path.curve(offset + way * amplitude, rise)
+        for level in (1.0, 0.0, -1.0, 0.0) * self.cycles:
+            path.move_smoothly(offset + level * amplitude, rise)
             path.hold(self.hold_s)
-        return draft.signal(path.values, rise_s=rise, hold_s=self.hold_s, cycles=self.cycles)
+        return draft.make_signal(path.values, rise_s=rise, hold_s=self.hold_s, cycles=self.cycles)
 
-    def _jerk(self, draft: Draft) -> float:
+    def _resolve_jerk(self, draft: AxisDraft) -> float:
         if self.jerk is None:
             return inf
-        if isinstance(self.jerk, Share) or not self.jerk > 0:
-            raise ExcitationError(
-                message("engine", "axis {axis}: jerk {jerk} must be a value above 0").fill(
-                    axis=draft.axis, jerk=str(self.jerk)
-                )
+        if isinstance(self.jerk, CapabilityShare) or not self.jerk > 0:
+            raise ExcitationRequestError(
+                "axis {axis}: jerk {jerk} must be a value above 0",
+                axis=draft.axis,
+                jerk=str(self.jerk),
             )
         return self.jerk
 
-    def _rise(self, draft: Draft, amplitude: float, jerk: float) -> float:
-        needed = shortest_quintic(amplitude, draft.speed, draft.acceleration, jerk)
+    def _resolve_rise(self, draft: AxisDraft, amplitude: float, jerk: float) -> float:
+        needed = compute_shortest_quintic(amplitude, draft.speed, draft.acceleration, jerk)
         if self.rise_s is None:
-            return max(_RISE_S, needed)
+            return max(_DEFAULT_RISE_S, needed)
         if needed <= self.rise_s * (1.0 + 1e-9):
             return self.rise_s
-        cause = draft.stroke_cause()
+        cause = draft.describe_stroke_limits()
         if jerk < inf:
             cause = message("engine", "{limits} and the jerk").fill(limits=cause)
-        return draft.at_least("rise", self.rise_s, needed, "s", cause)
+        return draft.raise_to_minimum("rise", self.rise_s, needed, "s", cause)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Prbs:
+class PrbsExcitation:
     """A pseudo-random binary sequence of maximum length, ``2**order - 1`` chips, on two levels.
 
-    ``frequency_hz`` is the clock. Between levels the axis moves at the chip's beginning as fast
-    as limits allow; the amplitude gives way so that a move ends within its chip. The sequence
-    begins at rest, inside a run of equal chips drawn by lot. ``duration_s`` is one period or more.
+    ``frequency_hz`` is the clock. The axis changes the level at the beginning of a chip, as fast as
+    the limits allow; the amplitude is reduced so that a move ends within its chip. The sequence
+    begins at rest, inside a random run of equal chips. ``duration_s`` is one period or more.
     """
 
     kind: ClassVar[str] = "prbs"
@@ -128,60 +122,69 @@ class Prbs:
     duration_s: float | None = None
     periodic: bool = True
 
-    def draw(self, draft: Draft) -> Signal:
+    def draw(self, draft: AxisDraft) -> AxisSignal:
         """Return the positions of an axis."""
         check_positive(frequency_hz=self.frequency_hz, duration_s=self.duration_s)
         check_count(3, 20, order=self.order)
-        chip, clock = self._clock(draft)
-        period = (2**self.order - 1) * chip
+        chip_rows, clock_hz = self._choose_clock(draft)
+        period = (2**self.order - 1) * chip_rows
         periods = max(1, round((self.duration_s or 0.0) * draft.rate_hz / period))
-        draft.rows(periods * period / draft.rate_hz)
-        offset = draft.offset(self.offset)
-        stroke = longest_stroke(chip / draft.rate_hz, draft.speed, draft.acceleration)
-        amplitude = draft.amplitude(self.amplitude, offset, {draft.stroke_cause(): stroke / 2.0})
-        chips = sequence(self.order, draft.rng)
-        values = np.tile(_rows(draft, offset + amplitude * chips, chip), periods)
+        draft.count_rows(periods * period / draft.rate_hz)
+        offset = draft.choose_offset(self.offset)
+        stroke = compute_longest_stroke(chip_rows / draft.rate_hz, draft.speed, draft.acceleration)
+        amplitude = draft.choose_amplitude(
+            self.amplitude, offset, {draft.describe_stroke_limits(): stroke / 2.0}
+        )
+        chips = draw_sequence(self.order, draft.rng)
+        values = np.tile(_make_rows(draft, offset + amplitude * chips, chip_rows), periods)
         if not self.periodic:
             values = np.append(values, values[0])
-        own = {"frequency_hz": clock, "order": self.order, "periods": periods}
-        return draft.signal(values, period if self.periodic else None, **own)
+        parameters = {"frequency_hz": clock_hz, "order": self.order, "periods": periods}
+        return draft.make_signal(values, period if self.periodic else None, **parameters)
 
-    def _clock(self, draft: Draft) -> tuple[int, float]:
-        asked = self.frequency_hz or draft.useful_hz()
-        if asked > draft.rate_hz:
-            raise ExcitationError(
-                message(
-                    "engine", "axis {axis}: clock {asked} Hz must not exceed the rate {rate_hz} Hz"
-                ).fill(axis=draft.axis, asked=rounded(asked, 6), rate_hz=rounded(draft.rate_hz, 6))
+    def _choose_clock(self, draft: AxisDraft) -> tuple[int, float]:
+        requested_hz = self.frequency_hz or draft.compute_useful_hz()
+        if requested_hz > draft.rate_hz:
+            raise ExcitationRequestError(
+                "axis {axis}: clock {asked} Hz must not exceed the rate {rate_hz} Hz",
+                axis=draft.axis,
+                asked=format_rounded(requested_hz, 6),
+                rate_hz=format_rounded(draft.rate_hz, 6),
             )
-        chip = draft.rows(1.0 / asked)
-        clock = draft.rate_hz / chip
+        chip_rows = draft.count_rows(1.0 / requested_hz)
+        clock_hz = draft.rate_hz / chip_rows
         if self.frequency_hz is not None:
-            draft.rounded("frequency", asked, clock, "Hz", marked("engine", "whole rows in a chip"))
-        return chip, clock
+            draft.note_rounding(
+                "frequency", requested_hz, clock_hz, "Hz", marked("engine", "whole rows in a chip")
+            )
+        return chip_rows, clock_hz
 
 
-def sequence(order: int, rng: np.random.Generator) -> FloatArray:
-    """Return a maximum-length sequence of -1 and 1, begun at the third of equal chips."""
-    from scipy.signal import max_len_seq  # takes its time to import
+def draw_sequence(order: int, rng: np.random.Generator) -> FloatArray:
+    """Return a maximum-length sequence of -1 and 1.
+
+    It begins at the third of three equal chips.
+    """
+    # Imported here because the import is slow.
+    from scipy.signal import max_len_seq
 
     chips = 2.0 * max_len_seq(order)[0].astype(np.float64) - 1.0
-    inside = (chips == np.roll(chips, 1)) & (chips == np.roll(chips, 2))
-    return np.roll(chips, -int(rng.choice(np.flatnonzero(inside))))
+    is_third_equal = (chips == np.roll(chips, 1)) & (chips == np.roll(chips, 2))
+    return np.roll(chips, -int(rng.choice(np.flatnonzero(is_third_equal))))
 
 
-def _rows(draft: Draft, levels: FloatArray, chip: int) -> FloatArray:
-    """Return the rows of chips at ``levels``, each reached as fast as allowed from the last.
+def _make_rows(draft: AxisDraft, levels: FloatArray, chip_rows: int) -> FloatArray:
+    """Return the rows of all chips, with moves as fast as permitted between their levels.
 
-    A move's first row is its chip's; where nothing binds, the level is there at once.
+    A move begins with the first row of its chip. Without limits the level is reached at once.
     """
     low, high = float(levels.min()), float(levels.max())
-    duration = shortest_duration(high - low, draft.speed, draft.acceleration)
-    rows = min(rows_of(duration, draft.rate_hz), chip)
-    rising = np.full(chip, high)
-    rising[:rows] = trapezoid(low, high, rows, draft.rate_hz, draft.acceleration)
-    chips = np.repeat(levels, chip).reshape(-1, chip)
-    before = np.roll(levels, 1)
-    chips[levels > before] = rising
-    chips[levels < before] = low + high - rising
+    duration_s = compute_shortest_duration(high - low, draft.speed, draft.acceleration)
+    move_rows = min(count_rows(duration_s, draft.rate_hz), chip_rows)
+    rising = np.full(chip_rows, high)
+    rising[:move_rows] = make_trapezoid(low, high, move_rows, draft.rate_hz, draft.acceleration)
+    chips = np.repeat(levels, chip_rows).reshape(-1, chip_rows)
+    previous_levels = np.roll(levels, 1)
+    chips[levels > previous_levels] = rising
+    chips[levels < previous_levels] = low + high - rising
     return chips.reshape(-1)

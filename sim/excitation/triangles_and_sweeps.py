@@ -1,6 +1,6 @@
-"""Excitations at constant speed: triangle, decaying triangle and sweeps at several speeds.
+"""Excitations at constant speed: triangle, decaying triangle, and sweeps at several speeds.
 
-Corners are parabolas at the axis' greatest acceleration, and sharp where none is declared.
+Corners are parabolas at the maximum acceleration of the axis, or sharp if none is declared.
 """
 
 from dataclasses import dataclass
@@ -9,25 +9,31 @@ from typing import ClassVar
 
 import numpy as np
 
-from rotemina.sim.excitation.axis_draft import Draft, Signal
-from rotemina.sim.excitation.moves import cruise_speed, longest_stroke
-from rotemina.sim.excitation.moves_and_holds import Path
-from rotemina.sim.excitation.quantity import Amount, ExcitationError, Share, check_positive
-from rotemina.sim.messages import marked, message
-from rotemina.sim.quantities import exact
+from rotemina.sim.errors import ExcitationRequestError
+from rotemina.sim.excitation.axis_draft import AxisDraft, AxisSignal
+from rotemina.sim.excitation.moves import compute_cruise_speed, compute_longest_stroke
+from rotemina.sim.excitation.moves_and_holds import AxisPath
+from rotemina.sim.excitation.quantity import Amount, CapabilityShare, check_positive
+from rotemina.sim.messages import marked
+from rotemina.sim.units import format_exact
 
-_CRUISE = 0.5  # of a sweep's stroke at least is at constant speed
-_SPEEDS = (1.0, 1 / 3, 0.1)  # of the greatest, where none are asked
-_SWEEP_S = 1.0  # by default the fastest sweep takes this long or longer
-_HEADROOM = 0.9  # of the speed limit is the greatest default speed
+# At least this fraction of the stroke of a sweep is at constant speed.
+_MIN_CRUISE_SHARE = 0.5
+# Default speeds, as fractions of the fastest one.
+_DEFAULT_SPEED_SHARES = (1.0, 1 / 3, 0.1)
+# By default, the fastest sweep takes at least this long.
+_MIN_DEFAULT_SWEEP_S = 1.0
+# The fastest default speed is this fraction of the speed limit.
+_MAX_DEFAULT_SPEED_SHARE = 0.9
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Triangle:
-    """From the lowest point up and down at constant speed, whole periods (3 by default).
+class TriangleExcitation:
+    """A triangle from the lowest point up and down at constant speed, in whole periods.
 
-    Peaks are at the amplitude asked for; where corners are rounded, the speed between them is a
-    little more than ``4·amplitude·frequency``. The amplitude gives way to speed and acceleration.
+    There are 3 periods by default. The peaks have the requested amplitude. If corners are rounded,
+    the speed between them is a little more than ``4·amplitude·frequency``. The amplitude is reduced
+    to respect the limits of speed and acceleration.
     """
 
     kind: ClassVar[str] = "triangle"
@@ -37,37 +43,41 @@ class Triangle:
     duration_s: float | None = None
     periodic: bool = False
 
-    def draw(self, draft: Draft) -> Signal:
+    def draw(self, draft: AxisDraft) -> AxisSignal:
         """Return the positions of an axis."""
         check_positive(frequency_hz=self.frequency_hz, duration_s=self.duration_s)
-        asked = self.frequency_hz or draft.default_hz(self.amplitude)
-        half, frequency = _part_of_period(draft, asked, 2, stated=self.frequency_hz is not None)
+        requested_hz = self.frequency_hz or draft.compute_default_hz(self.amplitude)
+        half_rows, frequency = _divide_period(
+            draft, requested_hz, 2, is_requested=self.frequency_hz is not None
+        )
         cycles = max(1, round((self.duration_s or 3.0 / frequency) * frequency))
-        draft.rows(cycles / frequency)
-        # A periodic record ends a row before its corner, from where it must stop in one row.
+        draft.count_rows(cycles / frequency)
+        # A periodic record ends one row before a corner, and must come to rest within that row.
         acceleration = draft.acceleration / (1.5 if self.periodic else 1.0)
-        stroke = longest_stroke(half / draft.rate_hz, draft.speed, acceleration)
-        offset = draft.offset(self.offset)
-        amplitude = draft.amplitude(self.amplitude, offset, {draft.stroke_cause(): stroke / 2.0})
+        stroke = compute_longest_stroke(half_rows / draft.rate_hz, draft.speed, acceleration)
+        offset = draft.choose_offset(self.offset)
+        amplitude = draft.choose_amplitude(
+            self.amplitude, offset, {draft.describe_stroke_limits(): stroke / 2.0}
+        )
         low, high = offset - amplitude, offset + amplitude
-        path = Path(draft, low, acceleration)
-        path.move(high, half)
-        path.move(low, half)
-        one = path.values
-        values = np.tile(one[:-1], cycles)
+        path = AxisPath(draft, low, acceleration)
+        path.move(high, half_rows)
+        path.move(low, half_rows)
+        one_period = path.values
+        values = np.tile(one_period[:-1], cycles)
         if not self.periodic:
             values = np.append(values, low)
-        slope = _slope(draft, 2.0 * amplitude, half, acceleration)
-        period = 2 * half if self.periodic else None
-        return draft.signal(values, period, frequency_hz=frequency, cycles=cycles, **slope)
+        slope = _describe_slope(draft, 2.0 * amplitude, half_rows, acceleration)
+        period = 2 * half_rows if self.periodic else None
+        return draft.make_signal(values, period, frequency_hz=frequency, cycles=cycles, **slope)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class DecayingTriangle:
-    """Swings about the offset whose extremes shrink evenly to nothing; ``growing`` runs backwards.
+class DecayingTriangleExcitation:
+    """Swings about the offset whose extremes decrease evenly to 0; ``growing`` reverses the motion.
 
-    It begins and ends at the offset. Each of the 2·cycles swings takes half a period, so slower
-    speeds come with smaller amplitudes; ``duration_s`` is 6 periods by default.
+    The motion begins and ends at the offset. Each of the 2·cycles swings takes half a period, so
+    that smaller amplitudes have lower speeds. ``duration_s`` is 6 periods by default.
     """
 
     kind: ClassVar[str] = "decaying-triangle"
@@ -77,36 +87,45 @@ class DecayingTriangle:
     duration_s: float | None = None
     growing: bool = False
 
-    def draw(self, draft: Draft) -> Signal:
+    def draw(self, draft: AxisDraft) -> AxisSignal:
         """Return the positions of an axis."""
         check_positive(frequency_hz=self.frequency_hz, duration_s=self.duration_s)
-        asked = self.frequency_hz or draft.default_hz(self.amplitude)
-        quarter, frequency = _part_of_period(draft, asked, 4, stated=self.frequency_hz is not None)
+        requested_hz = self.frequency_hz or draft.compute_default_hz(self.amplitude)
+        quarter_rows, frequency = _divide_period(
+            draft, requested_hz, 4, is_requested=self.frequency_hz is not None
+        )
         cycles = max(1, round((self.duration_s or 6.0 / frequency) * frequency))
-        draft.rows(cycles / frequency)
+        draft.count_rows(cycles / frequency)
         swings = 2 * cycles
-        offset = draft.offset(self.offset)
-        stroke = longest_stroke(2 * quarter / draft.rate_hz, draft.speed, draft.acceleration)
-        first = longest_stroke(quarter / draft.rate_hz, draft.speed, draft.acceleration)
-        most = min(first, stroke / (2.0 - 1.0 / swings))
-        amplitude = draft.amplitude(self.amplitude, offset, {draft.stroke_cause(): most})
+        offset = draft.choose_offset(self.offset)
+        stroke = compute_longest_stroke(
+            2 * quarter_rows / draft.rate_hz, draft.speed, draft.acceleration
+        )
+        first_amplitude = compute_longest_stroke(
+            quarter_rows / draft.rate_hz, draft.speed, draft.acceleration
+        )
+        max_amplitude = min(first_amplitude, stroke / (2.0 - 1.0 / swings))
+        amplitude = draft.choose_amplitude(
+            self.amplitude, offset, {draft.describe_stroke_limits(): max_amplitude}
+        )
         extremes = amplitude * (1.0 - np.arange(swings) / swings) * (-1.0) ** np.arange(swings)
-        path = Path(draft, offset)
+        path = AxisPath(draft, offset)
         for index, extreme in enumerate(extremes.tolist()):
-            path.move(offset + extreme, quarter if index == 0 else 2 * quarter)
-        path.move(offset, quarter)
+            path.move(offset + extreme, quarter_rows if index == 0 else 2 * quarter_rows)
+        path.move(offset, quarter_rows)
         values = path.values[::-1].copy() if self.growing else path.values
-        own = {"frequency_hz": frequency, "cycles": cycles, "growing": self.growing}
-        return draft.signal(values, **own)
+        parameters = {"frequency_hz": frequency, "cycles": cycles, "growing": self.growing}
+        return draft.make_signal(values, **parameters)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Sweeps:
-    """Up and back down at each of several constant speeds (m/s or rad/s), with rests between.
+class SweepsExcitation:
+    """Moves up and down at each of several constant speeds (m/s or rad/s), with rests between them.
 
-    A share is one of the speed limit (where none is declared: of the range in a second). A speed
-    gives way to the limit, and to the acceleration where less than half the stroke would be left
-    at constant speed. Strokes are shortened by less than a row, so that speeds are exact.
+    A ``CapabilityShare`` is a fraction of the speed limit, or of the range per second if none is
+    declared. A speed above the limit is reduced to it. A speed is also reduced if less than half of
+    the stroke would be at constant speed. Strokes are shortened by less than a row, so that the
+    speeds are exact.
     """
 
     kind: ClassVar[str] = "sweeps"
@@ -115,70 +134,86 @@ class Sweeps:
     speeds: tuple[Amount, ...] = ()
     hold_s: float = 0.5
 
-    def draw(self, draft: Draft) -> Signal:
+    def draw(self, draft: AxisDraft) -> AxisSignal:
         """Return the positions of an axis."""
         check_positive(hold_s=self.hold_s)
-        offset = draft.offset(self.offset)
-        amplitude = draft.amplitude(self.amplitude, offset)
-        speeds = self._speeds(draft, 2.0 * amplitude)
-        path = Path(draft, offset - amplitude)
+        offset = draft.choose_offset(self.offset)
+        amplitude = draft.choose_amplitude(self.amplitude, offset)
+        speeds = self._choose_speeds(draft, 2.0 * amplitude)
+        path = AxisPath(draft, offset - amplitude)
         path.hold(self.hold_s)
         for speed in speeds:
-            self._there_and_back(draft, path, speed, 2.0 * amplitude)
-        told = {f"speeds_{draft.unit}_per_s": " ".join(f"{speed:.9g}" for speed in speeds)}
-        return draft.signal(path.values, **told, hold_s=self.hold_s)
+            self._add_sweep(draft, path, speed, 2.0 * amplitude)
+        speed_parameter = {
+            f"speeds_{draft.unit}_per_s": " ".join(f"{speed:.9g}" for speed in speeds)
+        }
+        return draft.make_signal(path.values, **speed_parameter, hold_s=self.hold_s)
 
-    def _speeds(self, draft: Draft, stroke: float) -> list[float]:
+    def _choose_speeds(self, draft: AxisDraft, stroke: float) -> list[float]:
         unit = f"{draft.unit}/s"
-        most = {
+        limits = {
             marked("engine", "constant speed over half the stroke"): sqrt(
-                _CRUISE * stroke * draft.acceleration
+                _MIN_CRUISE_SHARE * stroke * draft.acceleration
             )
         }
         if draft.speed < inf:
-            most[draft.speed_cause()] = draft.speed
-        most[marked("engine", "a row at constant speed at least")] = (
-            _CRUISE * stroke * draft.rate_hz
+            limits[draft.describe_speed_limit()] = draft.speed
+        limits[marked("engine", "at least one row at constant speed")] = (
+            _MIN_CRUISE_SHARE * stroke * draft.rate_hz
         )
         if not self.speeds:
-            fastest = min(_HEADROOM * draft.speed, stroke / _SWEEP_S, *most.values())
-            return [fastest * share for share in _SPEEDS]
-        asked = [
-            each.of_whole * draft.top_speed() if isinstance(each, Share) else each
-            for each in self.speeds
+            fastest = min(
+                _MAX_DEFAULT_SPEED_SHARE * draft.speed,
+                stroke / _MIN_DEFAULT_SWEEP_S,
+                *limits.values(),
+            )
+            return [fastest * share for share in _DEFAULT_SPEED_SHARES]
+        requested = [
+            amount.of_whole * draft.get_top_speed()
+            if isinstance(amount, CapabilityShare)
+            else amount
+            for amount in self.speeds
         ]
-        for speed in asked:
+        for speed in requested:
             if not 0 < speed < inf:
-                raise ExcitationError(
-                    message("engine", "axis {axis}: speed {speed} must be above 0").fill(
-                        axis=draft.axis, speed=exact(speed, unit)
-                    )
+                raise ExcitationRequestError(
+                    "axis {axis}: speed {speed} must be above 0",
+                    axis=draft.axis,
+                    speed=format_exact(speed, unit),
                 )
-        return [draft.limited("speed", speed, most, unit) for speed in asked]
+        return [draft.limit_value("speed", speed, limits, unit) for speed in requested]
 
-    def _there_and_back(self, draft: Draft, path: Path, speed: float, stroke: float) -> None:
-        starting = speed / draft.acceleration
-        duration = stroke / speed + starting
+    def _add_sweep(self, draft: AxisDraft, path: AxisPath, speed: float, stroke: float) -> None:
+        ramp_s = speed / draft.acceleration
+        duration = stroke / speed + ramp_s
         rows = floor(duration * draft.rate_hz + 1e-9) if duration * draft.rate_hz < 1e12 else 10**12
-        exact = speed * (rows / draft.rate_hz - starting)
+        exact_stroke = speed * (rows / draft.rate_hz - ramp_s)
         low = path.end
-        for end in (low + min(exact, stroke), low):
+        for end in (low + min(exact_stroke, stroke), low):
             path.move(end, rows)
             path.hold(self.hold_s)
 
 
-def _part_of_period(draft: Draft, asked: float, parts: int, *, stated: bool) -> tuple[int, float]:
-    """Return the whole rows in one of the equal parts of a period, and its frequency, Hz."""
-    draft.check_frequency("frequency", asked)
-    rows = draft.rows(1.0 / (parts * asked))
+def _divide_period(
+    draft: AxisDraft, requested_hz: float, parts: int, *, is_requested: bool
+) -> tuple[int, float]:
+    """Return the rows in each of ``parts`` equal parts of a period, and the frequency used, Hz."""
+    draft.check_frequency("frequency", requested_hz)
+    rows = draft.count_rows(1.0 / (parts * requested_hz))
     frequency = draft.rate_hz / (parts * rows)
-    if stated:
-        draft.rounded(
-            "frequency", asked, frequency, "Hz", marked("engine", "whole rows between its corners")
+    if is_requested:
+        draft.note_rounding(
+            "frequency",
+            requested_hz,
+            frequency,
+            "Hz",
+            marked("engine", "whole rows between the corners"),
         )
     return rows, frequency
 
 
-def _slope(draft: Draft, stroke: float, rows: int, acceleration: float) -> dict[str, float]:
-    speed = cruise_speed(stroke, rows / draft.rate_hz, acceleration)
+def _describe_slope(
+    draft: AxisDraft, stroke: float, rows: int, acceleration: float
+) -> dict[str, float]:
+    speed = compute_cruise_speed(stroke, rows / draft.rate_hz, acceleration)
     return {f"speed_{draft.unit}_per_s": speed, "corner_s": 2.0 * speed / acceleration}

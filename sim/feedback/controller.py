@@ -1,112 +1,118 @@
 """A sampled PI or PID controller with notch, low-pass, feed-forward and limits.
 
-One recurrence (:func:`rotemina.sim.feedback.controller_kernel.control`) serves the simulated loop,
-the live one, and the analysis of stability.
+The simulated loop, the live loop and the analysis of stability use the same recurrence
+(:func:`rotemina.sim.feedback.controller_kernel.control`).
 """
 
 from math import exp, isfinite
 
 import numpy as np
 
-from rotemina.sim.arrays import BoolArray, ComplexArray, FloatArray
+from rotemina.sim.arrays import (
+    BoolArray,
+    ComplexArray,
+    FloatArray,
+)
+from rotemina.sim.errors import FeedbackError
 from rotemina.sim.feedback import controller_kernel
-from rotemina.sim.feedback.errors import FeedbackError
 from rotemina.sim.feedback.feed_forward import FeedForward
-from rotemina.sim.feedback.filters import THROUGH, Biquad, low_pass, notch
-from rotemina.sim.feedback.gains import AntiWindup, Gains, OutputLimits
-from rotemina.sim.messages import message
+from rotemina.sim.feedback.filters import PASS_THROUGH, Biquad, design_low_pass, design_notch
+from rotemina.sim.feedback.gains import AntiWindup, ControllerGains, OutputLimits
 
 NO_LIMITS = OutputLimits()
-_ANY = float(np.finfo(np.float64).max)  # of finite errors
+# Without a bound, every finite error is used.
+_MAX_ERROR = float(np.finfo(np.float64).max)
 
 
-class Controller:
-    """Computes the request to an axis, sample by sample; begin with :meth:`start`.
+class SampledController:
+    """A controller that computes the output to an axis sample by sample, after :meth:`start`.
 
     Parameters
     ----------
-    gains : Gains
+    gains : ControllerGains
     interval_s : float
-        From sample to sample.
+        Interval of the samples.
     limits : OutputLimits
     feed_forward : FeedForward, optional
-        What is requested a reference without feedback; the reference itself without.
+        Gives the output for a reference without feedback; by default, the reference itself.
 
     Raises
     ------
     FeedbackError
-        If a filter does not fit the rate, or the interval is none.
+        If a filter does not suit the rate, or the interval is not positive and finite.
     """
 
     def __init__(
         self,
-        gains: Gains,
+        gains: ControllerGains,
         interval_s: float,
         limits: OutputLimits = NO_LIMITS,
         feed_forward: FeedForward | None = None,
     ) -> None:
-        #: Of the recurrence, and what it remembers, which it moves on.
-        self.numbers = numbers_of(gains, interval_s, limits)
+        #: Parameters of the recurrence, and its memory, which each step updates.
+        self.numbers = make_controller_parameters(gains, interval_s, limits)
         self._limits = limits.low, limits.high
-        self.memory = np.zeros(controller_kernel.MEMORY)
+        self.memory = np.zeros(controller_kernel.MEMORY_COUNT)
         self.feed_forward = feed_forward or FeedForward()
         self.interval_s = interval_s
-        #: What the integral added when it began, m or rad; for how many samples now the sensor has
-        #: been too far off.
-        self.begun_at, self.astray = 0.0, 0
+        #: Initial value of the integral, m or rad, and number of samples for which the sensor has
+        #: been too far from its reference.
+        self.initial_integral, self.lost_count = 0.0, 0
 
     def start(self, reference: float, output: float | None = None) -> None:
-        """Rest at a reference, with an output that holds the axis there.
+        """Set a state of rest at a reference, with an output that holds the axis there.
 
-        Without ``output`` it is what the feed-forward asks for. The controller takes over without
-        a jump: the integral begins with the difference.
+        Without ``output`` it is the output of the feed-forward. The controller takes over without a
+        jump, because the integral begins with the difference.
         """
         feed = self.feed_forward.start(reference)
-        self.memory[:] = rested(self.numbers, feed, feed if output is None else output)
-        self.begun_at = self.integral
+        self.memory[:] = make_rest_memory(self.numbers, feed, feed if output is None else output)
+        self.initial_integral = self.integral
 
-    def hold(self, most: float) -> None:
-        """Keep the output within ``most`` (m or rad) of its present value, until :meth:`lead`.
+    def hold_output(self, max_change: float) -> None:
+        """Keep the output within ``max_change`` (m or rad) of its present value.
 
-        A reading that is farther from the reference is not answered at all.
+        Readings that differ from the reference by more are ignored. :meth:`release_output` ends
+        both restrictions.
         """
         low, high = self._limits
-        self.numbers[controller_kernel.LOW] = max(low, self.output - most)
-        self.numbers[controller_kernel.HIGH] = min(high, self.output + most)
-        self.numbers[controller_kernel.BELIEVED] = most
+        self.numbers[controller_kernel.LOW] = max(low, self.output - max_change)
+        self.numbers[controller_kernel.HIGH] = min(high, self.output + max_change)
+        self.numbers[controller_kernel.MAX_PLAUSIBLE_ERROR] = max_change
 
-    def lead(self) -> None:
-        """Let the output go as far as the limits allow again."""
+    def release_output(self) -> None:
+        """Permit outputs up to the limits again, after :meth:`hold_output`."""
         self.numbers[controller_kernel.LOW], self.numbers[controller_kernel.HIGH] = self._limits
-        self.numbers[controller_kernel.BELIEVED] = _ANY
+        self.numbers[controller_kernel.MAX_PLAUSIBLE_ERROR] = _MAX_ERROR
 
     def step(self, reference: float, measured: float) -> float:
-        """Return the output of this sample, m or rad, held until the next.
+        """Return the output of this sample, m or rad, which is held until the next one.
 
         Raises
         ------
         FeedbackError
-            If a number is not finite; the controller is as before then.
+            If the reference or the reading is not finite. The controller keeps its state.
         """
         if not (isfinite(reference) and isfinite(measured)):
             raise FeedbackError(
-                message(
-                    "engine",
-                    "controller: reference {reference}, measured {measured}: both must be finite; "
-                    "hold the last output until the sensor answers again",
-                ).fill(reference=reference, measured=measured)
+                "controller: reference {reference}, measured {measured}: both must be finite; "
+                "hold the last output until the sensor answers again",
+                reference=reference,
+                measured=measured,
             )
-        return self.answer(reference, measured)
+        return self.respond_to_sample(reference, measured)
 
-    def answer(self, reference: float, measured: float) -> float:
-        """Return the output of this sample, or the last one again where none can be found.
+    def respond_to_sample(self, reference: float, measured: float) -> float:
+        """Return the output of this sample, or the previous one if no output can be computed.
 
-        That is where a number is not finite, or the reading of a held loop not believed. The
-        feed-forward continues all the same, as a machine's does, which cannot wait.
+        That happens if a number is not finite, or if the reading of a held loop is implausible. The
+        feed-forward advances in any case, as on a machine, which cannot wait.
         """
         feed = self.feed_forward.step(reference)
         error = reference - measured
-        if not (abs(error) <= self.numbers[controller_kernel.BELIEVED] and isfinite(feed)):
+        if not (
+            abs(error) <= self.numbers[controller_kernel.MAX_PLAUSIBLE_ERROR] and isfinite(feed)
+        ):
             return self.output
         return float(controller_kernel.control(self.numbers, self.memory, error, feed))
 
@@ -116,78 +122,96 @@ class Controller:
         return float(self.memory[controller_kernel.OUTPUT])
 
     @property
-    def limited(self) -> bool:
-        """Whether a limit cut the last output off."""
-        return bool(self.memory[controller_kernel.OUTPUT] != self.memory[controller_kernel.ASKED])
+    def is_limited(self) -> bool:
+        """Whether a limit cut off the last output."""
+        return bool(
+            self.memory[controller_kernel.OUTPUT] != self.memory[controller_kernel.UNLIMITED_OUTPUT]
+        )
 
-    def within(self, output: FloatArray) -> BoolArray:
-        """Return which outputs (n,) lie inside the limits, and not at them."""
+    def find_unlimited(self, output: FloatArray) -> BoolArray:
+        """Return which outputs (n,) lie strictly inside the limits."""
         low, high = self.numbers[controller_kernel.LOW], self.numbers[controller_kernel.HIGH]
         return np.asarray((output > low) & (output < high))
 
     @property
     def integral(self) -> float:
-        """What the integral adds to the output, m or rad."""
+        """The contribution of the integral to the output, m or rad."""
         return float(self.memory[controller_kernel.INTEGRAL])
 
 
-def numbers_of(gains: Gains, interval_s: float, limits: OutputLimits) -> FloatArray:
-    """Return the numbers of the recurrence."""
+def make_controller_parameters(
+    gains: ControllerGains, interval_s: float, limits: OutputLimits
+) -> FloatArray:
+    """Return the parameters of the recurrence.
+
+    Raises
+    ------
+    FeedbackError
+        If a filter does not suit the rate, or the interval is not positive and finite.
+    """
     if not (isfinite(interval_s) and interval_s > 0.0):
         raise FeedbackError(
-            message("engine", "loop interval {interval_s} s: must be positive and finite").fill(
-                interval_s=interval_s
-            )
+            "loop interval {interval_s} s: must be positive and finite", interval_s=interval_s
         )
-    pole = _pole(gains, interval_s)
-    numbers = np.zeros(controller_kernel.NUMBERS)
+    pole = _compute_derivative_pole(gains, interval_s)
+    numbers = np.zeros(controller_kernel.NUMBER_COUNT)
     numbers[controller_kernel.P] = gains.proportional
     numbers[controller_kernel.I_STEP] = gains.integral * interval_s
     numbers[controller_kernel.J_STEP] = gains.double_integral * interval_s**2
     numbers[controller_kernel.D_STEP] = gains.derivative * (1.0 - pole) / interval_s
     numbers[controller_kernel.D_POLE] = pole
-    integrates = gains.integral > 0.0 or gains.double_integral > 0.0
-    numbers[controller_kernel.BACK] = min(interval_s / gains.tracking_s, 1.0) if integrates else 0.0
+    has_integral = gains.integral > 0.0 or gains.double_integral > 0.0
+    numbers[controller_kernel.BACK] = (
+        min(interval_s / gains.tracking_s, 1.0) if has_integral else 0.0
+    )
     numbers[controller_kernel.CONDITIONAL] = gains.anti_windup is AntiWindup.CONDITIONAL
     numbers[controller_kernel.LOW], numbers[controller_kernel.HIGH] = limits.low, limits.high
-    numbers[controller_kernel.MOST] = limits.rate * interval_s
-    numbers[controller_kernel.BELIEVED] = _ANY
-    for place, biquad in zip(
+    numbers[controller_kernel.MAX_STEP] = limits.rate * interval_s
+    numbers[controller_kernel.MAX_PLAUSIBLE_ERROR] = _MAX_ERROR
+    for first_index, biquad in zip(
         (controller_kernel.NOTCH, controller_kernel.LOW_PASS),
-        _filters(gains, interval_s),
+        _make_filters(gains, interval_s),
         strict=True,
     ):
-        numbers[place : place + len(biquad)] = biquad
+        numbers[first_index : first_index + len(biquad)] = biquad
     return numbers
 
 
-def rested(numbers: FloatArray, feed: float, output: float) -> FloatArray:
-    """Return the memory of a controller at rest, with ``output`` within its limits."""
-    state = np.zeros(controller_kernel.MEMORY)
+def make_rest_memory(numbers: FloatArray, feed: float, output: float) -> FloatArray:
+    """Return the memory of a controller at rest, with ``output`` clipped to its limits."""
+    state = np.zeros(controller_kernel.MEMORY_COUNT)
     output = min(max(output, numbers[controller_kernel.LOW]), numbers[controller_kernel.HIGH])
     state[controller_kernel.INTEGRAL] = output - feed
-    state[controller_kernel.OUTPUT] = state[controller_kernel.ASKED] = output
+    state[controller_kernel.OUTPUT] = state[controller_kernel.UNLIMITED_OUTPUT] = output
     return state
 
 
-def response(gains: Gains, interval_s: float, z: ComplexArray) -> ComplexArray:
+def compute_response(gains: ControllerGains, interval_s: float, z: ComplexArray) -> ComplexArray:
     """Return the frequency response (…,) from error to output at points of the unit circle."""
-    first, second = _filters(gains, interval_s)
-    pole, back = _pole(gains, interval_s), 1.0 / z
-    summed = gains.integral * interval_s + gains.double_integral * interval_s**2 / (1.0 - back)
-    own = gains.proportional + summed / (1.0 - back)
-    own = own + gains.derivative * (1.0 - pole) / interval_s * (1.0 - back) / (1.0 - pole * back)
-    return np.asarray(first.response(z) * second.response(z) * own)
+    notch, low_pass = _make_filters(gains, interval_s)
+    pole, z_inverse = _compute_derivative_pole(gains, interval_s), 1.0 / z
+    integrals = gains.integral * interval_s + gains.double_integral * interval_s**2 / (
+        1.0 - z_inverse
+    )
+    sum_of_terms = gains.proportional + integrals / (1.0 - z_inverse)
+    sum_of_terms = sum_of_terms + gains.derivative * (1.0 - pole) / interval_s * (
+        1.0 - z_inverse
+    ) / (1.0 - pole * z_inverse)
+    return np.asarray(notch.compute_response(z) * low_pass.compute_response(z) * sum_of_terms)
 
 
-def _pole(gains: Gains, interval_s: float) -> float:
-    """Return a of the derivative's filter, which keeps a ramp's slope exactly."""
-    slow = gains.derivative_filter_s
-    return exp(-interval_s / slow) if slow > 0.0 else 0.0
+def _compute_derivative_pole(gains: ControllerGains, interval_s: float) -> float:
+    """Return the pole a of the derivative's filter, which gives the slope of a ramp exactly."""
+    time_constant_s = gains.derivative_filter_s
+    return exp(-interval_s / time_constant_s) if time_constant_s > 0.0 else 0.0
 
 
-def _filters(gains: Gains, interval_s: float) -> tuple[Biquad, Biquad]:
-    rate_hz, own = 1.0 / interval_s, gains.notch
-    first = notch(own.frequency_hz, own.damping, own.depth, rate_hz) if own else THROUGH
-    second = low_pass(gains.low_pass_hz, rate_hz) if gains.low_pass_hz else THROUGH
-    return first, second
+def _make_filters(gains: ControllerGains, interval_s: float) -> tuple[Biquad, Biquad]:
+    rate_hz, settings = 1.0 / interval_s, gains.notch
+    notch = (
+        design_notch(settings.frequency_hz, settings.damping, settings.depth, rate_hz)
+        if settings
+        else PASS_THROUGH
+    )
+    low_pass = design_low_pass(gains.low_pass_hz, rate_hz) if gains.low_pass_hz else PASS_THROUGH
+    return notch, low_pass

@@ -6,31 +6,47 @@ import numba
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray, IntArray
-from rotemina.sim.feedback.controller_kernel import ASKED, BELIEVED, OUTPUT, control
-from rotemina.sim.plant.kernel import Given, State, Steps, Taken, run
-from rotemina.sim.plant.plant_arrays import Machine
+from rotemina.sim.feedback.controller_kernel import (
+    MAX_PLAUSIBLE_ERROR,
+    OUTPUT,
+    UNLIMITED_OUTPUT,
+    control,
+)
+from rotemina.sim.plant import (
+    KernelInputs,
+    KernelSamples,
+    KernelState,
+    KernelSteps,
+    PlantTables,
+    run,
+)
 
 
-class Loops(NamedTuple):
-    """Where l loops sit, (l,) each, and their controllers.
+class LoopArrays(NamedTuple):
+    """Arrays of l loops and their controllers, (l,) each unless stated otherwise.
 
-    ``column`` of the axis; ``per_asked`` is the input for a position that is requested, ``offset``
-    the sensor's, ``delay`` by how many rows an output acts late. ``numbers`` (l, NUMBERS) and
-    ``memory`` (l, MEMORY) are the controllers'; the memory continues.
+    Attributes
+    ----------
+    column : column of the axis.
+    input_per_output : input of the plant per output of the controller.
+    offset : offset of the sensor.
+    delay : number of rows by which the output is delayed.
+    numbers : (l, NUMBER_COUNT) parameters of the controllers.
+    memory : (l, MEMORY_COUNT) states of the controllers, which are updated.
     """
 
     column: IntArray
-    per_asked: FloatArray
+    input_per_output: FloatArray
     offset: FloatArray
     delay: IntArray
     numbers: FloatArray
     memory: FloatArray
 
 
-class Rows(NamedTuple):
-    """What a run fills in: all (n + 1, axes), row 0 being what was before it.
+class RunArrays(NamedTuple):
+    """Arrays that a run fills, all (n + 1, axes); row 0 is the state before the run.
 
-    ``inputs`` of axes without a loop are given, and ``effort``, what the amplifiers make of them,
+    The ``inputs`` of axes without a loop are given. ``effort`` is the output of the amplifiers and
     may have no rows.
     """
 
@@ -44,49 +60,51 @@ class Rows(NamedTuple):
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
 def follow(
-    machine: Machine, steps: Steps, moving: State, rows: Rows, command: FloatArray,
-    variates: FloatArray, loops: Loops, reference: FloatArray, feed: FloatArray,
-    output: FloatArray,
+    tables: PlantTables, steps: KernelSteps, kernel_state: KernelState, rows: RunArrays,
+    command: FloatArray, variates: FloatArray, loops: LoopArrays, reference: FloatArray,
+    feed: FloatArray, output: FloatArray,
 ) -> int:  # fmt: skip
-    """Let axes follow references (n, l) and return how many samples a limit cut off.
+    """Let axes follow references (n, l); return the number of outputs that a limit cut off.
 
-    ``output`` (n, l) is filled with what the controllers ask for; ``command`` (n, axes) is of the
-    robot's own controllers. ``steps`` go from a row to the next, so the plant is stepped as a live
-    one is. A reading or reference that is not finite, or farther apart than is believed, leaves a
-    controller as it was.
+    ``output`` (n, l) receives the outputs of the controllers. ``command`` (n, axes) is for the
+    robot's own controllers. ``steps`` lead from one row to the next, so the plant is stepped as in
+    live operation. A controller keeps its state if its reading or reference is not finite, or if
+    their difference is implausibly large.
     """
-    axes, count = rows.inputs.shape[1], loops.column.shape[0]
-    none, no_kick, limited = np.zeros((0, axes)), np.zeros((0, 0)), 0
-    at_rest = np.empty(count)
-    for i in range(count):
-        at_rest[i] = rows.inputs[0, loops.column[i]]
+    axis_count, loop_count = rows.inputs.shape[1], loops.column.shape[0]
+    no_rows, no_kick, limited_count = np.zeros((0, axis_count)), np.zeros((0, 0)), 0
+    rest_inputs = np.empty(loop_count)
+    for i in range(loop_count):
+        rest_inputs[i] = rows.inputs[0, loops.column[i]]
     for k in range(reference.shape[0]):
-        for i in range(count):
+        for i in range(loop_count):
             column = loops.column[i]
             rows.inputs[k + 1, column] = rows.inputs[k, column]
             if loops.delay[i] > 0:
-                since = k - 1 - loops.delay[i]
-                late = output[since, i] * loops.per_asked[i] if since >= 0 else at_rest[i]
-                rows.inputs[k, column] = rows.inputs[k + 1, column] = late
+                row = k - 1 - loops.delay[i]
+                delayed_input = (
+                    output[row, i] * loops.input_per_output[i] if row >= 0 else rest_inputs[i]
+                )
+                rows.inputs[k, column] = rows.inputs[k + 1, column] = delayed_input
         window = slice(k, k + 2)
-        given = Given(
-            1, rows.time_s[window], command[k : k + 1], none, none, no_kick,
+        segment = KernelInputs(
+            1, rows.time_s[window], command[k : k + 1], no_rows, no_rows, no_kick,
             variates[k : k + 1] if variates.shape[0] > 0 else variates,
         )  # fmt: skip
-        taken = Taken(
+        samples = KernelSamples(
             rows.inputs[window], rows.effort[window] if rows.effort.shape[0] > 0 else rows.effort,
             rows.position[window], rows.velocity[window], rows.reading[window],
         )  # fmt: skip
-        run(machine, steps, given, taken, moving, rows.time_s[k])
-        for i in range(count):
+        run(tables, steps, segment, samples, kernel_state, rows.time_s[k])
+        for i in range(loop_count):
             column, memory = loops.column[i], loops.memory[i]
             error = reference[k, i] - (rows.reading[k + 1, column] - loops.offset[i])
-            # An error that is no number is not believed either.
-            if abs(error) <= loops.numbers[i, BELIEVED] and np.isfinite(feed[k, i]):
+            # The comparison also excludes an error that is not a number.
+            if abs(error) <= loops.numbers[i, MAX_PLAUSIBLE_ERROR] and np.isfinite(feed[k, i]):
                 output[k, i] = control(loops.numbers[i], memory, error, feed[k, i])
-                limited += memory[OUTPUT] != memory[ASKED]
+                limited_count += memory[OUTPUT] != memory[UNLIMITED_OUTPUT]
             else:
                 output[k, i] = memory[OUTPUT]
             if loops.delay[i] == 0:
-                rows.inputs[k + 1, column] = output[k, i] * loops.per_asked[i]
-    return limited
+                rows.inputs[k + 1, column] = output[k, i] * loops.input_per_output[i]
+    return limited_count

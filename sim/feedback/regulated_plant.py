@@ -7,25 +7,30 @@ from functools import lru_cache
 import numpy as np
 
 from rotemina.sim.arrays import BoolArray, FloatArray
+from rotemina.sim.errors import LostLoopError, PlantError
 from rotemina.sim.feedback import loop_kernel
-from rotemina.sim.feedback.axis_loop import rows_after
-from rotemina.sim.feedback.controller import Controller
-from rotemina.sim.feedback.errors import LostLoopError
+from rotemina.sim.feedback.axis_loop import make_run_arrays
+from rotemina.sim.feedback.controller import SampledController
 from rotemina.sim.messages import message
-from rotemina.sim.plant import kernel
-from rotemina.sim.plant.coupled_groups import asked_position
-from rotemina.sim.plant.errors import PlantError
-from rotemina.sim.plant.plant import Plant
-from rotemina.sim.plant.plant_arrays import Machine
-from rotemina.sim.plant.random_draws import Chance
-from rotemina.sim.plant.state import Behind, Motion, PlantState
-from rotemina.sim.quantities import amount, percent
+from rotemina.sim.plant import (
+    ChainPoint,
+    Plant,
+    PlantMotion,
+    PlantState,
+    PlantTables,
+    RandomStreams,
+    compute_position_gain,
+    kernel,
+)
+from rotemina.sim.units import format_percent, format_quantity
 
-Controllers = Mapping[int, Controller]
+Controllers = Mapping[int, SampledController]
 
-# Shares of the range at which a loop is given up: its sensor, or its actuator, does not answer it.
-_LOST, _LED = 0.1, 0.25  # by error, by what it has added since it began
-_LOST_S = 5e-3  # for so long at least: a single wrong reading is none
+# A loop is opened if its error, or its contribution to the output since its start, exceeds these
+# shares of the range. Then the sensor or the actuator does not respond.
+_MAX_ERROR_SHARE, _MAX_ADDED_SHARE = 0.1, 0.25
+# The error must last this long, because a single wrong reading is harmless.
+_MIN_LOST_S = 5e-3
 
 
 def advance(
@@ -35,210 +40,236 @@ def advance(
     command: FloatArray,
     reference: FloatArray,
     controllers: Controllers,
-    chance: Chance | None = None,
-) -> tuple[Motion, PlantState, FloatArray]:
-    """Sample a plant n times, its controllers answering each sample.
+    random_streams: RandomStreams | None = None,
+) -> tuple[PlantMotion, PlantState, FloatArray]:
+    """Step a plant by n samples, with a response of its controllers to each.
 
     Parameters
     ----------
     plant : Plant
     state : PlantState
     interval_s : float
-        From sample to sample, and from the state to the first.
+        Interval between samples, and between the state and the first sample.
     command : (n, axes)
-        What axes without a controller here are told, m or rad.
+        Commands of axes without a controller here, m or rad.
     reference : (n, axes)
-        Where those with one shall be, m or rad.
-    controllers : mapping int -> Controller
-        By the number of the axis; they continue.
-    chance : Chance, optional
+        References of the controlled axes, m or rad.
+    controllers : mapping int -> SampledController
+        By the index of the axis. Their states are updated.
+    random_streams : RandomStreams, optional
 
     Returns
     -------
-    motion : Motion
-        ``inputs`` of axes under a controller are what that asks for.
+    motion : PlantMotion
+        The ``inputs`` of controlled axes are the outputs of their controllers.
     state : PlantState
-    asked : (n, axes)
-        What every axis was told, m or rad.
+    outputs : (n, axes)
+        Commands of all axes, m or rad.
 
     Raises
     ------
     LostLoopError
-        If a sensor stays a tenth of the range away from its reference, though no limit keeps the
-        axis there, or a loop has added a quarter of the range.
+        If a sensor stays a tenth of the range away from its reference, although no limit keeps the
+        axis there, or if a loop contributes a quarter of the range.
     PlantError
-        If the response leaves what a number can hold.
+        If the response overflows.
     """
-    late = plant.assembly.delays_s.any() or any(one and one.delay_s for one in plant.loops)
-    run = _by_sample if late or plant.assembly.skews else _compiled
-    return run(plant, state, interval_s, command, reference, controllers, chance)
+    has_delay = plant.assembly.delays_s.any() or any(loop and loop.delay_s for loop in plant.loops)
+    run = _advance_by_sample if has_delay or plant.assembly.skews else _advance_compiled
+    return run(plant, state, interval_s, command, reference, controllers, random_streams)
 
 
-def _compiled(
+def _advance_compiled(
     plant: Plant,
     state: PlantState,
     interval_s: float,
     command: FloatArray,
     reference: FloatArray,
     controllers: Controllers,
-    chance: Chance | None,
-) -> tuple[Motion, PlantState, FloatArray]:
-    """Do it in one compiled loop: inputs act at their samples."""
+    random_streams: RandomStreams | None,
+) -> tuple[PlantMotion, PlantState, FloatArray]:
+    """Advance the plant in one compiled loop, in which inputs act at their samples."""
     rows, axes = command.shape
-    electronics = plant.assembly.electronics
-    inputs = np.concatenate([state.inputs[-1:], plant.open_loop_inputs(command)])
+    electronics = plant.assembly.has_electronics
+    inputs = np.concatenate([state.inputs[-1:], plant.compute_open_loop_inputs(command)])
     effort = np.zeros((rows + 1 if electronics.any() else 0, axes))
     time_s = state.elapsed_s + interval_s * np.arange(rows + 1.0)
-    filled = rows_after(state, time_s, inputs, effort)
-    moving = kernel.State(state.x.copy(), state.memory.copy(), state.seen.copy())
-    drawn = np.zeros((0, axes))
-    if chance is not None:
-        drawn = chance.draw(rows, axes, plant.assembly.random)
+    run_arrays = make_run_arrays(state, time_s, inputs, effort)
+    kernel_state = kernel.KernelState(state.x.copy(), state.memory.copy(), state.called_s.copy())
+    variates = np.zeros((0, axes))
+    if random_streams is not None:
+        variates = random_streams.draw(rows, axes, plant.assembly.variate_count)
     output = np.empty((rows, len(controllers)))
-    feed = [one.feed_forward.go_on(reference[:, index]) for index, one in controllers.items()]
-    loops = _loops(plant, controllers)
+    feed = [
+        controller.feed_forward.continue_run(reference[:, index])
+        for index, controller in controllers.items()
+    ]
+    loops = _make_loop_arrays(plant, controllers)
     loop_kernel.follow(
-        *_prepared(plant, interval_s), moving, filled, np.ascontiguousarray(command), drawn, loops,
+        *_prepare_machine(plant, interval_s), kernel_state, run_arrays,
+        np.ascontiguousarray(command), variates, loops,
         np.ascontiguousarray(reference[:, list(controllers)]), np.stack(feed, axis=1), output,
     )  # fmt: skip
-    _check(plant, filled.position)
-    for number, (index, one) in enumerate(controllers.items()):
-        read = filled.reading[1:, index] - loops.offset[number]
-        within = one.within(output[:, number])
-        error = np.where(within, reference[:, index] - read, 0.0)
-        added = np.where(within, output[:, number] - feed[number], one.begun_at)
-        _watch(plant, index, error, added, one)
-    for memory, one in zip(loops.memory, controllers.values(), strict=True):
-        one.memory[:] = memory
-    asked = command.copy()
-    asked[:, list(controllers)] = output
-    told = filled.inputs[1:].copy()
+    _check_finite(plant, run_arrays.position)
+    for loop_index, (index, controller) in enumerate(controllers.items()):
+        reading = run_arrays.reading[1:, index] - loops.offset[loop_index]
+        is_unlimited = controller.find_unlimited(output[:, loop_index])
+        error = np.where(is_unlimited, reference[:, index] - reading, 0.0)
+        added = np.where(
+            is_unlimited, output[:, loop_index] - feed[loop_index], controller.initial_integral
+        )
+        _check_response(plant, index, error, added, controller)
+    for memory, controller in zip(loops.memory, controllers.values(), strict=True):
+        controller.memory[:] = memory
+    outputs = command.copy()
+    outputs[:, list(controllers)] = output
+    reported_inputs = run_arrays.inputs[1:].copy()
     if len(effort):
         amplified = electronics.copy()
         amplified[list(controllers)] = False
-        told[:, amplified] = effort[1:, amplified]
-    motion = Motion(filled.position[1:], filled.velocity[1:], told, filled.reading[1:])
-    after = PlantState(
+        reported_inputs[:, amplified] = effort[1:, amplified]
+    motion = PlantMotion(
+        run_arrays.position[1:], run_arrays.velocity[1:], reported_inputs, run_arrays.reading[1:]
+    )
+    final_state = PlantState(
         state.time_s[-1:] + rows * interval_s,
         inputs[-1:].copy(),
-        filled.position[-1:].copy(),
-        filled.velocity[-1:].copy(),
-        filled.reading[-1:].copy(),
+        run_arrays.position[-1:].copy(),
+        run_arrays.velocity[-1:].copy(),
+        run_arrays.reading[-1:].copy(),
         float(time_s[-1]),
         state.perturbation,
-        *moving,
+        *kernel_state,
     )
-    return motion, after, asked
+    return motion, final_state, outputs
 
 
-def _by_sample(
+def _advance_by_sample(
     plant: Plant,
     state: PlantState,
     interval_s: float,
     command: FloatArray,
     reference: FloatArray,
     controllers: Controllers,
-    chance: Chance | None,
-) -> tuple[Motion, PlantState, FloatArray]:
-    """Do it sample by sample, which serves every plant: inputs may act late."""
-    asked, parts, begin_s = command.copy(), [], float(state.time_s[-1])
-    columns, open_loop = list(controllers), plant.open_loop_inputs
+    random_streams: RandomStreams | None,
+) -> tuple[PlantMotion, PlantState, FloatArray]:
+    """Advance the plant sample by sample, which also supports delayed inputs."""
+    commands, parts, begin_s = command.copy(), [], float(state.time_s[-1])
+    columns, compute_inputs = list(controllers), plant.compute_open_loop_inputs
     offsets = np.array([axis.offset for axis in plant.robot.axes.values()], dtype=np.float64)
     added = np.empty((len(command), len(columns)))
     for k in range(len(command)):
-        told = asked[k : k + 1]
-        told[0, columns] = [controllers[index].output for index in columns]
-        # Counted from the sample before: so the steps are those that were made for that one.
+        row = commands[k : k + 1]
+        row[0, columns] = [controllers[index].output for index in columns]
+        # The time is counted from the previous sample, so that its step matrices can be reused.
         state = replace(state, time_s=state.time_s - state.time_s[-1])
-        motion, state = plant.advance(state, np.array([interval_s]), told, chance=chance)
-        for number, index in enumerate(columns):
-            one, read = controllers[index], float(motion.reading[0, index] - offsets[index])
-            told[0, index] = one.answer(float(reference[k, index]), read)
-            added[k, number] = one.integral
-        state.inputs[-1, columns] = motion.inputs[0, columns] = open_loop(told)[0, columns]
+        motion, state = plant.advance(
+            state, np.array([interval_s]), row, random_streams=random_streams
+        )
+        for loop_index, index in enumerate(columns):
+            controller, reading = (
+                controllers[index],
+                float(motion.reading[0, index] - offsets[index]),
+            )
+            row[0, index] = controller.respond_to_sample(float(reference[k, index]), reading)
+            added[k, loop_index] = controller.integral
+        state.inputs[-1, columns] = motion.inputs[0, columns] = compute_inputs(row)[0, columns]
         parts.append(motion)
-    whole = Motion(*(np.concatenate(one) for one in zip(*parts, strict=True)))
-    for number, (index, one) in enumerate(controllers.items()):
-        read = whole.reading[:, index] - offsets[index]
-        error = np.where(one.within(asked[:, index]), reference[:, index] - read, 0.0)
-        _watch(plant, index, error, added[:, number], one)
+    full_motion = PlantMotion(*(np.concatenate(pieces) for pieces in zip(*parts, strict=True)))
+    for loop_index, (index, controller) in enumerate(controllers.items()):
+        reading = full_motion.reading[:, index] - offsets[index]
+        error = np.where(
+            controller.find_unlimited(commands[:, index]), reference[:, index] - reading, 0.0
+        )
+        _check_response(plant, index, error, added[:, loop_index], controller)
     time_s = state.time_s - state.time_s[-1] + begin_s + len(command) * interval_s
-    return whole, replace(state, time_s=time_s), asked
+    return full_motion, replace(state, time_s=time_s), commands
 
 
-def _loops(plant: Plant, controllers: Controllers) -> loop_kernel.Loops:
+def _make_loop_arrays(plant: Plant, controllers: Controllers) -> loop_kernel.LoopArrays:
     axes = list(plant.robot.axes.values())
-    own = [axes[index] for index in controllers]
-    return loop_kernel.Loops(
+    controlled_axes = [axes[index] for index in controllers]
+    return loop_kernel.LoopArrays(
         np.array(list(controllers), dtype=np.int64),
-        np.array([1.0 / asked_position(axis) for axis in own]),
-        np.array([axis.offset for axis in own], dtype=np.float64),
-        np.zeros(len(own), dtype=np.int64),
-        np.stack([one.numbers for one in controllers.values()]),
-        np.stack([one.memory for one in controllers.values()]),
+        np.array([1.0 / compute_position_gain(axis) for axis in controlled_axes]),
+        np.array([axis.offset for axis in controlled_axes], dtype=np.float64),
+        np.zeros(len(controlled_axes), dtype=np.int64),
+        np.stack([controller.numbers for controller in controllers.values()]),
+        np.stack([controller.memory for controller in controllers.values()]),
     )
 
 
 @lru_cache(maxsize=8)
-def _prepared(plant: Plant, interval_s: float) -> tuple[Machine, kernel.Steps]:
-    behind = Behind.COMMAND
-    return plant.machine(behind), plant.steps(np.array([0.0, interval_s]), 1, behind)
+def _prepare_machine(plant: Plant, interval_s: float) -> tuple[PlantTables, kernel.KernelSteps]:
+    chain_point = ChainPoint.COMMAND
+    return plant.make_tables(chain_point), plant.make_steps(
+        np.array([0.0, interval_s]), 1, chain_point
+    )
 
 
-def _watch(
-    plant: Plant, index: int, error: FloatArray, added: FloatArray, controller: Controller
+def _check_response(
+    plant: Plant, index: int, error: FloatArray, added: FloatArray, controller: SampledController
 ) -> None:
-    """Give a loop up that nothing answers, from its errors (n,) and what it added (n,)."""
+    """Check whether a loop responds, by its errors (n,) and contributions (n,) to the output.
+
+    Raises
+    ------
+    LostLoopError
+        If the error or the contribution is too large. The loop is then opened.
+    """
     span = list(plant.robot.axes.values())[index].span
-    lost = _lasting(np.abs(error) > _LOST * span, controller)
-    led = np.abs(added - controller.begun_at) > _LED * span
-    if not (lost | led).any():
+    is_lost = _find_lasting(np.abs(error) > _MAX_ERROR_SHARE * span, controller)
+    is_excessive = np.abs(added - controller.initial_integral) > _MAX_ADDED_SHARE * span
+    if not (is_lost | is_excessive).any():
         return
     name = plant.axes[index]
-    row = int(np.argmax(lost | led))
+    row = int(np.argmax(is_lost | is_excessive))
     unit = plant.robot.unit(name) or ""
-    what = (
+    reason = (
         message(
             "engine",
             "its sensor deviates by {much} from the expected position (at most {share} "
             "of the range)",
-        ).fill(much=amount(float(error[row]), unit, digits=3), share=percent(_LOST))
-        if lost[row]
+        ).fill(
+            much=format_quantity(float(error[row]), unit, digits=3),
+            share=format_percent(_MAX_ERROR_SHARE),
+        )
+        if is_lost[row]
         else message(
             "engine", "it has added {much} (at most {share} of the range is permitted)"
         ).fill(
-            much=amount(float(added[row] - controller.begun_at), unit, digits=3),
-            share=percent(_LED),
+            much=format_quantity(float(added[row] - controller.initial_integral), unit, digits=3),
+            share=format_percent(_MAX_ADDED_SHARE),
         )
     )
     raise LostLoopError(
-        message(
-            "engine",
-            "axis {name}: its loop was opened because the axis does not respond: {what}; "
-            "check the sensor and the actuator, clear the fault, then close the loop again",
-        ).fill(name=name, what=what)
+        "axis {name}: its loop was opened because the axis does not respond: {what}; "
+        "check the sensor and the actuator, clear the fault, then close the loop again",
+        name=name,
+        what=reason,
     )
 
 
-def _lasting(off: BoolArray, controller: Controller) -> BoolArray:
-    """Return at which samples (n,) it has been ``off`` (n,) for long; the controller counts."""
-    if not off.any():
-        controller.astray = 0
-        return off
-    enough = _LOST_S / controller.interval_s
-    lasting = np.zeros_like(off)
-    for row, one in enumerate(off):
-        controller.astray = controller.astray + 1 if one else 0
-        lasting[row] = controller.astray >= enough
-    return lasting
+def _find_lasting(is_too_far: BoolArray, controller: SampledController) -> BoolArray:
+    """Return the samples (n,) at which ``is_too_far`` (n,) has lasted too long.
+
+    The controller keeps the count from one call to the next.
+    """
+    if not is_too_far.any():
+        controller.lost_count = 0
+        return is_too_far
+    max_count = _MIN_LOST_S / controller.interval_s
+    has_lasted = np.zeros_like(is_too_far)
+    for row, sample_is_too_far in enumerate(is_too_far):
+        controller.lost_count = controller.lost_count + 1 if sample_is_too_far else 0
+        has_lasted[row] = controller.lost_count >= max_count
+    return has_lasted
 
 
-def _check(plant: Plant, position: FloatArray) -> None:
-    finite = np.isfinite(position).all(axis=0)
-    if not finite.all():
+def _check_finite(plant: Plant, position: FloatArray) -> None:
+    is_finite = np.isfinite(position).all(axis=0)
+    if not is_finite.all():
         raise PlantError(
-            message(
-                "engine",
-                "axis {axes}: the response of the loop grows without bound; lower the gains",
-            ).fill(axes=plant.axes[int(np.argmax(~finite))])
+            "axis {axes}: the response of the loop grows without bound; lower the gains",
+            axes=plant.axes[int(np.argmax(~is_finite))],
         )

@@ -1,77 +1,77 @@
-"""Gains approved for a machine's axis: checked against its model before anything moves."""
+"""Approved gains for a machine's axis, checked against its model before anything moves."""
 
 import numpy as np
 
-from rotemina.sim.feedback.controller import Controller
+from rotemina.sim.errors import UnstableError
+from rotemina.sim.feedback.controller import SampledController
 from rotemina.sim.feedback.feed_forward import FeedForward, SampledInverse
-from rotemina.sim.feedback.gains import Gains
-from rotemina.sim.feedback.reference_lead import lead_taps
-from rotemina.sim.feedback.stability import PEAK_SENSITIVITY, UnstableError, check_stability
-from rotemina.sim.feedback.tolerance_spread import SPREAD, loops_of
-from rotemina.sim.messages import message
-from rotemina.sim.robot.model import Robot
+from rotemina.sim.feedback.gains import ControllerGains
+from rotemina.sim.feedback.reference_lead import compute_lead_taps
+from rotemina.sim.feedback.stability import MAX_PEAK_SENSITIVITY, check_stability
+from rotemina.sim.feedback.tolerance_spread import DEFAULT_SPREAD, make_spread_loops
+from rotemina.sim.robot import Robot
 
 
-class Regulation:
-    """A loop approved for an axis, always found stable.
+class AxisRegulation:
+    """An approved loop for an axis, which is stable within all tolerances.
 
     Parameters
     ----------
     robot : Robot
-        Its axis is taken as the file has it, and with gain and resonance off by ``spread``.
+        Its axis is checked as in the file, and with gain and resonance changed by ``spread``.
     axis : str
-    gains : Gains
+    gains : ControllerGains
     rate_hz : float
-        Of the loop.
+        Sampling rate of the loop.
     peak_sensitivity : float
-        Greatest Ms of any of them.
+        Largest permitted Ms of all these loops.
     spread : float
 
     Raises
     ------
     UnstableError
-        If the loop around any of them would be unstable, or nearer to it than allowed.
+        If one of these loops is unstable, or closer to instability than allowed.
     FeedbackError, EffectError
-        If the axis cannot be put under such a loop.
+        If such a loop cannot be closed around the axis.
     """
 
     def __init__(
         self,
         robot: Robot,
         axis: str,
-        gains: Gains,
+        gains: ControllerGains,
         rate_hz: float,
         *,
-        peak_sensitivity: float = PEAK_SENSITIVITY,
-        spread: float = SPREAD,
+        peak_sensitivity: float = MAX_PEAK_SENSITIVITY,
+        spread: float = DEFAULT_SPREAD,
     ) -> None:
-        nominal, *others = loops_of(robot, axis, rate_hz, spread=spread)
-        self.stability = check_stability(nominal.sampled, gains, peak_sensitivity)
-        for other in others:
+        nominal, *detuned_loops = make_spread_loops(robot, axis, rate_hz, spread=spread)
+        self.stability = check_stability(nominal.sampled_axis, gains, peak_sensitivity)
+        for detuned in detuned_loops:
             try:
-                check_stability(other.sampled, gains, peak_sensitivity)
+                check_stability(detuned.sampled_axis, gains, peak_sensitivity)
             except UnstableError as error:
                 raise UnstableError(
-                    message(
-                        "engine",
-                        "{error} (with gain or resonance off by {spread} %)",
-                    ).fill(error=str(error), spread=100.0 * spread)
+                    "{error} (with gain or resonance off by {spread} %)",
+                    error=str(error),
+                    spread=100.0 * spread,
                 ) from error
         self.robot, self.axis, self.gains, self.rate_hz = robot, axis, gains, rate_hz
         self.limits = nominal.limits
-        self.taps = lead_taps(nominal.robot_axis, self.interval_s)
-        # What a live loop runs is compiled here, and not where a machine waits for it.
+        self.taps = compute_lead_taps(nominal.robot_axis, self.interval_s)
+        # The code of a live loop is compiled here, so that no machine has to wait for it.
         nominal.follow(gains, np.full(2, 0.5 * sum(nominal.robot_axis.range)))
 
     @property
     def interval_s(self) -> float:
-        """From sample to sample of the loop, s."""
+        """Interval of the loop's samples, s."""
         return 1.0 / self.rate_hz
 
-    def controller(self, inverse: SampledInverse | None = None) -> Controller:
-        """Return a controller, fed forward through the lead and an inverse, if any.
+    def make_controller(self, inverse: SampledInverse | None = None) -> SampledController:
+        """Return a controller with feed-forward through the lead and, optionally, an inverse.
 
-        The inverse is one at the loop's rate, without a stage against lag (``preview``).
+        The inverse must run at the loop's rate, without the stage that compensates lag
+        (``preview``).
         """
         forward = FeedForward(self.taps, inverse)
-        return Controller(self.gains, self.interval_s, self.limits, forward)
+        return SampledController(self.gains, self.interval_s, self.limits, forward)

@@ -2,48 +2,51 @@
 
 from dataclasses import replace
 
-from rotemina.sim.effects.facts import Facts
+from rotemina.sim.effects import AxisProperties
 from rotemina.sim.feedback.axis_loop import AxisLoop
-from rotemina.sim.robot.model import AxisEffect, Robot
+from rotemina.sim.robot import AxisEffect, Robot
 
-SPREAD = 0.05
+DEFAULT_SPREAD = 0.05
 
 
-def loops_of(
-    robot: Robot, axis: str, rate_hz: float, *, delay: int = 0, spread: float = SPREAD
+def make_spread_loops(
+    robot: Robot, axis: str, rate_hz: float, *, delay: int = 0, spread: float = DEFAULT_SPREAD
 ) -> list[AxisLoop]:
-    """Return the loop around an axis as it is, and around those off by ``spread``.
+    """Return the loop around the nominal axis, and loops around axes that differ by ``spread``.
 
-    The first is the axis as it is; then, where it resonates, more gain with a higher resonance and
-    with a lower one (the liveliest), less gain with a higher one (the slowest) and a lower one.
+    If the axis has a resonance, four axes differ: with a higher or lower gain, each with a higher
+    or lower resonance. Otherwise two differ, in their gain.
 
     Raises
     ------
     FeedbackError, EffectError
-        As :class:`rotemina.sim.feedback.axis_loop.AxisLoop`.
+        For the same reasons as in :class:`rotemina.sim.feedback.AxisLoop`.
     """
     nominal = AxisLoop(robot, axis, rate_hz, delay=delay)
-    resonates = Facts.of(nominal.robot_axis).frequency_hz > 0.0
+    has_resonance = AxisProperties.of(nominal.robot_axis).frequency_hz > 0.0
     return [
         nominal,
         *(
-            AxisLoop(_detuned(robot, axis, off), axis, rate_hz, delay=delay, gain=1.0 + gain)
-            for gain, off in _corners(spread, resonates=resonates)
+            AxisLoop(
+                _detune(robot, axis, frequency_error), axis, rate_hz, delay=delay, gain=1.0 + gain
+            )
+            for gain, frequency_error in _list_corners(spread, has_resonance=has_resonance)
         ),
     ]
 
 
-def _corners(spread: float, *, resonates: bool) -> list[tuple[float, float]]:
-    """Return the errors of gain and resonance that are tried beside none."""
+def _list_corners(spread: float, *, has_resonance: bool) -> list[tuple[float, float]]:
     if spread == 0.0:
         return []
-    if not resonates:
+    if not has_resonance:
         return [(spread, 0.0), (-spread, 0.0)]
     return [(spread, spread), (spread, -spread), (-spread, spread), (-spread, -spread)]
 
 
-def _detuned(robot: Robot, axis: str, off: float) -> Robot:
-    if off == 0.0:
+def _detune(robot: Robot, axis: str, frequency_error: float) -> Robot:
+    if frequency_error == 0.0:
         return robot
-    effect = AxisEffect(axis=axis, id="resonance_mismatch", parameters={"frequency_error": off})
+    effect = AxisEffect(
+        axis=axis, id="resonance_mismatch", parameters={"frequency_error": frequency_error}
+    )
     return replace(robot, effects=(*robot.effects, effect))

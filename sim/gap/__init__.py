@@ -1,4 +1,7 @@
 """Diagnosis of the sim-to-real gap.
 
-Where the gap is, what causes it, and how far it shrinks.
+A diagnosis goes one way: ``intake`` checks records, ``noise`` and ``location`` describe the gap,
+``fit`` and ``compare`` explain it, ``examination`` treats one axis, and ``pipeline`` draws the
+conclusions. ``result`` holds the answer, and ``output`` writes it. Start a diagnosis with
+``pipeline``.
 """

@@ -1,29 +1,49 @@
-"""One resonance fitted to a frequency response: frequency, damping, gain."""
+"""Fit of one resonance to a frequency response: frequency, damping, gain."""
 
 from typing import NamedTuple
 
 import numpy as np
 
 from rotemina.sim.arrays import ComplexArray, FloatArray
-from rotemina.sim.identification.errors import ExcitationError, SettingError, TooShortError
-from rotemina.sim.messages import message
-from rotemina.sim.quantities import rounded
+from rotemina.sim.errors import (
+    IdentificationSettingError,
+    InsufficientExcitationError,
+    TooShortError,
+)
+from rotemina.sim.messages import format_rounded
 
-_LEAST_LINES = 4
-_OVERDAMPED = 0.5**0.5  # damping ratio from which a mode shows no peak
-_NARROWEST = 0.05  # half-width over the lines' spacing; below, a single line passes for a mode
-_MOST_STEPS = 60
-_CONVERGED = 1e-13
+_MIN_LINES = 4
+# A mode of this damping ratio or more has no peak.
+_MAX_DAMPING_RATIO = 0.5**0.5
+# Smallest ratio of the half-width of a mode to the spacing of the lines. In a narrower fit a single
+# line would count as a mode.
+_MIN_HALF_WIDTH_RATIO = 0.05
+_MAX_ITERATIONS = 60
+# Smallest relative change of the cost. The fit has converged if an iteration changes it less.
+_MIN_COST_CHANGE_RATIO = 1e-13
 
 
-class Resonance(NamedTuple):
-    """``H(ω) = gain e^(jφ) ω0² / (ω0² − ω² + 2jζω0ω) + rest`` within a band.
+class FittedResonance(NamedTuple):
+    """A mode ``H(ω) = gain e^(jφ) ω0² / (ω0² − ω² + 2jζω0ω) + rest`` within a band.
 
-    ``phase_rad`` φ is what a delay or a lag has turned the mode by where it lies (about π: its sign
-    is negative). ``gain`` ≥ 0 and the complex ``rest`` (what other modes add, constant over the
-    band) in the unit of the response; each ``…_deviation`` is a standard deviation, from the
-    residual or from the lines' own where those were given and say more; ``misfit`` = ‖H − model‖
-    / ‖H‖, which is large where the band holds another mode.
+    Attributes
+    ----------
+    frequency_hz : float
+        ω0 / 2π.
+    damping_ratio : float
+        ζ.
+    gain : float
+        At least 0, in the unit of the response.
+    phase_rad : float
+        φ, caused by a delay or a lag at the frequency of the mode. About π if the mode has a
+        negative sign.
+    rest : complex
+        Contribution of other modes, constant over the band, in the unit of the response.
+    frequency_deviation, damping_deviation : float
+        Standard deviations. They follow from the residual, or from the standard deviations of the
+        lines if these were given and are larger.
+    misfit : float
+        ‖H − model‖ / ‖H‖. It is large if the band contains another mode.
     """
 
     frequency_hz: float
@@ -43,159 +63,189 @@ def fit_resonance(
     band_hz: tuple[float, float],
     deviation: FloatArray | None = None,
     held_at_hz: float | None = None,
-) -> Resonance:
+) -> FittedResonance:
     """Fit a single mode to the lines of a band.
 
-    A linear start (E. C. Levy, *IRE Trans. Autom. Control* 4 (1959) 37) is refined by
-    Gauss–Newton on the weighted complex error (R. Pintelon, J. Schoukens, *System Identification:
-    A Frequency Domain Approach*, 2nd ed., 2012, ch. 8).
+    A linear fit (E. C. Levy, *IRE Trans. Autom. Control* 4 (1959) 37) gives the start values.
+    Gauss–Newton iteration on the weighted complex error refines them (R. Pintelon, J. Schoukens,
+    *System Identification: A Frequency Domain Approach*, 2nd ed., 2012, ch. 8).
 
     Parameters
     ----------
-    frequency_hz, response : (k,) of one input and one output.
-    band_hz : lowest and highest frequency used.
-    deviation : (k,) standard deviation of each line; equal weights if left out.
-    held_at_hz : rate of commands held between samples; the hold ``sinc(f/rate) e^(−jπf/rate)`` is
-        then divided out (what folds back from above half the rate is not).
+    frequency_hz, response : (k,)
+        Response of one output to one input.
+    band_hz : (float, float)
+        Lowest and highest frequency used.
+    deviation : (k,), optional
+        Standard deviation of each line. Without it, all lines have the same weight.
+    held_at_hz : float, optional
+        Sampling rate of commands that are held between samples. The response is then divided by
+        that of the hold, ``sinc(f/rate) e^(−jπf/rate)``; aliasing is not corrected.
 
     Raises
     ------
-    SettingError, TooShortError, ExcitationError
-        If the band is empty or too narrow, or holds no resonance.
+    IdentificationSettingError
+        If the band is empty.
+    TooShortError
+        If the band has too few lines.
+    InsufficientExcitationError
+        If the band contains no resonance.
     """
-    inside = (frequency_hz >= band_hz[0]) & (frequency_hz <= band_hz[1])
+    in_band = (frequency_hz >= band_hz[0]) & (frequency_hz <= band_hz[1])
     if not 0.0 <= band_hz[0] < band_hz[1]:
-        raise SettingError(
-            message("engine", "resonance: band {band_hz} Hz; the lower end comes first").fill(
-                band_hz=str(band_hz)
-            )
+        raise IdentificationSettingError(
+            "resonance: band {band_hz} Hz; the lower frequency must come first",
+            band_hz=str(band_hz),
         )
-    if inside.sum() < _LEAST_LINES:
+    if in_band.sum() < _MIN_LINES:
         raise TooShortError(
-            message(
-                "engine",
-                "resonance: {count} lines from {low_hz} to {high_hz} Hz; at least {least_lines} "
-                "are needed, widen the band or resolve it finer",
-            ).fill(
-                count=inside.sum(), low_hz=band_hz[0], high_hz=band_hz[1], least_lines=_LEAST_LINES
-            )
+            "resonance: {count} lines from {low_hz} to {high_hz} Hz; at least {least_lines}"
+            " are needed, widen the band or increase the resolution",
+            count=in_band.sum(),
+            low_hz=band_hz[0],
+            high_hz=band_hz[1],
+            least_lines=_MIN_LINES,
         )
-    line_hz, target = frequency_hz[inside], response[inside]
+    line_hz, target = frequency_hz[in_band], response[in_band]
     if held_at_hz is not None:
-        part = line_hz / held_at_hz
-        target = target / (np.sinc(part) * np.exp(-1j * np.pi * part))
+        relative_frequency = line_hz / held_at_hz
+        target = target / (np.sinc(relative_frequency) * np.exp(-1j * np.pi * relative_frequency))
     weight = np.ones(len(line_hz))
     if deviation is not None:
-        weight = 1.0 / np.maximum(deviation[inside], 1e-12 * float(np.abs(target).max()))
+        weight = 1.0 / np.maximum(deviation[in_band], 1e-12 * float(np.abs(target).max()))
     return _fit(line_hz, target, weight, deviation is not None)
 
 
-def _fit(line_hz: FloatArray, target: ComplexArray, weight: FloatArray, known: bool) -> Resonance:
-    """Fit in units of the band's middle and of the largest response."""
-    middle, size = float(line_hz.mean()), float(np.abs(target).max())
-    if size == 0.0:
-        raise ExcitationError(message("engine", "resonance: the response is zero over the band"))
-    s, goal = line_hz / middle, target / size
-    parameters = _start(s, goal)
+def _fit(
+    line_hz: FloatArray, target: ComplexArray, weight: FloatArray, has_deviation: bool
+) -> FittedResonance:
+    """Fit frequencies relative to the band centre and responses relative to the largest one."""
+    mid_hz, max_magnitude = float(line_hz.mean()), float(np.abs(target).max())
+    if max_magnitude == 0.0:
+        raise InsufficientExcitationError("resonance: the response is zero over the band")
+    frequency, target_ratio = line_hz / mid_hz, target / max_magnitude
+    parameters = _fit_start_values(frequency, target_ratio)
     cost = np.inf
-    for _ in range(_MOST_STEPS):
-        model, jacobian = _model(s, parameters)
-        error = _stacked(weight * (goal - model))
-        now = float(error @ error)
-        if now >= cost * (1.0 - _CONVERGED):
+    for _ in range(_MAX_ITERATIONS):
+        model, jacobian = _evaluate_model(frequency, parameters)
+        error = _stack_parts(weight * (target_ratio - model))
+        new_cost = float(error @ error)
+        if new_cost >= cost * (1.0 - _MIN_COST_CHANGE_RATIO):
             break
-        cost = now
-        step, *_ = np.linalg.lstsq(_stacked(weight[:, None] * jacobian), error, rcond=None)
-        change = np.asarray(step, dtype=np.float64)
-        parameters = _limited(s, goal, weight, parameters, change)
-    model, jacobian = _model(s, parameters)
-    real = _stacked(weight[:, None] * jacobian)
-    error = _stacked(weight * (goal - model))
+        cost = new_cost
+        step, *_ = np.linalg.lstsq(_stack_parts(weight[:, None] * jacobian), error, rcond=None)
+        step_vector = np.asarray(step, dtype=np.float64)
+        parameters = _limit_step(frequency, target_ratio, weight, parameters, step_vector)
+    model, jacobian = _evaluate_model(frequency, parameters)
+    real_jacobian = _stack_parts(weight[:, None] * jacobian)
+    error = _stack_parts(weight * (target_ratio - model))
     variance = float(error @ error) / max(len(error) - len(parameters), 1)
-    if known:  # half of each line's variance on each of its parts; more where the fit is worse
-        variance = max(variance, 1.0 / size**2 / 2.0)
-    covariance = variance * np.linalg.pinv(real.T @ real)
-    spread = np.sqrt(np.diag(covariance))
-    root, damping = float(parameters[0]), float(parameters[1])
+    if has_deviation:
+        # The real and the imaginary part each have half of the variance of a line. A poor fit has a
+        # larger variance.
+        variance = max(variance, 1.0 / max_magnitude**2 / 2.0)
+    covariance = variance * np.linalg.pinv(real_jacobian.T @ real_jacobian)
+    deviations = np.sqrt(np.diag(covariance))
+    omega0, damping = float(parameters[0]), float(parameters[1])
     gain = complex(parameters[2], parameters[3])
-    seen = damping * root >= _NARROWEST * float(np.diff(s).max())
-    if not (s[0] < root < s[-1] and seen and damping < _OVERDAMPED):
-        raise ExcitationError(
-            message(
-                "engine",
-                "resonance: the best fit lies at {frequency_hz} Hz with damping {damping}, no peak "
-                "inside "
-                "the band {low_hz} to {high_hz} Hz; choose a band around a peak",
-            ).fill(
-                frequency_hz=rounded(root * middle, 6),
-                damping=rounded(damping, 3),
-                low_hz=line_hz[0],
-                high_hz=line_hz[-1],
-            )
+    is_resolved = damping * omega0 >= _MIN_HALF_WIDTH_RATIO * float(np.diff(frequency).max())
+    if not (frequency[0] < omega0 < frequency[-1] and is_resolved and damping < _MAX_DAMPING_RATIO):
+        raise InsufficientExcitationError(
+            "resonance: the best fit lies at {frequency_hz} Hz with damping {damping}, no peak "
+            "inside the band {low_hz} to {high_hz} Hz; choose a band around a peak",
+            frequency_hz=format_rounded(omega0 * mid_hz, 6),
+            damping=format_rounded(damping, 3),
+            low_hz=line_hz[0],
+            high_hz=line_hz[-1],
         )
-    return Resonance(
-        root * middle,
+    return FittedResonance(
+        omega0 * mid_hz,
         damping,
-        abs(gain) * size,
+        abs(gain) * max_magnitude,
         float(np.angle(gain)),
-        complex(parameters[4], parameters[5]) * size,
-        float(spread[0]) * middle,
-        float(spread[1]),
-        float(np.linalg.norm(goal - model) / np.linalg.norm(goal)),
+        complex(parameters[4], parameters[5]) * max_magnitude,
+        float(deviations[0]) * mid_hz,
+        float(deviations[1]),
+        float(np.linalg.norm(target_ratio - model) / np.linalg.norm(target_ratio)),
     )
 
 
-def _start(s: FloatArray, goal: ComplexArray) -> FloatArray:
-    """Return ω0, ζ, complex gain and rest of the linear fit ``H (a − s² + jbs) = c + r (…)``."""
-    one, line = np.ones_like(goal), s.astype(np.complex128)
-    # Last the rest times the denominator, its coefficients left free.
-    columns = [-goal, -1j * s * goal, one, 1j * one, line, 1j * line, line**2, 1j * line**2]
+def _fit_start_values(omega: FloatArray, target: ComplexArray) -> FloatArray:
+    """Return start values of ω0, ζ, gain and rest from ``H (a − ω² + jbω) = c + r (…)``.
+
+    Gain and rest are given by their real and imaginary parts.
+    """
+    ones, complex_frequency = np.ones_like(target), omega.astype(np.complex128)
+    # The last columns stand for the rest times the denominator, with independent coefficients.
+    columns = [
+        -target,
+        -1j * omega * target,
+        ones,
+        1j * ones,
+        complex_frequency,
+        1j * complex_frequency,
+        complex_frequency**2,
+        1j * complex_frequency**2,
+    ]
     solution, *_ = np.linalg.lstsq(
-        _stacked(np.column_stack(columns)), _stacked(-goal * s**2), rcond=None
+        _stack_parts(np.column_stack(columns)), _stack_parts(-target * omega**2), rcond=None
     )
-    root = float(np.sqrt(max(solution[0], float(s[0]) ** 2)))
-    damping = abs(float(solution[1])) / (2.0 * root)
-    peak = int(np.argmax(np.abs(goal)))
-    if not s[0] < root < s[-1] or damping == 0.0:
-        root, damping = float(s[peak]), 0.02
-    shape = _shape(s, root, damping)
-    parts = [shape, 1j * shape, one, 1j * one]
-    linear, *_ = np.linalg.lstsq(_stacked(np.column_stack(parts)), _stacked(goal), rcond=None)
-    return np.concatenate([[root, damping], linear])
+    omega0 = float(np.sqrt(max(solution[0], float(omega[0]) ** 2)))
+    damping = abs(float(solution[1])) / (2.0 * omega0)
+    peak = int(np.argmax(np.abs(target)))
+    if not omega[0] < omega0 < omega[-1] or damping == 0.0:
+        omega0, damping = float(omega[peak]), 0.02
+    mode = _compute_mode_response(omega, omega0, damping)
+    basis = [mode, 1j * mode, ones, 1j * ones]
+    coefficients, *_ = np.linalg.lstsq(
+        _stack_parts(np.column_stack(basis)), _stack_parts(target), rcond=None
+    )
+    return np.concatenate([[omega0, damping], coefficients])
 
 
-def _shape(s: FloatArray, root: float, damping: float) -> ComplexArray:
-    return np.asarray(root**2 / (root**2 - s**2 + 2j * damping * root * s), dtype=np.complex128)
+def _compute_mode_response(omega: FloatArray, omega0: float, damping: float) -> ComplexArray:
+    return np.asarray(
+        omega0**2 / (omega0**2 - omega**2 + 2j * damping * omega0 * omega),
+        dtype=np.complex128,
+    )
 
 
-def _model(s: FloatArray, parameters: FloatArray) -> tuple[ComplexArray, ComplexArray]:
-    """Return the model (k,) and its derivatives (k, 6)."""
-    root, damping = parameters[:2]
+def _evaluate_model(omega: FloatArray, parameters: FloatArray) -> tuple[ComplexArray, ComplexArray]:
+    """Return the response (k,) of the model and its derivatives (k, 6) by the parameters."""
+    omega0, damping = parameters[:2]
     gain = parameters[2] + 1j * parameters[3]
-    shape = _shape(s, root, damping)
-    by_root = gain * (2.0 * shape / root - shape**2 / root**2 * (2.0 * root + 2j * damping * s))
-    by_damping = -gain * shape**2 / root**2 * 2j * root * s
-    one = np.ones_like(shape)
-    model = gain * shape + parameters[4] + 1j * parameters[5]
-    return model, np.column_stack([by_root, by_damping, shape, 1j * shape, one, 1j * one])
+    mode = _compute_mode_response(omega, omega0, damping)
+    frequency_derivative = gain * (
+        2.0 * mode / omega0 - mode**2 / omega0**2 * (2.0 * omega0 + 2j * damping * omega)
+    )
+    damping_derivative = -gain * mode**2 / omega0**2 * 2j * omega0 * omega
+    ones = np.ones_like(mode)
+    model = gain * mode + parameters[4] + 1j * parameters[5]
+    return model, np.column_stack(
+        [frequency_derivative, damping_derivative, mode, 1j * mode, ones, 1j * ones]
+    )
 
 
-def _limited(
-    s: FloatArray, goal: ComplexArray, weight: FloatArray, parameters: FloatArray, step: FloatArray
+def _limit_step(
+    omega: FloatArray,
+    target: ComplexArray,
+    weight: FloatArray,
+    parameters: FloatArray,
+    step: FloatArray,
 ) -> FloatArray:
-    """Halve a step until it lowers the error; return the old parameters if it never does."""
+    """Return the parameters after a step, halved until it lowers the error, or the old ones."""
 
-    def cost(at: FloatArray) -> float:
-        return float(np.sum(np.abs(weight * (goal - _model(s, at)[0])) ** 2))
+    def compute_cost(values: FloatArray) -> float:
+        return float(np.sum(np.abs(weight * (target - _evaluate_model(omega, values)[0])) ** 2))
 
-    before = cost(parameters)
+    previous_cost = compute_cost(parameters)
     for _ in range(30):
-        tried = parameters + step
-        if tried[0] > 0.0 and tried[1] > 0.0 and cost(tried) < before:
-            return tried
+        candidate = parameters + step
+        if candidate[0] > 0.0 and candidate[1] > 0.0 and compute_cost(candidate) < previous_cost:
+            return candidate
         step = 0.5 * step
     return parameters
 
 
-def _stacked(values: ComplexArray) -> FloatArray:
+def _stack_parts(values: ComplexArray) -> FloatArray:
     return np.concatenate([values.real, values.imag]).astype(np.float64)

@@ -5,23 +5,47 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray, IntArray
-from rotemina.sim.identification.errors import ExcitationError, IdentificationError, SettingError
-from rotemina.sim.messages import message
-from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.errors import (
+    IdentificationError,
+    IdentificationSettingError,
+    InsufficientExcitationError,
+)
+from rotemina.sim.records import Record, Tap
 
-_LEVEL_SHARE = 0.1  # of a hold, over whose end a level is averaged
-_SHORTEST_HOLD = 50  # rows; a shorter one has no level to speak of
+# The level of a hold is averaged over this final share of its rows.
+_LEVEL_HOLD_RATIO = 0.1
+# A hold needs at least this many rows for its level to be measured.
+_MIN_HOLD_ROWS = 50
 
 
 class StepMetrics(NamedTuple):
-    """One step, SI units; times count from the first row of the new command.
+    """Figures of one step in SI units. Times count from the first row of the new command.
 
-    None stands for what the record does not show: a threshold not crossed, or not settled before
-    the last tenth of the hold. ``rise_s`` from 10 % to 90 %; ``delay_s`` to 50 %; ``peak_s`` to the
-    largest excess (None without overshoot); ``overshoot_percent`` of the step of the output;
-    ``settling_2_s``, ``settling_5_s`` after which the output stays within 2 % or 5 % of its step
-    about its final level; ``gain`` step of the output over step of the command; ``error`` final
-    output minus final command; ``noise_rms`` about the final level.
+    A figure is None if the record does not show it: the output does not cross the threshold, or
+    does not settle before the last tenth of the hold.
+
+    Attributes
+    ----------
+    start_s : float
+        Time of the step in the record.
+    command_from, command_to, output_from, output_to : float
+        Levels before and after the step.
+    gain : float
+        Step of the output over step of the command.
+    error : float
+        Final output minus final command.
+    delay_s : float or None
+        Time to 50 % of the step of the output.
+    rise_s : float or None
+        Time from 10 % to 90 %.
+    overshoot_percent : float
+        Overshoot as a percentage of the step of the output.
+    peak_s : float or None
+        Time to the largest overshoot; None without overshoot.
+    settling_2_s, settling_5_s : float or None
+        Time after which the output stays within 2 % or 5 % of its step from its final level.
+    noise_rms : float
+        RMS deviation from the final level.
     """
 
     start_s: float
@@ -40,16 +64,16 @@ class StepMetrics(NamedTuple):
     noise_rms: float
 
 
-def step_metrics(
+def measure_steps(
     record: Record,
     axis: str,
     tap: Tap = Tap.MEAS,
     *,
     drive: Tap = Tap.CMD,
-    least_step: float = 0.01,
-    shortest_hold_s: float = 0.0,
+    min_step: float = 0.01,
+    min_hold_s: float = 0.0,
 ) -> tuple[StepMetrics, ...]:
-    """Measure every step that a command holds, at any (also non-uniform) sampling.
+    """Measure every step of a command. The sampling may be non-uniform.
 
     A step is a jump between two holds of fifty rows or more. Levels are means over the last tenth
     of a hold; crossings are interpolated linearly between rows. Definitions follow K. Ogata,
@@ -57,120 +81,127 @@ def step_metrics(
 
     Parameters
     ----------
-    record, axis, tap : the output measured.
-    drive : the tap that commands the steps.
-    least_step : of the command's peak-to-peak; smaller jumps are passed over.
-    shortest_hold_s : steps next to a shorter hold are left out; choose a few times the time in
-        which the axis settles, else levels are those of a motion that still continues.
+    record : Record
+    axis : str
+    tap : Tap
+        The output to measure.
+    drive : Tap
+        The tap that commands the steps.
+    min_step : float
+        Smallest jump that counts as a step, as a share of the command's peak-to-peak value.
+    min_hold_s : float
+        Shortest hold. Steps next to a shorter one are left out. Choose a few times the settling
+        time of the axis; otherwise a level may be measured while the axis still moves.
 
     Raises
     ------
-    IdentificationError, ExcitationError
-        If a channel is missing, or the command holds no such step.
+    IdentificationSettingError
+        If ``min_step`` is out of range.
+    IdentificationError
+        If a channel is missing.
+    InsufficientExcitationError
+        If the command contains no such step.
     """
-    if not 0.0 < least_step <= 1.0:
-        raise SettingError(
-            message("engine", "least step {least_step}: not in (0, 1]; use one such as 0.01").fill(
-                least_step=repr(least_step)
-            )
+    if not 0.0 < min_step <= 1.0:
+        raise IdentificationSettingError(
+            "minimum step {least_step}: not in (0, 1]; use a value such as 0.01",
+            least_step=repr(min_step),
         )
-    for needed in (drive, tap):
-        if not record.has(axis, needed):
+    for required_tap in (drive, tap):
+        if not record.has(axis, required_tap):
             raise IdentificationError(
-                message("engine", "steps: the record has no {axis}.{needed}; it has {names}").fill(
-                    axis=axis, needed=needed, names=", ".join(map(str, record.columns))
-                )
+                "steps: the record has no {axis}.{needed}; it has {names}",
+                axis=axis,
+                needed=required_tap,
+                names=", ".join(map(str, record.columns)),
             )
     command, output = record.signal(axis, drive), record.signal(axis, tap)
-    bounds = _holds(command, least_step * float(np.ptp(command)))
+    bounds = _find_holds(command, min_step * float(np.ptp(command)))
     time_s = record.time_s
     metrics = [
-        _measure(time_s, command, output, begin, jump, end)
+        _measure_step(time_s, command, output, begin, jump, end)
         for begin, jump, end in zip(bounds[:-2], bounds[1:-1], bounds[2:], strict=True)
-        if min(jump - begin, end - jump) >= _SHORTEST_HOLD
-        and min(time_s[jump] - time_s[begin], time_s[end - 1] - time_s[jump]) >= shortest_hold_s
+        if min(jump - begin, end - jump) >= _MIN_HOLD_ROWS
+        and min(time_s[jump] - time_s[begin], time_s[end - 1] - time_s[jump]) >= min_hold_s
     ]
     if not metrics:
-        raise ExcitationError(
-            message(
-                "engine",
-                "steps: {axis}.{drive} holds no jump between two holds of {shortest_hold} rows and "
-                "{shortest_hold_s} s; record a staircase",
-            ).fill(
-                axis=axis,
-                drive=drive,
-                shortest_hold=_SHORTEST_HOLD,
-                shortest_hold_s=shortest_hold_s,
-            )
+        raise InsufficientExcitationError(
+            "steps: {axis}.{drive} holds no jump between two holds of at least "
+            "{shortest_hold} rows and {shortest_hold_s} s; record a staircase",
+            axis=axis,
+            drive=drive,
+            shortest_hold=_MIN_HOLD_ROWS,
+            shortest_hold_s=min_hold_s,
         )
     return tuple(metrics)
 
 
-def _holds(command: FloatArray, least: float) -> IntArray:
-    """Return the rows at which holds begin, with 0 and n; a ramp makes holds of one row."""
-    jumps = np.flatnonzero(np.abs(np.diff(command)) > least) + 1
+def _find_holds(command: FloatArray, min_jump: float) -> IntArray:
+    """Return the first rows of holds, and n at the end. Each row of a ramp counts as one hold."""
+    jumps = np.flatnonzero(np.abs(np.diff(command)) > min_jump) + 1
     return np.concatenate([[0], jumps, [len(command)]]).astype(np.int64)
 
 
-def _measure(
+def _measure_step(
     time_s: FloatArray, command: FloatArray, output: FloatArray, begin: int, jump: int, end: int
 ) -> StepMetrics:
-    before, after = output[_last(begin, jump)], output[_last(jump, end)]
+    before, after = output[_select_level_rows(begin, jump)], output[_select_level_rows(jump, end)]
     low, high = float(before.mean()), float(after.mean())
-    step, commanded = high - low, float(command[jump] - command[jump - 1])
-    since = time_s[jump:end] - time_s[jump]
-    # 0 at the old level, 1 at the new one, whichever way the step goes.
-    course = (output[jump:end] - low) / step if step else np.zeros(end - jump)
-    crossings = [_first_crossing(since, course, level) for level in (0.1, 0.5, 0.9)]
-    rise = None
+    step, command_step = high - low, float(command[jump] - command[jump - 1])
+    elapsed_s = time_s[jump:end] - time_s[jump]
+    # The normalised response is 0 at the old level and 1 at the new one for both step directions.
+    response = (output[jump:end] - low) / step if step else np.zeros(end - jump)
+    crossings = [_find_first_crossing(elapsed_s, response, level) for level in (0.1, 0.5, 0.9)]
+    rise_s = None
     if crossings[0] is not None and crossings[2] is not None:
-        rise = crossings[2] - crossings[0]
-    peak = int(np.argmax(course))
-    over = max(float(course[peak]) - 1.0, 0.0)
-    settled_by = since[-1] * (1.0 - _LEVEL_SHARE)
+        rise_s = crossings[2] - crossings[0]
+    peak = int(np.argmax(response))
+    overshoot = max(float(response[peak]) - 1.0, 0.0)
+    latest_s = elapsed_s[-1] * (1.0 - _LEVEL_HOLD_RATIO)
     return StepMetrics(
         start_s=float(time_s[jump]),
         command_from=float(command[jump - 1]),
         command_to=float(command[jump]),
         output_from=low,
         output_to=high,
-        gain=step / commanded,
+        gain=step / command_step,
         error=high - float(command[jump]),
         delay_s=crossings[1],
-        rise_s=rise,
-        overshoot_percent=100.0 * over,
-        peak_s=float(since[peak]) if over > 0 else None,
-        settling_2_s=_settling(since, course, 0.02, settled_by),
-        settling_5_s=_settling(since, course, 0.05, settled_by),
+        rise_s=rise_s,
+        overshoot_percent=100.0 * overshoot,
+        peak_s=float(elapsed_s[peak]) if overshoot > 0 else None,
+        settling_2_s=_find_settling_time(elapsed_s, response, 0.02, latest_s),
+        settling_5_s=_find_settling_time(elapsed_s, response, 0.05, latest_s),
         noise_rms=float(after.std()),
     )
 
 
-def _last(begin: int, end: int) -> slice:
-    return slice(end - max(int((end - begin) * _LEVEL_SHARE), 1), end)
+def _select_level_rows(begin: int, end: int) -> slice:
+    return slice(end - max(int((end - begin) * _LEVEL_HOLD_RATIO), 1), end)
 
 
-def _first_crossing(since: FloatArray, course: FloatArray, level: float) -> float | None:
-    above = np.flatnonzero(course >= level)
+def _find_first_crossing(elapsed_s: FloatArray, response: FloatArray, level: float) -> float | None:
+    above = np.flatnonzero(response >= level)
     if len(above) == 0:
         return None
     row = int(above[0])
-    return _between(since, course - level, row)
+    return _interpolate_crossing(elapsed_s, response - level, row)
 
 
-def _settling(since: FloatArray, course: FloatArray, band: float, latest: float) -> float | None:
-    outside = np.flatnonzero(np.abs(course - 1.0) > band)
+def _find_settling_time(
+    elapsed_s: FloatArray, response: FloatArray, band: float, latest_s: float
+) -> float | None:
+    outside = np.flatnonzero(np.abs(response - 1.0) > band)
     if len(outside) == 0:
         return 0.0
     row = int(outside[-1]) + 1
-    if row >= len(course) or since[row] > latest:
+    if row >= len(response) or elapsed_s[row] > latest_s:
         return None
-    return _between(since, np.abs(course - 1.0) - band, row)
+    return _interpolate_crossing(elapsed_s, np.abs(response - 1.0) - band, row)
 
 
-def _between(since: FloatArray, excess: FloatArray, row: int) -> float:
-    """Return when ``excess`` changes sign between the row before and this one."""
+def _interpolate_crossing(elapsed_s: FloatArray, excess: FloatArray, row: int) -> float:
     if row == 0:
-        return float(since[0])
-    share = excess[row - 1] / (excess[row - 1] - excess[row])
-    return float(since[row - 1] + share * (since[row] - since[row - 1]))
+        return float(elapsed_s[0])
+    fraction = excess[row - 1] / (excess[row - 1] - excess[row])
+    return float(elapsed_s[row - 1] + fraction * (elapsed_s[row] - elapsed_s[row - 1]))

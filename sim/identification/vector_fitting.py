@@ -1,8 +1,8 @@
 """Modes of a linear system with several inputs, by vector fitting of sampled spectra.
 
 Gustavsen and Semlyen, IEEE Trans. Power Delivery 14 (1999) 1052-1061, in its relaxed form
-(Gustavsen, IEEE Trans. Power Delivery 21 (2006) 1587-1592), on the unit circle: the model is
-``Y = Σ_j X_j Σ_k (a_jk / (z − λ_k) + ā_jk / (z − λ̄_k))``, one set of poles for all inputs.
+(Gustavsen, IEEE Trans. Power Delivery 21 (2006) 1587-1592), on the unit circle. The model is
+``Y = Σ_j X_j Σ_k (a_jk / (z − λ_k) + ā_jk / (z − λ̄_k))``, with one set of poles for all inputs.
 """
 
 from collections.abc import Sequence
@@ -13,21 +13,26 @@ import numpy as np
 
 from rotemina.sim.arrays import ComplexArray, FloatArray
 
-_REAL = 1e-9  # of its imaginary part, below which a pole is real
-_APART = 0.05  # imaginary part with which a pair of real poles begins anew
-_FAR = 0.98  # of the highest frequency, up to which poles begin
-_DAMPED = 0.01  # damping ratio with which they do
-_TRIVIAL = 1e-8  # weight at infinity below which a weighting is none
+# Largest imaginary part of a pole that counts as real.
+_MAX_REAL_POLE_IMAGINARY = 1e-9
+# Imaginary part of the complex pair that replaces two real poles.
+_RESTART_IMAGINARY = 0.05
+# Frequency of the fastest start pole, as a share of the highest frequency of the lines.
+_MAX_START_FREQUENCY_RATIO = 0.98
+# Damping ratio of the start poles.
+_START_DAMPING_RATIO = 0.01
+# Smallest modulus of the weight at infinity, by which the weighting is divided.
+_MIN_WEIGHT_AT_INFINITY = 1e-8
 
 
 @dataclass(frozen=True, eq=False)
-class Spectra:
-    """What a system answers to its inputs, at the same lines in every record.
+class InputOutputSpectra:
+    """Spectra of the inputs and one output of a system, on the same lines in every record.
 
     Attributes
     ----------
     z : (lines,)
-        On the unit circle.
+        Points of the lines on the unit circle.
     inputs : (records, inputs, lines)
     output : (records, lines)
     """
@@ -37,177 +42,212 @@ class Spectra:
     output: ComplexArray
 
     @classmethod
-    def of(cls, z: ComplexArray, inputs: ComplexArray, output: ComplexArray) -> Self:
-        """Gather spectra; more records than tell something new are put together.
+    def from_records(cls, z: ComplexArray, inputs: ComplexArray, output: ComplexArray) -> Self:
+        """Return spectra of records, combined into fewer records if there are many.
 
-        At each line the records are rows of ``[inputs, output]``, and a least-squares problem
-        knows no more of them than the triangle of their QR decomposition.
+        At each line the records are rows of ``[inputs, output]``. A least-squares problem depends
+        on these rows only through the triangle of their QR decomposition, which replaces them.
         """
         rows = np.concatenate([inputs, output[:, None]], axis=1).transpose(2, 0, 1)
         if rows.shape[1] > rows.shape[2]:
             rows = np.asarray(np.linalg.qr(rows, mode="r"))
-        together = rows.transpose(1, 2, 0)
-        return cls(z, together[:, :-1], together[:, -1])
+        combined = rows.transpose(1, 2, 0)
+        return cls(z, combined[:, :-1], combined[:, -1])
 
-    def only(self, inputs: Sequence[int]) -> "Spectra":
-        """Return the spectra with some of the inputs."""
-        return Spectra(self.z, self.inputs[:, list(inputs)], self.output)
+    def select_inputs(self, inputs: Sequence[int]) -> "InputOutputSpectra":
+        """Return the spectra with only some of the inputs."""
+        return InputOutputSpectra(self.z, self.inputs[:, list(inputs)], self.output)
 
 
-def first_poles(z: ComplexArray, pairs: int) -> ComplexArray:
+def make_start_poles(z: ComplexArray, pairs: int) -> ComplexArray:
     """Return lightly damped poles (pairs,) spread evenly over the lines' frequencies, rad."""
-    angle = np.abs(np.angle(z))
-    most = _FAR * angle.max()
-    spread = np.linspace(max(angle.min(), (1.0 - _FAR) * most), most, pairs)
-    return np.asarray(np.exp((1j - _DAMPED) * spread))
+    line_angles = np.abs(np.angle(z))
+    max_angle = _MAX_START_FREQUENCY_RATIO * line_angles.max()
+    angles = np.linspace(
+        max(line_angles.min(), (1.0 - _MAX_START_FREQUENCY_RATIO) * max_angle), max_angle, pairs
+    )
+    return np.asarray(np.exp((1j - _START_DAMPING_RATIO) * angles))
 
 
-def relocated(spectra: Spectra, poles: ComplexArray, slowest: float) -> ComplexArray:
-    """Return better poles: the zeros of the weighting that makes the fit a linear one.
+def relocate_poles(
+    spectra: InputOutputSpectra, poles: ComplexArray, max_modulus: float
+) -> ComplexArray:
+    """Return improved poles: the zeros of the weighting function that makes the fit linear.
 
     Parameters
     ----------
-    spectra : Spectra
+    spectra : InputOutputSpectra
     poles : (pairs,)
-        Above the real axis.
-    slowest : float
-        The greatest modulus that a pole may have, below 1: what rings on for longer than a record
-        is a line of noise.
+        Poles above the real axis.
+    max_modulus : float
+        Largest modulus of a pole, below 1. A mode that rings longer than a record cannot be
+        distinguished from a line of noise.
 
     Returns
     -------
     (pairs,)
-        There may be one fewer, where an odd number became real.
+        One pole fewer if an odd number of them became real.
     """
-    basis = _basis(spectra.z, poles)
+    basis = _make_basis(spectra.z, poles)
     count = basis.shape[1]
     rows = [
         np.hstack([*(basis * x[:, None] for x in inputs), -basis * y[:, None], -y[:, None]])
         for inputs, y in zip(spectra.inputs, spectra.output, strict=True)
     ]
-    matrix = _parts(np.vstack(rows))
-    size = np.linalg.norm(matrix, axis=0)
-    own = matrix.shape[1] - count - 1
-    triangle = np.asarray(np.linalg.qr(matrix / size, mode="r"))[own:, own:]
-    # Relaxed: instead of being 1 at infinity the weighting is 1 on the average.
-    lines = len(spectra.z)
-    mean = np.concatenate([basis.real.sum(axis=0), [float(lines)]]) / size[own:]
-    weight = float(np.linalg.norm(spectra.output)) / lines
-    equations = np.vstack([triangle, weight * mean])
-    right = np.zeros(len(equations))
-    right[-1] = weight * lines
-    found = np.linalg.lstsq(equations, right)[0] / size[own:]
-    at_infinity = found[-1] if abs(found[-1]) > _TRIVIAL else _TRIVIAL
-    weights = found[:-1] / at_infinity
+    matrix = _stack_parts(np.vstack(rows))
+    column_norms = np.linalg.norm(matrix, axis=0)
+    first_weight_column = matrix.shape[1] - count - 1
+    triangle = np.asarray(np.linalg.qr(matrix / column_norms, mode="r"))[
+        first_weight_column:, first_weight_column:
+    ]
+    # Relaxed vector fitting: the weighting is 1 on average instead of 1 at infinity.
+    line_count = len(spectra.z)
+    mean_row = (
+        np.concatenate([basis.real.sum(axis=0), [float(line_count)]])
+        / column_norms[first_weight_column:]
+    )
+    constraint_weight = float(np.linalg.norm(spectra.output)) / line_count
+    equations = np.vstack([triangle, constraint_weight * mean_row])
+    right_side = np.zeros(len(equations))
+    right_side[-1] = constraint_weight * line_count
+    solution = np.linalg.lstsq(equations, right_side)[0] / column_norms[first_weight_column:]
+    weight_at_infinity = (
+        solution[-1] if abs(solution[-1]) > _MIN_WEIGHT_AT_INFINITY else _MIN_WEIGHT_AT_INFINITY
+    )
+    weights = solution[:-1] / weight_at_infinity
     companion = np.zeros((count, count))
-    reach = np.zeros(count)
+    input_vector = np.zeros(count)
     for k, pole in enumerate(poles):
         block = slice(2 * k, 2 * k + 2)
         companion[block, block] = [[pole.real, pole.imag], [-pole.imag, pole.real]]
-        reach[2 * k] = 2.0
-    zeros = np.asarray(np.linalg.eigvals(companion - np.outer(reach, weights)), np.complex128)
-    return _tamed(zeros, slowest)
+        input_vector[2 * k] = 2.0
+    zeros = np.asarray(
+        np.linalg.eigvals(companion - np.outer(input_vector, weights)), np.complex128
+    )
+    return _stabilise_poles(zeros, max_modulus)
 
 
-def contributions(spectra: Spectra, poles: ComplexArray) -> tuple[float, FloatArray]:
-    """Return the sum of squares that poles leave, and by how much it grows (pairs,) without each.
+def pole_contributions(
+    spectra: InputOutputSpectra, poles: ComplexArray
+) -> tuple[float, FloatArray]:
+    """Return the residual sum of squares, and its growth (pairs,) without each pole.
 
-    The others keep their poles and change their residues.
+    When a pole is left out, the others stay where they are and only their residues change.
     """
-    reduced = _reduced(spectra, poles)
-    left, grown = _grown(reduced.design, reduced.output, spectra.inputs.shape[1])
-    return reduced.beyond + left, grown
+    reduced = _reduce_problem(spectra, poles)
+    residual, growth = _compute_residual_growth(
+        reduced.design, reduced.output, spectra.inputs.shape[1]
+    )
+    return reduced.unexplained + residual, growth
 
 
-def vector_fit(spectra: Spectra, pairs: int, slowest: float, *, most: int) -> ComplexArray:
-    """Return the poles (up to ``most``,) that explain an output best, above the real axis.
+def fit_poles(
+    spectra: InputOutputSpectra, pairs: int, max_modulus: float, *, max_poles: int
+) -> ComplexArray:
+    """Return the poles that explain an output best, above the real axis, at most ``max_poles``.
 
-    More of them, ``pairs``, are sought, and those that tell least are dropped.
+    The fit begins with more poles, ``pairs``, and drops those that contribute least.
     """
-    poles = first_poles(spectra.z, pairs)
+    poles = make_start_poles(spectra.z, pairs)
     for _ in range(8):
-        poles = relocated(spectra, poles, slowest)
-    return fewer(spectra, poles, slowest, most=most)
+        poles = relocate_poles(spectra, poles, max_modulus)
+    return reduce_poles(spectra, poles, max_modulus, max_poles=max_poles)
 
 
-def fewer(spectra: Spectra, poles: ComplexArray, slowest: float, *, most: int) -> ComplexArray:
-    """Drop the least important poles (pairs,) until ``most`` are left, and relocate these.
+def reduce_poles(
+    spectra: InputOutputSpectra, poles: ComplexArray, max_modulus: float, *, max_poles: int
+) -> ComplexArray:
+    """Drop the least important poles (pairs,) until ``max_poles`` are left, and relocate these.
 
-    ``slowest`` is as for :func:`relocated`.
+    ``max_modulus`` is as for :func:`relocate_poles`.
     """
-    design, output, _ = _reduced(spectra, poles)
+    design, output, _ = _reduce_problem(spectra, poles)
     inputs = spectra.inputs.shape[1]
-    while len(poles) > most:
-        least = int(np.argmin(_grown(design, output, inputs)[1]))
-        design = np.delete(design, _columns(least, len(poles), inputs), axis=1)
-        poles = np.delete(poles, least)
+    while len(poles) > max_poles:
+        weakest = int(np.argmin(_compute_residual_growth(design, output, inputs)[1]))
+        design = np.delete(design, _columns_of_pair(weakest, len(poles), inputs), axis=1)
+        poles = np.delete(poles, weakest)
     for _ in range(3):
-        poles = relocated(spectra, poles, slowest)
+        poles = relocate_poles(spectra, poles, max_modulus)
     return poles
 
 
-class _Reduced(NamedTuple):
-    """A design in the coordinates of its own columns, the output in them, and what is beyond."""
+class _ReducedProblem(NamedTuple):
+    """A least-squares problem projected onto the column space of its design matrix.
+
+    ``design`` is a triangle, ``output`` the projected output, and ``unexplained`` the sum of
+    squares of the output outside that space.
+    """
 
     design: FloatArray
     output: FloatArray
-    beyond: float
+    unexplained: float
 
 
-def _reduced(spectra: Spectra, poles: ComplexArray) -> _Reduced:
-    """Return the least-squares problem of some poles as a triangle, factorised once for all."""
-    design, output = _design(spectra, poles)
+def _reduce_problem(spectra: InputOutputSpectra, poles: ComplexArray) -> _ReducedProblem:
+    design, output = _make_design(spectra, poles)
     q, r = np.linalg.qr(design / np.linalg.norm(design, axis=0))
-    told = q.T @ output
-    return _Reduced(r, told, float(np.sum((output - q @ told) ** 2)))
+    projected = q.T @ output
+    return _ReducedProblem(r, projected, float(np.sum((output - q @ projected) ** 2)))
 
 
-def _grown(design: FloatArray, output: FloatArray, inputs: int) -> tuple[float, FloatArray]:
-    """Return what a design (n, columns) leaves, and by how much it grows (pairs,) without each."""
+def _compute_residual_growth(
+    design: FloatArray, output: FloatArray, inputs: int
+) -> tuple[float, FloatArray]:
+    """Return the residual sum of squares of a design (n, columns) and its growth (pairs,).
+
+    The growth is given for each pair of poles: by how much the sum increases without it.
+    """
     q, r = np.linalg.qr(design)
-    amounts = np.linalg.solve(r, q.T @ output)
+    coefficients = np.linalg.solve(r, q.T @ output)
     inverse = np.linalg.inv(r)
     covariance = inverse @ inverse.T
     pairs = design.shape[1] // (2 * inputs)
-    grown = np.empty(pairs)
+    growth = np.empty(pairs)
     for k in range(pairs):
-        own = _columns(k, pairs, inputs)
-        theta = amounts[own]
-        grown[k] = theta @ np.linalg.solve(covariance[np.ix_(own, own)], theta)
-    return float(np.sum((output - design @ amounts) ** 2)), grown
+        columns = _columns_of_pair(k, pairs, inputs)
+        theta = coefficients[columns]
+        growth[k] = theta @ np.linalg.solve(covariance[np.ix_(columns, columns)], theta)
+    return float(np.sum((output - design @ coefficients) ** 2)), growth
 
 
-def _columns(pair: int, pairs: int, inputs: int) -> list[int]:
-    """Return the columns of a design that belong to a pair of poles."""
+def _columns_of_pair(pair: int, pairs: int, inputs: int) -> list[int]:
     return [2 * (j * pairs + pair) + part for j in range(inputs) for part in (0, 1)]
 
 
-def _design(spectra: Spectra, poles: ComplexArray) -> tuple[FloatArray, FloatArray]:
-    """Return what each pole makes of each input, side by side, and the output."""
-    basis = _basis(spectra.z, poles)
+def _make_design(spectra: InputOutputSpectra, poles: ComplexArray) -> tuple[FloatArray, FloatArray]:
+    basis = _make_basis(spectra.z, poles)
     rows = [np.hstack([basis * x[:, None] for x in inputs]) for inputs in spectra.inputs]
-    return _parts(np.vstack(rows)), _parts(spectra.output.ravel())
+    return _stack_parts(np.vstack(rows)), _stack_parts(spectra.output.ravel())
 
 
-def _basis(z: ComplexArray, poles: ComplexArray) -> ComplexArray:
-    """Return two functions of each pair of poles (lines, 2 pairs) with real coefficients."""
-    above, below = 1.0 / (z[:, None] - poles), 1.0 / (z[:, None] - poles.conj())
-    both = np.stack([above + below, 1j * (above - below)], axis=2)
-    return np.asarray(both.reshape(len(z), -1))
+def _make_basis(z: ComplexArray, poles: ComplexArray) -> ComplexArray:
+    """Return two basis functions for each pair of poles, (lines, 2 pairs).
+
+    Their coefficients are real.
+    """
+    upper, lower = 1.0 / (z[:, None] - poles), 1.0 / (z[:, None] - poles.conj())
+    functions = np.stack([upper + lower, 1j * (upper - lower)], axis=2)
+    return np.asarray(functions.reshape(len(z), -1))
 
 
-def _parts(values: ComplexArray) -> FloatArray:
-    """Return the real parts and, below, the imaginary ones."""
+def _stack_parts(values: ComplexArray) -> FloatArray:
+    """Return the real parts followed by the imaginary parts."""
     return np.concatenate([values.real, values.imag])
 
 
-def _tamed(found: ComplexArray, slowest: float) -> ComplexArray:
-    """Return stable poles above the real axis; real ones become pairs again."""
-    modulus = np.abs(found)
-    found = np.where(modulus > 1.0, 1.0 / found.conj(), found)
-    modulus = np.abs(found)
-    found = np.where(modulus > slowest, found * slowest / np.maximum(modulus, slowest), found)
-    above = found[found.imag > _REAL]
-    real = np.sort(found[np.abs(found.imag) <= _REAL].real)
-    pairs = [complex(real[k : k + 2].mean(), _APART) for k in range(0, len(real) - 1, 2)]
-    return np.array(sorted([*above, *pairs], key=np.angle))
+def _stabilise_poles(poles: ComplexArray, max_modulus: float) -> ComplexArray:
+    """Return the poles above the real axis, with unstable ones mirrored and real ones paired."""
+    modulus = np.abs(poles)
+    poles = np.where(modulus > 1.0, 1.0 / poles.conj(), poles)
+    modulus = np.abs(poles)
+    poles = np.where(
+        modulus > max_modulus, poles * max_modulus / np.maximum(modulus, max_modulus), poles
+    )
+    complex_poles = poles[poles.imag > _MAX_REAL_POLE_IMAGINARY]
+    real_poles = np.sort(poles[np.abs(poles.imag) <= _MAX_REAL_POLE_IMAGINARY].real)
+    pairs = [
+        complex(real_poles[k : k + 2].mean(), _RESTART_IMAGINARY)
+        for k in range(0, len(real_poles) - 1, 2)
+    ]
+    return np.array(sorted([*complex_poles, *pairs], key=np.angle))

@@ -1,46 +1,48 @@
-"""Moves about a tip that stays: the tables make up for what the nano stage does.
+"""Moves about a fixed tip: the tables compensate for the motion of the nano stage.
 
-A straight line between two joint positions keeps the tip at its ends only. In between it strays
-by at most ``pin_length · turn² / 8`` (7 nm for the whole tilt range at 40 mm): paths with rows
-close enough keep it as well as one likes.
+A straight line between two joint positions keeps the tip exactly in place only at its ends. In
+between, the tip deviates by at most ``pin_length · turn² / 8`` (7 nm for the whole tilt range at
+40 mm). A path with closer rows has a smaller deviation.
 """
 
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.kinematics.chain import NANO, Chain
-from rotemina.sim.kinematics.forward import tip_from_pivot, tip_position
+from rotemina.sim.kinematics.chain import NANO, KinematicChain
+from rotemina.sim.kinematics.forward import compute_tip_from_pivot, compute_tip_position
 
 
-def hold_tip(chain: Chain, joints: FloatArray, nano: FloatArray) -> FloatArray:
-    """Return joints (..., 6) with ``nano`` (..., 3) thx, thy, zn and the tip of ``joints``.
+def hold_tip(chain: KinematicChain, joints: FloatArray, nano: FloatArray) -> FloatArray:
+    """Return joints (..., 6) with thx, thy, zn from ``nano`` (..., 3) and the tip of ``joints``.
 
     Raises
     ------
     OutOfLimitsError
-        With axis, value and bounds, if a nano joint or a table making up for it leaves its range.
+        If a nano joint or a table leaves its range. The message names axis, value and bounds.
     """
-    tables = tip_position(chain, joints) - tip_from_pivot(chain, nano)
+    tables = compute_tip_position(chain, joints) - compute_tip_from_pivot(chain, nano)
     nano = np.broadcast_to(nano, tables.shape)
     return chain.check(np.concatenate([tables, nano], axis=-1))
 
 
-def pivot(chain: Chain, joints: FloatArray, turn: FloatArray) -> FloatArray:
+def pivot(chain: KinematicChain, joints: FloatArray, turn: FloatArray) -> FloatArray:
     """Turn thx, thy by ``turn`` (..., 2), rad, about the tip of ``joints`` (..., 6).
 
-    A path is a ``turn`` of several rows, each counted from ``joints``.
+    For a path, ``turn`` has several rows, each relative to ``joints``.
 
     Raises
     ------
     OutOfLimitsError
         As :func:`hold_tip`.
     """
-    extra = np.zeros((*np.shape(turn)[:-1], 1))
-    return hold_tip(chain, joints, joints[..., NANO] + np.concatenate([turn, extra], axis=-1))
+    zn_change = np.zeros((*np.shape(turn)[:-1], 1))
+    return hold_tip(chain, joints, joints[..., NANO] + np.concatenate([turn, zn_change], axis=-1))
 
 
-def recentre(chain: Chain, joints: FloatArray, nano: FloatArray | None = None) -> FloatArray:
-    """Bring thx, thy, zn to ``nano`` (..., 3), else to mid-range, while the tip stays.
+def recentre(
+    chain: KinematicChain, joints: FloatArray, nano: FloatArray | None = None
+) -> FloatArray:
+    """Return joints with thx, thy, zn at ``nano`` (..., 3), or at mid-range, and the same tip.
 
     Raises
     ------

@@ -1,10 +1,10 @@
-"""A cell, and what the tip does to it: the membrane gives way, breaks, and keeps a hole.
+"""A simulated cell whose membrane yields to the tip, is pierced, and keeps a hole.
 
-The membrane is an ellipsoid. From where the tip meets it, the membrane goes along with the tip;
-points beside that follow by ``exp(−d²/2w²)`` of their distance d. When the tip is deeper than the
-membrane stands, it is pierced: it falls back but for a share, and the hole stays. The tip's path
-between two pictures counts as straight, so a fast thrust pierces, too. A pierced cell stays when
-its contact is removed.
+The membrane is an ellipsoid. Where the tip touches it, the membrane moves with the tip. Points at a
+distance d from there follow by the factor ``exp(−d²/2w²)``. When the tip is deeper than the
+membrane can withstand, it pierces the membrane, which springs back except for a small share, and
+the hole stays. The path of the tip between two pictures counts as straight, so a fast thrust
+pierces too. A pierced cell stays pierced when the tip leaves it.
 """
 
 from dataclasses import dataclass, replace
@@ -13,14 +13,13 @@ from typing import Self
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.messages import message
-from rotemina.sim.microscope.errors import SceneError
+from rotemina.sim.errors import SceneError
 
 Vector = tuple[float, float, float]
 
 
 @dataclass(frozen=True, slots=True)
-class Cell:
+class SimulatedCell:
     """A cell at rest; lengths in m.
 
     Attributes
@@ -29,16 +28,16 @@ class Cell:
     radii_m : tuple of float
         Half axes along x, y, z.
     nucleus_m : tuple of float
-        Its centre, from the cell's.
+        Centre of the nucleus relative to the centre of the cell.
     nucleus_radius_m : float
     breaking_m : float
-        How far the membrane goes along before it is pierced.
+        Distance that the membrane moves with the tip before it is pierced.
     dimple_m : float
-        How far around the tip it does (w).
+        Radius w of the dimple around the tip.
     membrane_m : float
-        Half its apparent thickness.
+        Half the apparent thickness of the membrane.
     remaining : float
-        Share of the dimple that stays around a tip that is inside.
+        Share of the dimple that remains around the tip after piercing.
     """
 
     centre_m: Vector
@@ -48,57 +47,58 @@ class Cell:
     breaking_m: float = 4e-6
     dimple_m: float = 5e-6
     membrane_m: float = 0.4e-6
-    remaining: float = 0.2
+    remaining_dimple_share: float = 0.2
 
     def __post_init__(self) -> None:
         sizes = (*self.radii_m, self.nucleus_radius_m, self.breaking_m, self.dimple_m)
         if not all(0.0 < size < float("inf") for size in (*sizes, self.membrane_m)):
             raise SceneError(
-                message(
-                    "engine",
-                    "cell: radii {radii_m}, nucleus {nucleus_radius_m}, breaking {breaking_m}, "
-                    "dimple {dimple_m}, membrane {membrane_m} m: each must be more than 0",
-                ).fill(
-                    radii_m=str(self.radii_m),
-                    nucleus_radius_m=self.nucleus_radius_m,
-                    breaking_m=self.breaking_m,
-                    dimple_m=self.dimple_m,
-                    membrane_m=self.membrane_m,
-                )
+                "cell: radii {radii_m}, nucleus {nucleus_radius_m}, breaking {breaking_m}, "
+                "dimple {dimple_m}, membrane {membrane_m} m: each must be more than 0",
+                radii_m=str(self.radii_m),
+                nucleus_radius_m=self.nucleus_radius_m,
+                breaking_m=self.breaking_m,
+                dimple_m=self.dimple_m,
+                membrane_m=self.membrane_m,
             )
 
     @classmethod
-    def beside(cls, point_m: Vector) -> Self:
-        """Return a cell 45 µm in −x and 10 µm in +y of a point, its middle 6 µm below it."""
+    def near_view_centre(cls, point_m: Vector) -> Self:
+        """Return a cell whose centre is 45 µm in −x, 10 µm in +y and 6 µm below a point."""
         x, y, z = point_m
         return cls((x - 45e-6, y + 10e-6, z - 6e-6))
 
     @classmethod
-    def met_at(cls, point_m: FloatArray, way: FloatArray) -> Self:
-        """Return a cell that a tip meets at a point (3,), m, as it comes along ``way`` (3,).
+    def with_contact_at(cls, point_m: FloatArray, way: FloatArray) -> Self:
+        """Return a cell that a tip first touches at a point (3,), m, when it moves along ``way``.
 
-        The middle is straight ahead of the point, so that the membrane is first met there.
+        The centre lies straight ahead of the point, in the direction ``way`` (3,).
         """
-        ahead = way / np.linalg.norm(way)
-        to_middle = 1.0 / np.linalg.norm(ahead / np.array(cls(_vector(point_m)).radii_m))
-        return cls(_vector(point_m + to_middle * ahead))
+        direction = way / np.linalg.norm(way)
+        centre_distance = 1.0 / np.linalg.norm(
+            direction / np.array(cls(_to_vector(point_m)).radii_m)
+        )
+        return cls(_to_vector(point_m + centre_distance * direction))
 
-    def level(self, point_m: FloatArray) -> FloatArray:
-        """Return how far points (..., 3) are out, (...): 0 in the middle, 1 on the membrane."""
+    def radius_ratio_at(self, point_m: FloatArray) -> FloatArray:
+        """Return the relative radii (...) of points (..., 3).
+
+        They are 0 at the centre and 1 at the membrane at rest.
+        """
         scaled = (np.asarray(point_m) - np.array(self.centre_m)) / np.array(self.radii_m)
         return np.asarray(np.sqrt((scaled**2).sum(axis=-1)))
 
 
 @dataclass(frozen=True, slots=True)
 class CellState:
-    """What has been done to a cell.
+    """State of a cell after contacts with the tip.
 
     Attributes
     ----------
     tip_m : tuple of float or None
-        Where the tip was last.
+        Last position of the tip.
     entry_m : tuple of float or None
-        Where a tip that is inside met the membrane.
+        Where the tip met the membrane, while the tip is inside.
     hole_m : tuple of float or None
         Where the membrane was pierced.
     """
@@ -108,82 +108,98 @@ class CellState:
     hole_m: Vector | None = None
 
     @property
-    def pierced(self) -> bool:
+    def is_pierced(self) -> bool:
         """Whether the membrane has a hole."""
         return self.hole_m is not None
 
 
-UNTOUCHED = CellState()
+UNTOUCHED_CELL_STATE = CellState()
 
 
-def met(cell: Cell, state: CellState, tip_m: FloatArray) -> CellState:
-    """Return the cell after the tip has come straight to ``tip_m`` (3,)."""
-    tip = _vector(tip_m)
-    if not cell.level(tip_m) < 1.0:
-        crossed = _pierced_on_the_way(cell, state, tip_m)
-        return replace(state, tip_m=tip, entry_m=None, hole_m=state.hole_m or crossed)
-    entry = state.entry_m or _entry(cell, state.tip_m, tip_m)
-    deep = float(np.linalg.norm(tip_m - np.array(entry))) > cell.breaking_m
-    return CellState(tip, entry, state.hole_m or (entry if deep else None))
+def advance_cell_state(cell: SimulatedCell, state: CellState, tip_m: FloatArray) -> CellState:
+    """Return the state of the cell after the tip has moved straight to ``tip_m`` (3,)."""
+    tip = _to_vector(tip_m)
+    if not cell.radius_ratio_at(tip_m) < 1.0:
+        pierced_point = _find_pass_through_hole(cell, state, tip_m)
+        return replace(state, tip_m=tip, entry_m=None, hole_m=state.hole_m or pierced_point)
+    entry = state.entry_m or _find_entry(cell, state.tip_m, tip_m)
+    is_deep = float(np.linalg.norm(tip_m - np.array(entry))) > cell.breaking_m
+    return CellState(tip, entry, state.hole_m or (entry if is_deep else None))
 
 
-def dimple(cell: Cell, state: CellState) -> FloatArray:
-    """Return by which vector (3,), m, the membrane is displaced where the tip met it."""
+def dimple_displacement(cell: SimulatedCell, state: CellState) -> FloatArray:
+    """Return the displacement (3,), m, of the membrane where the tip met it."""
     if state.entry_m is None or state.tip_m is None:
         return np.zeros(3)
-    way = np.array(state.tip_m) - np.array(state.entry_m)
-    if not state.pierced:
-        return np.asarray(way)
-    length = float(np.linalg.norm(way))
-    return np.asarray(way * cell.remaining * min(1.0, cell.breaking_m / max(length, 1e-12)))
+    path = np.array(state.tip_m) - np.array(state.entry_m)
+    if not state.is_pierced:
+        return np.asarray(path)
+    length = float(np.linalg.norm(path))
+    return np.asarray(
+        path * cell.remaining_dimple_share * min(1.0, cell.breaking_m / max(length, 1e-12))
+    )
 
 
-def displaced(cell: Cell, state: CellState, points_m: FloatArray) -> FloatArray:
-    """Return where points (..., 3) of the membrane at rest are now."""
+def displace_points(cell: SimulatedCell, state: CellState, points_m: FloatArray) -> FloatArray:
+    """Return the present positions of points (..., 3) of the membrane at rest."""
     if state.entry_m is None:
         return points_m
-    away = ((points_m - np.array(state.entry_m)) ** 2).sum(axis=-1, keepdims=True)
-    return np.asarray(points_m + np.exp(-away / (2.0 * cell.dimple_m**2)) * dimple(cell, state))
+    squared_distance = ((points_m - np.array(state.entry_m)) ** 2).sum(axis=-1, keepdims=True)
+    return np.asarray(
+        points_m
+        + np.exp(-squared_distance / (2.0 * cell.dimple_m**2)) * dimple_displacement(cell, state)
+    )
 
 
-def _crossings(cell: Cell, start_m: FloatArray, end_m: FloatArray) -> tuple[float, float] | None:
-    """Return at which shares of a straight way the membrane at rest is crossed, if it is."""
+def _find_crossings(
+    cell: SimulatedCell, start_m: FloatArray, end_m: FloatArray
+) -> tuple[float, float] | None:
+    """Return the two points, as shares of a straight path, where it crosses the membrane at rest.
+
+    Return None if it does not cross the membrane. The path may be extended beyond its ends.
+    """
     radii = np.array(cell.radii_m)
-    begin = (start_m - np.array(cell.centre_m)) / radii
-    way = (end_m - start_m) / radii
-    a, b, c = float(way @ way), float(begin @ way), float(begin @ begin) - 1.0
-    under = b * b - a * c
-    if a == 0.0 or under <= 0.0:
+    start = (start_m - np.array(cell.centre_m)) / radii
+    path = (end_m - start_m) / radii
+    a, b, c = float(path @ path), float(start @ path), float(start @ start) - 1.0
+    discriminant = b * b - a * c
+    if a == 0.0 or discriminant <= 0.0:
         return None
-    root = under**0.5
+    root = discriminant**0.5
     return (-b - root) / a, (-b + root) / a
 
 
-def _entry(cell: Cell, before: Vector | None, tip_m: FloatArray) -> Vector:
-    """Return where the tip met the membrane; the nearest place outwards if it came from nowhere."""
-    if before is not None:
-        start = np.array(before)
-        found = _crossings(cell, start, tip_m)
-        if found is not None and 0.0 <= found[0] <= 1.0:
-            return _vector(start + found[0] * (tip_m - start))
+def _find_entry(cell: SimulatedCell, previous_tip: Vector | None, tip_m: FloatArray) -> Vector:
+    """Return where the tip met the membrane.
+
+    If the previous position is unknown, return the point of the membrane on the ray from the
+    centre through the tip.
+    """
+    if previous_tip is not None:
+        start = np.array(previous_tip)
+        crossings = _find_crossings(cell, start, tip_m)
+        if crossings is not None and 0.0 <= crossings[0] <= 1.0:
+            return _to_vector(start + crossings[0] * (tip_m - start))
     centre = np.array(cell.centre_m)
-    level = float(cell.level(tip_m))
-    if level == 0.0:
-        return _vector(centre + np.array([0.0, 0.0, cell.radii_m[2]]))
-    return _vector(centre + (tip_m - centre) / level)
+    radius_ratio = float(cell.radius_ratio_at(tip_m))
+    if radius_ratio == 0.0:
+        return _to_vector(centre + np.array([0.0, 0.0, cell.radii_m[2]]))
+    return _to_vector(centre + (tip_m - centre) / radius_ratio)
 
 
-def _pierced_on_the_way(cell: Cell, state: CellState, tip_m: FloatArray) -> Vector | None:
-    """Return where a tip that went straight through, between two looks, has made a hole."""
-    if state.tip_m is None or cell.level(np.array(state.tip_m)) < 1.0:
+def _find_pass_through_hole(
+    cell: SimulatedCell, state: CellState, tip_m: FloatArray
+) -> Vector | None:
+    """Return the hole of a tip that passed through the whole cell between two pictures, or None."""
+    if state.tip_m is None or cell.radius_ratio_at(np.array(state.tip_m)) < 1.0:
         return None
     start = np.array(state.tip_m)
-    found = _crossings(cell, start, tip_m)
-    if found is None or found[0] < 0.0 or found[1] > 1.0:
+    crossings = _find_crossings(cell, start, tip_m)
+    if crossings is None or crossings[0] < 0.0 or crossings[1] > 1.0:
         return None
-    length = (found[1] - found[0]) * float(np.linalg.norm(tip_m - start))
-    return _vector(start + found[0] * (tip_m - start)) if length > cell.breaking_m else None
+    length = (crossings[1] - crossings[0]) * float(np.linalg.norm(tip_m - start))
+    return _to_vector(start + crossings[0] * (tip_m - start)) if length > cell.breaking_m else None
 
 
-def _vector(point: FloatArray) -> Vector:
+def _to_vector(point: FloatArray) -> Vector:
     return (float(point[0]), float(point[1]), float(point[2]))

@@ -1,6 +1,6 @@
-"""The loops over pixels, compiled. Distances in px, light in photoelectrons, single precision.
+"""Compiled loops over pixels. Distances are in px, light in photoelectrons, single precision.
 
-They leave the interpreter to other threads: a picture takes long enough for a window to stutter.
+They release the interpreter lock. Otherwise a window would stutter while a picture is drawn.
 """
 
 import numba
@@ -8,18 +8,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 Image = NDArray[np.float32]
-Numbers = NDArray[np.uint16]
+PixelValues = NDArray[np.uint16]
 
-#: The edges of a blurred shape are drawn as far as this many standard deviations from it.
-REACH = 4.0
+#: A blurred edge is drawn up to this distance from it, in standard deviations of the blur.
+BLUR_REACH_SIGMAS = 4.0
 
-_REACH = np.float32(REACH)
-_BLOCK = 32  # pixels of a row that are drawn or left out together
+_BLUR_REACH_SIGMAS = np.float32(BLUR_REACH_SIGMAS)
+# Pixels of a row that are drawn or skipped together.
+_BLOCK_PX = 32
 
 _ROOT_HALF = np.float32(0.7071067811865476)
-_ONE, _HALF, _ZERO, _FAR = np.float32(1.0), np.float32(0.5), np.float32(0.0), np.float32(4.0)
-# Abramowitz and Stegun, Handbook of Mathematical Functions (1964), 7.1.28: within 3e-7.
-_A = tuple(
+_ONE, _HALF, _ZERO, _MAX_ERF_ARGUMENT = (
+    np.float32(1.0),
+    np.float32(0.5),
+    np.float32(0.0),
+    np.float32(4.0),
+)
+# Coefficients of the error function by Abramowitz and Stegun, Handbook of Mathematical Functions
+# (1964), 7.1.28. The error is below 3e-7.
+_ERF_COEFFICIENTS = tuple(
     np.float32(a)
     for a in (0.0705230784, 0.0422820123, 0.0092705272, 0.0001520143, 0.0002765672, 0.0000430638)
 )
@@ -27,9 +34,24 @@ _A = tuple(
 
 @numba.njit(cache=True, inline="always", error_model="numpy", fastmath=True)
 def _erf(x: np.float32) -> np.float32:
-    """Return the error function; without a branch, so that the loop around it is vectorised."""
-    y = min(abs(x), _FAR)  # beyond it nothing changes, and powers of it stay finite
-    p = y * (_A[0] + y * (_A[1] + y * (_A[2] + y * (_A[3] + y * (_A[4] + y * _A[5])))))
+    """Return the error function.
+
+    It has no branch, so that the compiler can vectorise the loop around it.
+    """
+    # Beyond this argument the result stays the same. The limit keeps the powers finite.
+    y = min(abs(x), _MAX_ERF_ARGUMENT)
+    p = y * (
+        _ERF_COEFFICIENTS[0]
+        + y
+        * (
+            _ERF_COEFFICIENTS[1]
+            + y
+            * (
+                _ERF_COEFFICIENTS[2]
+                + y * (_ERF_COEFFICIENTS[3] + y * (_ERF_COEFFICIENTS[4] + y * _ERF_COEFFICIENTS[5]))
+            )
+        )
+    )
     p = p + _ONE
     p2 = p * p
     p4 = p2 * p2
@@ -39,70 +61,84 @@ def _erf(x: np.float32) -> np.float32:
 
 
 @numba.njit(cache=True, inline="always", error_model="numpy", fastmath=True)
-def _between(across: np.float32, radius: np.float32, share: np.float32) -> np.float32:
-    """Return how much of a strip −radius…radius is seen at ``across``; ``share``: 1/(√2 σ)."""
-    return np.float32(_HALF * (_erf((radius - across) * share) + _erf((radius + across) * share)))
+def _strip_coverage(across: np.float32, radius: np.float32, scale: np.float32) -> np.float32:
+    """Return the coverage at ``across`` by a blurred strip ±radius; ``scale`` is 1/(√2 σ)."""
+    return np.float32(_HALF * (_erf((radius - across) * scale) + _erf((radius + across) * scale)))
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy", fastmath=True)
 def draw_tube(
     light: Image,
     tip: Image,
-    way: Image,
+    direction: Image,
     radius: Image,
     depth: Image,
     blur: Image,
-    absorbed: Image,
+    opacity: Image,
 ) -> None:
-    """Darken ``light`` (rows, columns) by a tapering tube, in place; its far parts stay untouched.
+    """Darken ``light`` (rows, columns) by a tapering tube, in place.
+
+    Pixels far from the tube are skipped.
 
     Parameters
     ----------
     light : (rows, columns)
     tip : (2,)
         Column and row of the tip.
-    way : (2,)
-        The unit vector of the body, in px.
+    direction : (2,)
+        Unit vector of the body in the image.
     radius : (3,)
-        At the tip, growth per px, and the greatest.
+        Radius at the tip, its growth per px, and its maximum, px.
     depth : (2,)
-        Of the tip over half the depth of field, and its growth per px.
+        Depth of the tip in units of half the depth of field, and its change per px.
     blur : (2,)
-        Variance in focus without the pixel, and that of the pixel.
-    absorbed : (3,)
-        Share lost in the tube, less through its bore, and the bore's radius over the tube's.
+        Variance of the blur in focus without the pixel, and that of the pixel, px².
+    opacity : (3,)
+        Share of the light lost in the tube, share regained through its bore, and ratio of the
+        radius of the bore to that of the tube.
     """
-    # Read once: were they arrays in the loop, the compiler could not rule out that it writes them.
-    u0, v0, eu, ev = tip[0], tip[1], way[0], way[1]
-    narrow, growth, widest = radius[0], radius[1], radius[2]
-    away, rise, airy, pixel = depth[0], depth[1], blur[0], blur[1]
-    wall, lumen, hollow = absorbed[0], absorbed[1], absorbed[2]
-    # No edge is nearer to a pixel of a block than to its middle by more than this.
-    slack = _HALF * np.float32(_BLOCK) * (_ONE + growth + _REACH * np.sqrt(airy) * abs(rise))
+    # The arrays are unpacked before the loop, because the compiler could not exclude that they
+    # change inside it.
+    u0, v0, eu, ev = tip[0], tip[1], direction[0], direction[1]
+    tip_radius, radius_per_px, max_radius = radius[0], radius[1], radius[2]
+    tip_depth, depth_per_px, airy_variance, pixel_variance = depth[0], depth[1], blur[0], blur[1]
+    wall_opacity, lumen_gain, bore_ratio = opacity[0], opacity[1], opacity[2]
+    # An edge can be nearer to a pixel of a block than to the middle of the block by this much.
+    block_slack = (
+        _HALF
+        * np.float32(_BLOCK_PX)
+        * (_ONE + radius_per_px + _BLUR_REACH_SIGMAS * np.sqrt(airy_variance) * abs(depth_per_px))
+    )
     for row in range(light.shape[0]):
         dv = np.float32(row) - v0
-        for first in range(0, light.shape[1], _BLOCK):
-            du = np.float32(first + _BLOCK // 2) - u0
-            along, across = du * eu + dv * ev, abs(dv * eu - du * ev) - slack
-            inside = max(along, _ZERO)
-            z = away + rise * inside
-            reach = _REACH * np.sqrt(airy * (_ONE + z * z) + pixel)
-            if along + slack < -reach or across > min(narrow + growth * inside, widest) + reach:
+        for first in range(0, light.shape[1], _BLOCK_PX):
+            du = np.float32(first + _BLOCK_PX // 2) - u0
+            along, across = du * eu + dv * ev, abs(dv * eu - du * ev) - block_slack
+            distance = max(along, _ZERO)
+            z = tip_depth + depth_per_px * distance
+            blur_reach = _BLUR_REACH_SIGMAS * np.sqrt(
+                airy_variance * (_ONE + z * z) + pixel_variance
+            )
+            if (
+                along + block_slack < -blur_reach
+                or across > min(tip_radius + radius_per_px * distance, max_radius) + blur_reach
+            ):
                 continue
-            line = light[row][first : first + _BLOCK]
+            line = light[row][first : first + _BLOCK_PX]
             u = np.float32(first) - u0
-            for column in range(np.int32(line.shape[0])):  # 64 bits are not vectorised
+            # Indices of 64 bits would prevent vectorisation.
+            for column in range(np.int32(line.shape[0])):
                 du = np.float32(np.int32(column)) + u
                 along = du * eu + dv * ev
                 across = dv * eu - du * ev
-                inside = max(along, _ZERO)
-                wide = min(narrow + growth * inside, widest)
-                z = away + rise * inside
-                share = _ROOT_HALF / np.sqrt(airy * (_ONE + z * z) + pixel)
-                whole = _between(across, wide, share)
-                bore = _between(across, wide * hollow, share)
-                end = _HALF * (_ONE + _erf(along * share))
-                line[column] *= _ONE - end * (wall * whole - lumen * bore)
+                distance = max(along, _ZERO)
+                local_radius = min(tip_radius + radius_per_px * distance, max_radius)
+                z = tip_depth + depth_per_px * distance
+                scale = _ROOT_HALF / np.sqrt(airy_variance * (_ONE + z * z) + pixel_variance)
+                tube = _strip_coverage(across, local_radius, scale)
+                bore = _strip_coverage(across, local_radius * bore_ratio, scale)
+                end_coverage = _HALF * (_ONE + _erf(along * scale))
+                line[column] *= _ONE - end_coverage * (wall_opacity * tube - lumen_gain * bore)
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy", fastmath=True)
@@ -113,27 +149,36 @@ def draw_radial(
     profile: Image,
     per_px: np.float32,
 ) -> None:
-    """Darken ``light`` (rows, columns) by ``profile`` (n,) over the distance from ``centre``.
+    """Darken ``light`` (rows, columns) by a ``profile`` (n,) of the distance from ``centre``.
 
-    ``box`` is the first and last row, and column, to draw in, the last left out; ``profile`` has
-    ``per_px`` values a px and ends with what holds beyond.
+    Parameters
+    ----------
+    light : (rows, columns)
+    box : (int, int, int, int)
+        First and last row, first and last column to draw. The last ones are excluded.
+    centre : (2,)
+        Column and row.
+    profile : (n,)
+        Transmission over the distance. Its last value holds for larger distances.
+    per_px : float
+        Values of the profile per px.
     """
-    last = np.float32(profile.shape[0] - 2)
+    last_position = np.float32(profile.shape[0] - 2)
     for row in range(box[0], box[1]):
         dv = np.float32(row) - centre[1]
         for column in range(box[2], box[3]):
             du = np.float32(column) - centre[0]
-            place = min(np.sqrt(du * du + dv * dv) * per_px, last)
-            at = np.int32(place)
-            part = place - np.float32(at)
-            light[row, column] *= profile[at] * (_ONE - part) + profile[at + 1] * part
+            position = min(np.sqrt(du * du + dv * dv) * per_px, last_position)
+            index = np.int32(position)
+            fraction = position - np.float32(index)
+            light[row, column] *= profile[index] * (_ONE - fraction) + profile[index + 1] * fraction
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy", fastmath=True)
-def outside_of(outline: Image, centre: Image, shape: tuple[int, int]) -> Image:
-    """Return how far pixels (shape) are outside an outline, px; negative inside.
+def distance_outside(outline: Image, centre: Image, shape: tuple[int, int]) -> Image:
+    """Return the distances (shape), px, of pixels from an outline; negative inside.
 
-    ``outline`` (n,) are its distances from ``centre`` at n equal angles, the first at 0.
+    ``outline`` (n,) contains its distances from ``centre`` at n equally spaced angles from 0 on.
     """
     out = np.empty(shape, np.float32)
     count = outline.shape[0]
@@ -142,13 +187,13 @@ def outside_of(outline: Image, centre: Image, shape: tuple[int, int]) -> Image:
         dv = np.float32(row) - centre[1]
         for column in range(shape[1]):
             du = np.float32(column) - centre[0]
-            angle = np.arctan2(dv, du) * per_rad
-            if angle < _ZERO:
-                angle += np.float32(count)
-            at = np.int32(angle)
-            part = angle - np.float32(at)
-            first, second = outline[at % count], outline[(at + 1) % count]
-            radius = first * (_ONE - part) + second * part
+            position = np.arctan2(dv, du) * per_rad
+            if position < _ZERO:
+                position += np.float32(count)
+            index = np.int32(position)
+            fraction = position - np.float32(index)
+            before, after = outline[index % count], outline[(index + 1) % count]
+            radius = before * (_ONE - fraction) + after * fraction
             out[row, column] = np.sqrt(du * du + dv * dv) - radius
     return out
 
@@ -163,20 +208,20 @@ def expose(
     read_variance: np.float32,
     gain: np.float32,
     black: np.float32,
-    largest: np.float32,
-) -> Numbers:
-    """Return what the converter makes of ``light`` (rows, columns), photoelectrons over ``scale``.
+    max_value: np.float32,
+) -> PixelValues:
+    """Return the pixel values for ``light`` (rows, columns).
 
-    Shot noise is drawn from a normal distribution of variance N, which is near to Poisson's for
-    the hundreds of electrons of a picture. The noise of a row begins at ``begins`` (rows,) of the
-    sequence ``noise``.
+    ``light`` times ``scale`` is in photoelectrons. Shot noise has a normal distribution of variance
+    N, which is close to Poisson's distribution for the hundreds of electrons in a pixel. The noise
+    of a row begins at the index ``begins`` (rows,) of the sequence ``noise``.
     """
-    numbers = np.empty(light.shape, np.uint16)
+    pixel_values = np.empty(light.shape, np.uint16)
     for row in range(light.shape[0]):
-        line, converted, shot = light[row], numbers[row], noise[begins[row] :]
+        line, row_values, row_noise = light[row], pixel_values[row], noise[begins[row] :]
         for column in range(line.shape[0]):
             electrons = line[column] * scale
-            electrons += np.sqrt(electrons + read_variance) * shot[column]
-            number = min(electrons, full_well) * gain + black + _HALF
-            converted[column] = np.uint16(np.int32(min(max(number, _ZERO), largest)))
-    return numbers
+            electrons += np.sqrt(electrons + read_variance) * row_noise[column]
+            pixel_value = min(electrons, full_well) * gain + black + _HALF
+            row_values[column] = np.uint16(np.int32(min(max(pixel_value, _ZERO), max_value)))
+    return pixel_values

@@ -1,69 +1,68 @@
-"""What stands before the microscope, and how bright it is: everything but where the tip is."""
+"""The scene under the microscope and its lighting, without the position of the tip."""
 
 from dataclasses import dataclass, field
 from math import pi
 from typing import Self
 
-from rotemina.sim.messages import message
-from rotemina.sim.microscope.cell import Cell
-from rotemina.sim.microscope.errors import SceneError
-from rotemina.sim.microscope.optics import Optics
-from rotemina.sim.robot.model import Robot
+from rotemina.sim.errors import SceneError
+from rotemina.sim.microscope.cell import SimulatedCell
+from rotemina.sim.microscope.optics import MicroscopeOptics
+from rotemina.sim.robot import Robot
 
-_APPROACH_RAD = pi / 6  # where a robot file says nothing
+# Approach angle if the robot file gives none.
+_DEFAULT_APPROACH_RAD = pi / 6
 
 
 @dataclass(frozen=True, slots=True)
-class Pin:
-    """The pin or pipette: a tapering tube that ends at the tip of the kinematics.
+class TaperedPin:
+    """The pin or pipette: a tapering tube whose end is the tip of the kinematics.
 
     Attributes
     ----------
     approach_rad : float
-        Between its body and the dish; π/2 is upright. The body leans towards +x.
+        Angle between the body and the dish; π/2 is upright. The body leans towards +x.
     tip_radius_m, shank_radius_m : float
-        At the tip, and where it stops growing.
+        Radius at the tip, and the largest radius.
     taper : float
-        By which the radius grows per length.
+        Growth of the radius per length.
     wall, lumen : float
-        Share of the light that is lost in the tube, and how much less through its bore.
+        Share of the light lost in the tube, and share regained through its bore.
     bore : float
-        Radius of the bore, over the tube's.
+        Radius of the bore over the radius of the tube.
     """
 
-    approach_rad: float = _APPROACH_RAD
+    approach_rad: float = _DEFAULT_APPROACH_RAD
     tip_radius_m: float = 0.75e-6
     shank_radius_m: float = 60e-6
     taper: float = 0.06
-    wall: float = 0.55
-    lumen: float = 0.3
-    bore: float = 0.6
+    wall_opacity: float = 0.55
+    lumen_gain: float = 0.3
+    bore_ratio: float = 0.6
 
     def __post_init__(self) -> None:
         if not 0.0 < self.approach_rad <= pi / 2:
             raise SceneError(
-                message(
-                    "engine",
-                    "tool: approach_angle = {approach_rad} rad: must be more than 0 (flat on the "
-                    "dish) and at most {pi} (upright)",
-                ).fill(approach_rad=self.approach_rad, pi=pi / 2)
+                "tool: approach_angle = {approach_rad} rad: must be more than 0 (flat on the "
+                "dish) and at most {pi} (upright)",
+                approach_rad=self.approach_rad,
+                pi=pi / 2,
             )
 
 
 @dataclass(frozen=True, slots=True)
-class Light:
-    """The illumination, and what falls off from the middle to the edges.
+class SceneLighting:
+    """Illumination of the scene and its unevenness.
 
     Attributes
     ----------
     rate : float
         Photoelectrons per pixel and second in the middle.
     vignetting : float
-        Share lost in the corners, growing with the square of the distance from the middle.
+        Share lost in the corners. The loss grows with the square of the distance from the middle.
     gradient : tuple of float
         Change across the whole width and height, as a share.
     dust : float
-        Contrast of what is never in focus and never moves, as a share.
+        Contrast of dust, which is never in focus and never moves, as a share.
     """
 
     rate: float = 5e5
@@ -73,21 +72,21 @@ class Light:
 
 
 @dataclass(frozen=True, slots=True)
-class Sensor:
-    """The camera's chip and converter.
+class CameraSensor:
+    """Image sensor and converter of the camera.
 
     Attributes
     ----------
     bits : int
-        Of a pixel.
+        Bits per pixel.
     full_well : float
-        Photoelectrons that a pixel holds.
+        Largest number of photoelectrons in a pixel.
     read_noise : float
-        Standard deviation, photoelectrons.
+        Standard deviation of the read noise, photoelectrons.
     electrons_per_number : float
-        At gain 1.
+        Photoelectrons per step of the pixel value, at gain 1.
     black_level : float
-        Number of a pixel without light.
+        Value of a pixel without light.
     """
 
     bits: int = 12
@@ -97,29 +96,29 @@ class Sensor:
     black_level: float = 40.0
 
     @property
-    def largest(self) -> int:
-        """The number of a saturated pixel."""
+    def max_number(self) -> int:
+        """Value of a saturated pixel."""
         return (1 << self.bits) - 1
 
 
 @dataclass(frozen=True, slots=True)
-class Scene:
-    """All of it; ``seed`` draws the cell's grains and the dust, not the noise of a frame."""
+class MicroscopeScene:
+    """A complete scene. ``seed`` determines grains and dust, but not the noise of a frame."""
 
-    optics: Optics = field(default_factory=Optics)
-    pin: Pin = field(default_factory=Pin)
-    cell: Cell | None = None
-    light: Light = field(default_factory=Light)
-    sensor: Sensor = field(default_factory=Sensor)
+    optics: MicroscopeOptics = field(default_factory=MicroscopeOptics)
+    pin: TaperedPin = field(default_factory=TaperedPin)
+    cell: SimulatedCell | None = None
+    light: SceneLighting = field(default_factory=SceneLighting)
+    sensor: CameraSensor = field(default_factory=CameraSensor)
     seed: int = 0
 
     @classmethod
     def of(cls, robot: Robot, *, seed: int = 0, **mounting: object) -> Self:
-        """Return the scene of a robot file, with a cell beside the middle of the view.
+        """Return the scene of a robot file, with a cell near the middle of the view.
 
-        ``mounting`` are fields of :class:`Optics`.
+        ``mounting`` are fields of :class:`MicroscopeOptics`.
         """
-        optics = Optics.of(robot, **mounting)
+        optics = MicroscopeOptics.of(robot, **mounting)
         angle = robot.tool.approach_angle
-        pin = Pin(_APPROACH_RAD if angle is None else angle)
-        return cls(optics, pin, Cell.beside(optics.centre_m), seed=seed)
+        pin = TaperedPin(_DEFAULT_APPROACH_RAD if angle is None else angle)
+        return cls(optics, pin, SimulatedCell.near_view_centre(optics.centre_m), seed=seed)

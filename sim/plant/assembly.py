@@ -1,4 +1,4 @@
-"""A robot and its effects put together for simulation."""
+"""Assembly of a robot and its effects for simulation."""
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -6,162 +6,174 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rotemina.sim.arrays import BoolArray, FloatArray
-from rotemina.sim.effects.attachment import Attached, attached_effects
-from rotemina.sim.effects.errors import EffectError
-from rotemina.sim.effects.formulation import (
-    Change,
-    Force,
-    Late,
-    Motion,
-    Part,
-    Skew,
-    Trait,
+from rotemina.sim.effects import (
+    AddedStates,
+    AttachedEffect,
+    AxisChange,
+    ClockSkew,
+    EffectTrait,
+    ForceFunction,
+    InputDelay,
+    PositionFunction,
+    attach_effects,
 )
-from rotemina.sim.messages import message
+from rotemina.sim.errors import EffectError
+from rotemina.sim.messages import format_rounded
 from rotemina.sim.plant.coupled_groups import (
-    Group,
+    AxisGroup,
     PlacedPart,
-    coupled_axes,
-    groups_of,
-    static_groups_of,
+    find_coupled_axes,
+    make_groups,
+    make_static_groups,
 )
 from rotemina.sim.plant.plant_arrays import (
-    Machine,
     PlacedEffect,
-    machine_of,
-    phase_of,
-    states_of,
+    PlantTables,
+    count_states,
+    find_phase,
+    make_tables,
 )
-from rotemina.sim.plant.settling import is_led
-from rotemina.sim.quantities import rounded
-from rotemina.sim.robot.model import Robot
+from rotemina.sim.plant.settling import needs_settling
+from rotemina.sim.robot import Robot
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Assembly:
-    """What a plant is made of.
+class PlantAssembly:
+    """A robot and its effects, assembled for simulation.
 
     Attributes
     ----------
     robot : Robot
-        The axes that are simulated, changed where an effect changes them.
-    effects : sequence of Attached
-    groups, all_groups : tuple of Group
-        Those with dynamics; with the static axes behind them.
-    machine : Machine
-    functions : sequence of Attached
-        The effects that have step functions, in their order.
+        The axes that are simulated, with the changes that effects make to them.
+    effects : sequence of AttachedEffect
+    groups, all_groups : tuple of AxisGroup
+        The groups with dynamics; ``all_groups`` also contains the static axes, at the end.
+    tables : PlantTables
+    functions : sequence of AttachedEffect
+        The effects that have step functions, in the order of the tables.
     delays_s : (axes,)
     skews : mapping of axis number to rate
     inner_step_s : float
     steps_may_grow : bool
-        Whether longer steps do, once nothing rings in a hold any more.
+        Whether steps may become longer once vibrations have decayed while the input is held.
     """
 
     robot: Robot
-    effects: Sequence[Attached]
-    groups: tuple[Group, ...]
-    all_groups: tuple[Group, ...]
-    machine: Machine
-    functions: Sequence[Attached]
+    effects: Sequence[AttachedEffect]
+    groups: tuple[AxisGroup, ...]
+    all_groups: tuple[AxisGroup, ...]
+    tables: PlantTables
+    functions: Sequence[AttachedEffect]
     delays_s: FloatArray
     skews: Mapping[int, float]
     inner_step_s: float
     steps_may_grow: bool
 
     @property
-    def electronics(self) -> BoolArray:
-        """Whether an effect lies between each input and its amplifier's output, (axes,)."""
+    def has_electronics(self) -> BoolArray:
+        """Whether an effect acts between each input and its amplifier's output, (axes,)."""
         changed = {
-            one.asked.axis
-            for one in self.effects
-            if isinstance(one.formulation.acts, Late) or phase_of(one) == "electronics"
+            effect.entry.axis
+            for effect in self.effects
+            if isinstance(effect.formulation.acts, InputDelay)
+            or find_phase(effect) == "electronics"
         }
         return np.array([name in changed for name in self.robot.axes], dtype=np.bool_)
 
     @property
-    def random(self) -> int:
-        """How many standard normal variates the effects need at a sample."""
-        return int(self.machine.function["variate"].max(initial=-1)) + 1
+    def variate_count(self) -> int:
+        """Number of standard normal variates that the effects need at a sample."""
+        return int(self.tables.function["variate"].max(initial=-1)) + 1
 
     @property
-    def memory(self) -> int:
+    def memory_size(self) -> int:
         """Length of the memory of all step functions."""
-        return sum(states_of(one) for one in self.functions)
+        return sum(count_states(effect) for effect in self.functions)
 
     @property
-    def remembers(self) -> bool:
-        """Whether what happened before the first sample matters after it."""
+    def has_memory(self) -> bool:
+        """Whether events before the first sample affect the run."""
         states = any(group.states for group in self.all_groups)
-        return states or self.memory > 0 or bool(self.delays_s.any()) or bool(self.skews)
+        return states or self.memory_size > 0 or bool(self.delays_s.any()) or bool(self.skews)
 
     @property
-    def leads_in(self) -> bool:
-        """Whether rest is to be found by simulation: a force of an effect acts on a held axis."""
+    def needs_settling(self) -> bool:
+        """Whether the rest position must be found by simulation.
+
+        This is necessary if a force of an effect acts on an axis that settles under its input.
+        """
         return any(
-            isinstance(one.formulation.acts, Force) and is_led(one.facts) for one in self.effects
+            isinstance(effect.formulation.acts, ForceFunction) and needs_settling(effect.facts)
+            for effect in self.effects
         )
 
 
-_GROWTH = 1e-9  # of a pole, over the fastest: rounding may put one that stands still there
+# Largest real part of a pole, relative to the largest pole, that may come from rounding.
+_MAX_GROWTH_RATIO = 1e-9
 
 
-def assemble(robot: Robot, only: Collection[str] | None = None) -> Assembly:
-    """Put the axes ``only``, and those that a coupling or an effect joins to them, together.
+def assemble(robot: Robot, only: Collection[str] | None = None) -> PlantAssembly:
+    """Assemble a robot, or the axes ``only`` and those joined to them by a coupling or an effect.
 
     Raises
     ------
     EffectError
         If an effect cannot be used, or the robot is unstable with it.
     """
-    effects = attached_effects(robot)
+    effects = attach_effects(robot)
     if only is not None:
-        joined = _joined(robot, effects, only)
-        robot = _restricted(robot, joined)
-        effects = tuple(one for one in effects if one.asked.axis in joined)
-    robot = _changed(robot, effects)
+        joined = _join_axes(robot, effects, only)
+        robot = _restrict_robot(robot, joined)
+        effects = tuple(effect for effect in effects if effect.entry.axis in joined)
+    robot = _change_axes(robot, effects)
     axes = tuple(robot.axes)
-    parts, placed = _placed(axes, effects)
-    groups = groups_of(robot, parts)
-    all_groups = groups + static_groups_of(robot, parts)
+    parts, placed = _place_effects(axes, effects)
+    groups = make_groups(robot, parts)
+    all_groups = groups + make_static_groups(robot, parts)
     _check_stability(all_groups, effects)
-    machine, functions = machine_of(robot, all_groups, placed)
-    steps = [one.formulation.inner_step_s(one.values, one.facts) for one in effects]
-    return Assembly(
+    tables, functions = make_tables(robot, all_groups, placed)
+    steps = [effect.formulation.inner_step_s(effect.values, effect.facts) for effect in effects]
+    return PlantAssembly(
         robot,
         effects,
         groups,
         all_groups,
-        machine,
+        tables,
         functions,
-        _delays(axes, effects),
-        _skews(axes, effects),
+        _sum_delays(axes, effects),
+        _sum_skews(axes, effects),
         min(steps, default=np.inf),
-        not any(_sticks(one) for one in effects),
+        not any(_needs_short_steps(effect) for effect in effects),
     )
 
 
-def _sticks(one: Attached) -> bool:
-    """Whether a force remembers or opposes speed: it holds an axis in short steps alone."""
-    formulation = one.formulation
-    return isinstance(formulation.acts, Force) and Trait.MEMORYLESS not in formulation.traits
+def _needs_short_steps(effect: AttachedEffect) -> bool:
+    """Return whether the effect is a force that has memory or opposes the speed.
+
+    Only short steps let such a force hold an axis.
+    """
+    formulation = effect.formulation
+    return (
+        isinstance(formulation.acts, ForceFunction)
+        and EffectTrait.MEMORYLESS not in formulation.traits
+    )
 
 
-def _joined(robot: Robot, effects: Sequence[Attached], only: Collection[str]) -> set[str]:
-    """Return ``only`` and every axis that moves them or moves with them."""
+def _join_axes(robot: Robot, effects: Sequence[AttachedEffect], only: Collection[str]) -> set[str]:
+    """Return the axes ``only`` and every axis that moves them or moves with them."""
     joined = set(only)
-    groups = coupled_axes(robot)
+    groups = find_coupled_axes(robot)
+    # Effects and couplings may chain, so axes are added until nothing changes.
     while True:
-        sources = {one.asked.from_axis for one in effects if one.asked.axis in joined}
-        more = joined | {name for name in sources if name is not None}
-        more |= {name for group in groups if group & more for name in group}
-        if more == joined:
+        sources = {effect.entry.from_axis for effect in effects if effect.entry.axis in joined}
+        extended = joined | {name for name in sources if name is not None}
+        extended |= {name for group in groups if group & extended for name in group}
+        if extended == joined:
             return joined
-        joined = more
+        joined = extended
 
 
-def _restricted(robot: Robot, names: Collection[str]) -> Robot:
-    """Return the robot with some of its axes alone."""
+def _restrict_robot(robot: Robot, names: Collection[str]) -> Robot:
     return replace(
         robot,
         axes={name: axis for name, axis in robot.axes.items() if name in names},
@@ -171,85 +183,103 @@ def _restricted(robot: Robot, names: Collection[str]) -> Robot:
     )
 
 
-def _changed(robot: Robot, effects: Sequence[Attached]) -> Robot:
+def _change_axes(robot: Robot, effects: Sequence[AttachedEffect]) -> Robot:
     axes = dict(robot.axes)
-    for one in effects:
-        acts = one.formulation.acts
-        if isinstance(acts, Change):
-            axes[one.asked.axis] = acts.change(one.values, axes[one.asked.axis])
+    for effect in effects:
+        acts = effect.formulation.acts
+        if isinstance(acts, AxisChange):
+            axes[effect.entry.axis] = acts.change(effect.values, axes[effect.entry.axis])
     return replace(robot, axes=axes)
 
 
-def _leak(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
-    """Add what comes from another axis."""
+def _add_other_position(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """Add the output of a port, which comes from another axis."""
     return x + other
 
 
-_LEAK = Motion(step=_leak)
+_PORT_FUNCTION = PositionFunction(step=_add_other_position)
 
 
-def _placed(
-    axes: Sequence[str], effects: Sequence[Attached]
+def _place_effects(
+    axes: Sequence[str], effects: Sequence[AttachedEffect]
 ) -> tuple[list[PlacedPart], list[PlacedEffect]]:
-    """Return the linear parts, and the step functions with what they see of other axes."""
+    """Return the linear parts and the step functions.
+
+    A linear part that is driven by another axis gets a port: its output goes to a step function on
+    the axis that carries the effect.
+    """
     parts: list[PlacedPart] = []
     placed: list[PlacedEffect] = []
-    ports = 0
-    for one in effects:
-        source = one.asked.from_axis
-        acts = one.formulation.acts
-        if not isinstance(acts, Part):
-            placed.append(PlacedEffect(one, axes.index(source) if source is not None else -1))
+    port_count = 0
+    for effect in effects:
+        source = effect.entry.from_axis
+        acts = effect.formulation.acts
+        if not isinstance(acts, AddedStates):
+            placed.append(PlacedEffect(effect, axes.index(source) if source is not None else -1))
         elif source is None:
-            parts.append(PlacedPart(one.asked.axis, acts.part(one.values, one.facts)))
+            parts.append(PlacedPart(effect.entry.axis, acts.part(effect.values, effect.facts)))
         else:
-            parts.append(PlacedPart(source, acts.part(one.values, one.facts), ports))
-            leaking = replace(one.formulation, acts=_LEAK, prepare=_no_numbers)
-            placed.append(PlacedEffect(replace(one, formulation=leaking), len(axes) + ports))
-            ports += 1
+            parts.append(PlacedPart(source, acts.part(effect.values, effect.facts), port_count))
+            port_formulation = replace(
+                effect.formulation, acts=_PORT_FUNCTION, prepare=_return_no_numbers
+            )
+            placed.append(
+                PlacedEffect(replace(effect, formulation=port_formulation), len(axes) + port_count)
+            )
+            port_count += 1
     return parts, placed
 
 
-def _check_stability(groups: Sequence[Group], effects: Sequence[Attached]) -> None:
-    """Refuse states of axes and of effects that grow by themselves."""
+def _check_stability(groups: Sequence[AxisGroup], effects: Sequence[AttachedEffect]) -> None:
+    """Check that no state of axes and effects grows by itself.
+
+    Raises
+    ------
+    EffectError
+        If the axes of a group are unstable together with their effects.
+    """
     for group in groups:
-        own = [one for one in effects if {one.asked.axis, one.asked.from_axis} & set(group.axes)]
-        if not own or group.states == 0:
+        group_effects = [
+            effect
+            for effect in effects
+            if {effect.entry.axis, effect.entry.from_axis} & set(group.axes)
+        ]
+        if not group_effects or group.states == 0:
             continue
         poles = np.linalg.eigvals(group.generator[: group.states, : group.states])
-        fastest = float(poles.real.max())
-        if fastest > _GROWTH * float(np.abs(poles).max()):
-            named = "; ".join(
-                f"{one.asked.id} on {one.asked.axis} with "
-                + ", ".join(f"{name} = {value:g}" for name, value in one.values.items())
-                for one in own
-                if isinstance(one.formulation.acts, Part | Change)
+        growth_rate = float(poles.real.max())
+        if growth_rate > _MAX_GROWTH_RATIO * float(np.abs(poles).max()):
+            description = "; ".join(
+                f"{effect.entry.id} on {effect.entry.axis} with "
+                + ", ".join(f"{name} = {value:g}" for name, value in effect.values.items())
+                for effect in group_effects
+                if isinstance(effect.formulation.acts, AddedStates | AxisChange)
             )
             raise EffectError(
-                message(
-                    "engine",
-                    "axis {names}: unstable together, a motion grows by e every {fastest} s "
-                    "({named}); change or remove one of them",
-                ).fill(names=", ".join(group.axes), fastest=rounded(1.0 / fastest, 3), named=named)
+                "axis {names}: unstable with these effects: {named}. A motion grows by a "
+                "factor of e every {fastest} s; change or remove one of them",
+                names=", ".join(group.axes),
+                fastest=format_rounded(1.0 / growth_rate, 3),
+                named=description,
             )
 
 
-def _no_numbers(_values: object, _facts: object) -> tuple[float, ...]:
+def _return_no_numbers(_values: object, _facts: object) -> tuple[float, ...]:
     return ()
 
 
-def _delays(axes: Sequence[str], effects: Sequence[Attached]) -> FloatArray:
+def _sum_delays(axes: Sequence[str], effects: Sequence[AttachedEffect]) -> FloatArray:
     delays = np.zeros(len(axes))
-    for one in effects:
-        if isinstance(one.formulation.acts, Late):
-            delays[axes.index(one.asked.axis)] += one.formulation.acts.delay_s(one.values)
+    for effect in effects:
+        if isinstance(effect.formulation.acts, InputDelay):
+            delays[axes.index(effect.entry.axis)] += effect.formulation.acts.delay_s(effect.values)
     return delays
 
 
-def _skews(axes: Sequence[str], effects: Sequence[Attached]) -> dict[int, float]:
+def _sum_skews(axes: Sequence[str], effects: Sequence[AttachedEffect]) -> dict[int, float]:
     skews: dict[int, float] = {}
-    for one in effects:
-        if isinstance(one.formulation.acts, Skew):
-            column = axes.index(one.asked.axis)
-            skews[column] = skews.get(column, 0.0) + one.formulation.acts.rate(one.values)
+    for effect in effects:
+        if isinstance(effect.formulation.acts, ClockSkew):
+            column = axes.index(effect.entry.axis)
+            skews[column] = skews.get(column, 0.0) + effect.formulation.acts.rate(effect.values)
     return skews

@@ -1,8 +1,8 @@
 """Readings that are stamped by a clock which runs fast or slow.
 
-Between samples the motion is interpolated by the polynomial through the few nearest ones. A
-reading that lags is made of samples up to its own alone, so a run done in pieces is the same as
-one done at once.
+Between samples the motion is interpolated by the polynomial through the nearest samples. A
+reading that lags uses only samples up to its own, so a run simulated in pieces equals one simulated
+as a whole.
 """
 
 from collections.abc import Mapping
@@ -11,13 +11,15 @@ import numba
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray, IntArray
-from rotemina.sim.robot.model import Robot
+from rotemina.sim.robot import Robot
 
-ROWS = 6  # samples through which the motion is interpolated
-_BEHIND = 3  # of them that lie before the time that is asked for, where there are enough after it
+# Samples through which the motion is interpolated.
+INTERPOLATION_ROWS = 6
+# How many of them lie before the requested time, if there are enough after it.
+_ROWS_BEFORE = 3
 
 
-def on_skewed_clocks(
+def skew_readings(
     skews: Mapping[int, float],
     position: FloatArray,
     reading: FloatArray,
@@ -26,47 +28,56 @@ def on_skewed_clocks(
     *,
     rounded: bool,
 ) -> FloatArray:
-    """Return readings (n, axes) whose motion is that of ``clock_s − rate·clock_s``.
+    """Return readings (n, axes) of the motion at ``clock_s − rate·clock_s``.
 
     ``position`` (n, axes) is the motion at ``clock_s`` (n,), history included. Before the first
-    row and behind the last (``rate`` < 0 asks for what is yet to come) the motion is taken to
-    stand still. ``rounded``: to the sensors' resolution.
+    row, and after the last row (which ``rate`` < 0 needs), the motion is assumed to stand still.
+    With ``rounded`` the readings are rounded to the sensors' resolution.
     """
     skewed = reading.copy() if skews else reading
     for column, rate in skews.items():
         path = position[:, column]
-        when = np.clip(clock_s * (1.0 - rate), clock_s[0], clock_s[-1])
-        skewed[:, column] += _at(when, clock_s, path) - path
+        motion_s = np.clip(clock_s * (1.0 - rate), clock_s[0], clock_s[-1])
+        # Only the motion is shifted in time; noise and offset of the reading stay with their row.
+        skewed[:, column] += _interpolate_path(motion_s, clock_s, path) - path
         sensor = list(robot.axes.values())[column].sensor
         if rounded and sensor is not None and sensor.resolution > 0.0:
             skewed[:, column] = np.rint(skewed[:, column] / sensor.resolution) * sensor.resolution
     return skewed
 
 
-def _at(when: FloatArray, time_s: FloatArray, path: FloatArray) -> FloatArray:
-    """Return ``path`` (n,) at ``when`` (n,), row by row from samples up to that row or that time.
+def _interpolate_path(query_s: FloatArray, time_s: FloatArray, path: FloatArray) -> FloatArray:
+    """Return ``path`` (n,) interpolated at ``query_s`` (n,).
 
-    Up to the later of both: a reading may be ahead.
+    Each row uses samples up to that row or up to its time, whichever is later, because the clock of
+    a reading may be ahead of its row.
     """
-    after = np.searchsorted(time_s, when)
-    last = np.maximum(np.arange(len(time_s)), np.minimum(after + ROWS - _BEHIND, len(time_s) - 1))
-    last = np.where(when > time_s, last, np.arange(len(time_s)))
-    rows = np.minimum(last + 1, ROWS)
-    first = np.clip(after - _BEHIND, 0, last + 1 - rows)
-    return _polynomials(when, time_s, np.ascontiguousarray(path), first, rows)
+    next_row = np.searchsorted(time_s, query_s)
+    last_row = np.maximum(
+        np.arange(len(time_s)),
+        np.minimum(next_row + INTERPOLATION_ROWS - _ROWS_BEFORE, len(time_s) - 1),
+    )
+    last_row = np.where(query_s > time_s, last_row, np.arange(len(time_s)))
+    row_count = np.minimum(last_row + 1, INTERPOLATION_ROWS)
+    first_row = np.clip(next_row - _ROWS_BEFORE, 0, last_row + 1 - row_count)
+    return _evaluate_polynomials(query_s, time_s, np.ascontiguousarray(path), first_row, row_count)
 
 
 @numba.njit(cache=True, error_model="numpy")
-def _polynomials(
-    when: FloatArray, time_s: FloatArray, path: FloatArray, first: IntArray, rows: IntArray
+def _evaluate_polynomials(
+    query_s: FloatArray,
+    time_s: FloatArray,
+    path: FloatArray,
+    first_row: IntArray,
+    row_count: IntArray,
 ) -> FloatArray:
-    """Return at ``when`` (n,) Lagrange's polynomials through ``rows`` samples from ``first``."""
-    value = np.zeros(len(when))
-    for k in range(len(when)):
-        for i in range(first[k], first[k] + rows[k]):
+    """Evaluate at ``query_s`` the Lagrange polynomials through ``row_count`` samples; all (n,)."""
+    value = np.zeros(len(query_s))
+    for k in range(len(query_s)):
+        for i in range(first_row[k], first_row[k] + row_count[k]):
             weight = 1.0
-            for j in range(first[k], first[k] + rows[k]):
+            for j in range(first_row[k], first_row[k] + row_count[k]):
                 if j != i:
-                    weight *= (when[k] - time_s[j]) / (time_s[i] - time_s[j])
+                    weight *= (query_s[k] - time_s[j]) / (time_s[i] - time_s[j])
             value[k] += weight * path[i]
     return value

@@ -1,71 +1,87 @@
-"""A run that continues with other effects than it began with."""
+"""Change of the effects during a run."""
 
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
-from rotemina.sim.effects.attachment import Attached
-from rotemina.sim.effects.formulation import Part
+from rotemina.sim.effects import AddedStates, AttachedEffect
 from rotemina.sim.plant.plant import Plant
-from rotemina.sim.plant.plant_arrays import states_of
+from rotemina.sim.plant.plant_arrays import count_states
 from rotemina.sim.plant.state import PlantState
 
-_Key = tuple[str, str, str, str | None, int]
+# Axis, effect, formulation and source axis, and the number among effects that are equal in these.
+_EffectKey = tuple[str, str, str, str | None, int]
 
 
-def taken_over(plant: Plant, before: Plant, state: PlantState) -> PlantState:
-    """Return ``state`` of ``before`` as a state of ``plant``, with the same axes.
+class _FunctionMemory(NamedTuple):
+    number: int
+    begin: int
+    length: int
 
-    Axes go on from their positions and speeds. An effect that was there keeps its memory, or the
-    motion of its linear states, also when its parameters change; a new one begins as after a rise
-    to the present input, long ago.
+
+def transfer_state(plant: Plant, previous_plant: Plant, state: PlantState) -> PlantState:
+    """Return ``state`` of ``previous_plant`` as a state of ``plant``, which has the same axes.
+
+    The axes continue from their positions and speeds. An effect that existed before keeps its
+    memory, or the motion of its linear states, even if its parameters change. A new effect starts
+    as if the current input had been reached by a rise long ago.
     """
-    old, new = before.assembly.machine.axis, plant.assembly.machine.axis
-    moving = new["place"] >= 0
+    old_axes, new_axes = previous_plant.assembly.tables.axis, plant.assembly.tables.axis
+    has_dynamics = new_axes["place"] >= 0
     position, velocity = state.position[-1].copy(), np.zeros(len(plant.axes))
-    position[moving] = state.x[old["place"][moving]]
-    velocity[moving] = state.x[old["rate"][moving]]
-    fresh = plant.at(float(state.time_s[-1]), state.inputs[-1], position, velocity)
-    memory, seen = fresh.memory, np.full(len(fresh.seen), state.elapsed_s)
-    kept = dict(_functions(before))
-    for key, (number, begin, length) in _functions(plant):
-        if key in kept and kept[key][2] == length:
-            old_number, old_begin, _ = kept[key]
-            memory[begin : begin + length] = state.memory[old_begin : old_begin + length]
-            seen[number] = state.seen[old_number]
-    moved = dict(_parts(before))
-    for key, own in _parts(plant):
-        if key in moved and len(state.x[moved[key]]) == len(fresh.x[own]):
-            fresh.x[own] = state.x[moved[key]]
-    return replace(state, x=fresh.x, memory=memory, seen=seen)
+    position[has_dynamics] = state.x[old_axes["place"][has_dynamics]]
+    velocity[has_dynamics] = state.x[old_axes["rate"][has_dynamics]]
+    rest_state = plant.make_state(float(state.time_s[-1]), state.inputs[-1], position, velocity)
+    memory, called_s = rest_state.memory, np.full(len(rest_state.called_s), state.elapsed_s)
+    old_functions = dict(_list_functions(previous_plant))
+    for key, new_function in _list_functions(plant):
+        if key in old_functions and old_functions[key].length == new_function.length:
+            old_function = old_functions[key]
+            memory[new_function.begin : new_function.begin + new_function.length] = state.memory[
+                old_function.begin : old_function.begin + old_function.length
+            ]
+            called_s[new_function.number] = state.called_s[old_function.number]
+    old_parts = dict(_list_parts(previous_plant))
+    for key, states in _list_parts(plant):
+        if key in old_parts and len(state.x[old_parts[key]]) == len(rest_state.x[states]):
+            rest_state.x[states] = state.x[old_parts[key]]
+    return replace(state, x=rest_state.x, memory=memory, called_s=called_s)
 
 
-def _functions(plant: Plant) -> Iterator[tuple[_Key, tuple[int, int, int]]]:
-    """Yield each step function by what it is, with its number and where its memory lies."""
-    count: Counter[tuple[str, str, str, str | None]] = Counter()
-    begins = plant.assembly.machine.function["memory_at"]
-    for number, one in enumerate(plant.assembly.functions):
-        kind = _kind(one)
-        yield (*kind, count[kind]), (number, int(begins[number]), states_of(one))
-        count[kind] += 1
+def _list_functions(plant: Plant) -> Iterator[tuple[_EffectKey, _FunctionMemory]]:
+    counts: Counter[tuple[str, str, str, str | None]] = Counter()
+    begins = plant.assembly.tables.function["memory_at"]
+    for number, effect in enumerate(plant.assembly.functions):
+        identity = _identify_effect(effect)
+        yield (
+            (*identity, counts[identity]),
+            _FunctionMemory(number, int(begins[number]), count_states(effect)),
+        )
+        counts[identity] += 1
 
 
-def _parts(plant: Plant) -> Iterator[tuple[_Key, slice]]:
-    """Yield each linear part by what it is, with where its states are among those of the plant."""
-    count: Counter[tuple[str, str, str, str | None]] = Counter()
+def _list_parts(plant: Plant) -> Iterator[tuple[_EffectKey, slice]]:
+    counts: Counter[tuple[str, str, str, str | None]] = Counter()
     groups = plant.assembly.all_groups
-    for group, first in zip(groups, plant.assembly.machine.group["first"], strict=True):
+    for group, first in zip(groups, plant.assembly.tables.group["first"], strict=True):
         begin = int(first) + (0 if group.static else 2 * group.size)
-        for one in plant.effects:
-            acts = one.formulation.acts
-            if isinstance(acts, Part) and (one.asked.from_axis or one.asked.axis) in group.axes:
-                kind, end = _kind(one), begin + len(acts.part(one.values, one.facts).a)
-                yield (*kind, count[kind]), slice(begin, end)
-                count[kind] += 1
+        for effect in plant.effects:
+            acts = effect.formulation.acts
+            if (
+                isinstance(acts, AddedStates)
+                and (effect.entry.from_axis or effect.entry.axis) in group.axes
+            ):
+                identity, end = (
+                    _identify_effect(effect),
+                    begin + len(acts.part(effect.values, effect.facts).a),
+                )
+                yield (*identity, counts[identity]), slice(begin, end)
+                counts[identity] += 1
                 begin = end
 
 
-def _kind(one: Attached) -> tuple[str, str, str, str | None]:
-    return one.asked.axis, one.asked.id, one.formulation.name, one.asked.from_axis
+def _identify_effect(effect: AttachedEffect) -> tuple[str, str, str, str | None]:
+    return effect.entry.axis, effect.entry.id, effect.formulation.name, effect.entry.from_axis

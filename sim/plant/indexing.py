@@ -1,7 +1,7 @@
-"""Reading an array in compiled code by an index that never counts from the end.
+"""Access to an array in compiled code by an index that is never negative.
 
-numba asks of each signed index whether it is negative, which takes as long as the sums of a short
-step themselves.
+numba tests each signed index for a negative value, which takes as long as the arithmetic of a short
+step itself.
 """
 
 from collections.abc import Callable
@@ -15,7 +15,7 @@ from rotemina.sim.messages import message
 
 
 def _item(typing_context: Any, array: Any, index: Any) -> Any:
-    """Read the flat, contiguous ``array`` at ``index``, which must lie in it."""
+    """Read the flat, contiguous ``array`` at ``index``, which must lie within it."""
     if array.layout != "C" or array.ndim != 1:
         raise TypingError(
             message("engine", "{array} is not a flat, contiguous array").fill(array=array)
@@ -23,9 +23,9 @@ def _item(typing_context: Any, array: Any, index: Any) -> Any:
     signature = array.dtype(array, types.intp)
 
     def generate(context: Any, builder: Any, _signature: Any, arguments: Any) -> Any:
-        values, place = arguments
+        values, offset = arguments
         data = context.make_array(array)(context, builder, values).data
-        return builder.load(builder.gep(data, [place]))
+        return builder.load(builder.gep(data, [offset]))
 
     return signature, generate
 

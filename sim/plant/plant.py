@@ -1,4 +1,4 @@
-"""A machine as the model sees it: the nominal plant with whatever effects sit on it, sampled."""
+"""Model of a machine: the nominal plant with its effects, sampled."""
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
@@ -8,40 +8,45 @@ from typing import NamedTuple, Self
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray, IntArray
-from rotemina.sim.effects.attachment import Attached
-from rotemina.sim.messages import message
+from rotemina.sim.effects import AttachedEffect
+from rotemina.sim.errors import PlantError
+from rotemina.sim.messages import format_rounded
 from rotemina.sim.plant import kernel
-from rotemina.sim.plant.assembly import Assembly, assemble
-from rotemina.sim.plant.clocks import ROWS, on_skewed_clocks
-from rotemina.sim.plant.coupled_groups import Group
-from rotemina.sim.plant.equilibrium import rest
-from rotemina.sim.plant.errors import PlantError
+from rotemina.sim.plant.assembly import PlantAssembly, assemble
+from rotemina.sim.plant.clocks import INTERPOLATION_ROWS, skew_readings
+from rotemina.sim.plant.coupled_groups import AxisGroup
+from rotemina.sim.plant.equilibrium import find_equilibrium
 from rotemina.sim.plant.perturbation import Perturbation
-from rotemina.sim.plant.plant_arrays import Machine, phase_of, states_of
-from rotemina.sim.plant.random_draws import Chance
-from rotemina.sim.plant.segment_steps import steps_of_run
-from rotemina.sim.plant.settling import lead_of
-from rotemina.sim.plant.state import Behind, Motion, PlantState, Stack
-from rotemina.sim.quantities import rounded
-from rotemina.sim.robot.model import CascadeController, ForceAxis, Robot
+from rotemina.sim.plant.plant_arrays import PlantTables, count_states, find_phase
+from rotemina.sim.plant.random_draws import RandomStreams
+from rotemina.sim.plant.segment_steps import make_steps_of_run
+from rotemina.sim.plant.settling import make_settling_path
+from rotemina.sim.plant.state import ChainPoint, PlantMotion, PlantState, SampleRows
+from rotemina.sim.robot import (
+    CascadeController,
+    ForceAxis,
+    Robot,
+)
 
-_TRIES = 50  # of the input with which a controller holds an axis
-_HELD = 1e-12  # relative change of that input which is none
+# The input with which a controller holds an axis is iterated until its relative change is smaller
+# than the tolerance.
+_MAX_ITERATIONS = 50
+_INPUT_TOLERANCE_RATIO = 1e-12
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Plant:
-    """A robot prepared for simulation; make one by :meth:`of`.
+    """Robot prepared for simulation; create it with :meth:`of`.
 
-    ``axes`` are those of ``robot``, in its order; ``groups`` those with dynamics, coupled;
-    ``loops`` the controllers that are closed.
+    ``axes`` are the axes of ``robot``, in its order; ``groups`` are the groups of coupled axes with
+    dynamics; ``loops`` are the controllers of the closed loops.
     """
 
     robot: Robot
     axes: tuple[str, ...]
-    groups: tuple[Group, ...]
+    groups: tuple[AxisGroup, ...]
     loops: tuple[CascadeController | None, ...]
-    assembly: Assembly
+    assembly: PlantAssembly
 
     @classmethod
     def of(
@@ -53,7 +58,7 @@ class Plant:
         ----------
         robot : Robot
         closed_loop : bool
-            Put every axis that has a controller under it.
+            Close the loop of every axis that has a controller.
         only : collection of str, optional
             Simulate these axes and those that a coupling or an effect joins to them; all by
             default.
@@ -66,106 +71,122 @@ class Plant:
         assembly = assemble(robot, only)
         robot = assembly.robot
         axes = tuple(robot.axes)
-        loops = tuple(one.controller if closed_loop else None for one in robot.axes.values())
+        loops = tuple(axis.controller if closed_loop else None for axis in robot.axes.values())
         return cls(robot, axes, assembly.groups, loops, assembly)
 
     @property
-    def effects(self) -> Sequence[Attached]:
-        """The effects that act, in the robot's order."""
+    def effects(self) -> Sequence[AttachedEffect]:
+        """The active effects, in the robot's order."""
         return self.assembly.effects
 
-    def open_loop_inputs(self, command: FloatArray) -> FloatArray:
-        """Return the inputs (n, axes) that a command (n, axes) asks for.
+    def compute_open_loop_inputs(self, command: FloatArray) -> FloatArray:
+        """Return the inputs (n, axes) that a command (n, axes) requests.
 
-        V for piezos, the command itself for steppers; none (0 V) for axes moved by a force, whose
-        voltage a command does not tell.
+        These are V for piezos, the command itself for steppers, and 0 V for axes that a force
+        moves, because their command does not determine a voltage.
         """
         axes = self.robot.axes.values()
-        share = np.array([0.0 if isinstance(one, ForceAxis) else 1.0 / one.gain for one in axes])
-        with np.errstate(over="ignore"):  # found, and said, after the run
-            return np.asarray(command * share)
+        input_per_position = np.array(
+            [0.0 if isinstance(axis, ForceAxis) else 1.0 / axis.gain for axis in axes]
+        )
+        # An overflow is detected and reported after the run.
+        with np.errstate(over="ignore"):
+            return np.asarray(command * input_per_position)
 
-    def at_rest(self, time_s: float, command: FloatArray) -> PlantState:
+    def find_rest_state(self, time_s: float, command: FloatArray) -> PlantState:
         """Return the state in equilibrium with ``command`` (axes,), at ``time_s``.
 
-        An axis that a force moves is at its command, at rest. Effects with memory are as after a
-        rise from the low end of the range, long ago.
+        An axis that a force moves rests at its command. Effects with memory are in the state after
+        a rise from the low end of the range long ago.
         """
         return replace(
-            _rest(self, np.asarray(command, dtype=np.float64).tobytes()), time_s=np.array([time_s])
+            _find_rest_state(self, np.asarray(command, dtype=np.float64).tobytes()),
+            time_s=np.array([time_s]),
         )
 
-    def _equilibrium(self, command: FloatArray) -> PlantState:
-        """Return the state at rest at time 0."""
-        inputs = self.open_loop_inputs(command[None])[0]
-        risen, reached = self._risen(inputs)
-        position, held = self._rest(inputs, reached, command)
-        for _ in range(_TRIES):  # a controller holds the axis against what effects make of its u
-            if not self.effects or np.allclose(held, inputs, rtol=_HELD, atol=0.0):
+    def _find_equilibrium(self, command: FloatArray) -> PlantState:
+        inputs = self.compute_open_loop_inputs(command[None])[0]
+        kernel_state, acting_inputs = self._simulate_rise(inputs)
+        position, rest_inputs = self._find_rest(inputs, acting_inputs, command)
+        # Effects change the input of a controller, so the input that holds the axis is iterated.
+        for _ in range(_MAX_ITERATIONS):
+            if not self.effects or np.allclose(
+                rest_inputs, inputs, rtol=_INPUT_TOLERANCE_RATIO, atol=0.0
+            ):
                 break
-            inputs = held
-            risen, reached = self._risen(inputs)
-            position, held = self._rest(inputs, reached, command)
-        inputs = held
-        still = np.zeros(len(self.axes))
-        state = self._placed(0.0, inputs, position, still, risen, reached)
-        return self._led_in(state, reached, command) if self.assembly.leads_in else state
+            inputs = rest_inputs
+            kernel_state, acting_inputs = self._simulate_rise(inputs)
+            position, rest_inputs = self._find_rest(inputs, acting_inputs, command)
+        inputs = rest_inputs
+        zero_velocity = np.zeros(len(self.axes))
+        state = self._place_axes(0.0, inputs, position, zero_velocity, kernel_state, acting_inputs)
+        return (
+            self._settle_from_below(state, acting_inputs, command)
+            if self.assembly.needs_settling
+            else state
+        )
 
-    def _rest(
-        self, inputs: FloatArray, reached: FloatArray, command: FloatArray
+    def _find_rest(
+        self, inputs: FloatArray, acting_inputs: FloatArray, command: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
-        """Return positions (axes,) at rest, and the inputs with those that controllers give there.
+        """Return the rest positions (axes,), and the inputs that hold them there.
 
-        ``inputs`` become ``reached`` by effects, and those of controllers change alike.
+        ``acting_inputs`` are the ``inputs`` after the effects on them. Effects change the inputs of
+        controllers by the same amount.
         """
-        position, held = self._static_position(reached[None])[0], inputs.copy()
+        position, rest_inputs = self._compute_static_position(acting_inputs[None])[0], inputs.copy()
         for group in self.groups:
-            index = self._index(group)
-            loops = tuple(self.loops[i] for i in index)
-            gained = (reached - inputs)[index]
-            position[index], settled = rest(group, reached[index], command[index], loops, gained)
-            looped = [loop is not None for loop in loops]
-            held[index[looped]] = settled[looped]
-        return position, held
+            columns = self._find_columns(group)
+            loops = tuple(self.loops[i] for i in columns)
+            effect_inputs = (acting_inputs - inputs)[columns]
+            position[columns], holding_inputs = find_equilibrium(
+                group, acting_inputs[columns], command[columns], loops, effect_inputs
+            )
+            has_loop = [loop is not None for loop in loops]
+            rest_inputs[columns[has_loop]] = holding_inputs[has_loop]
+        return position, rest_inputs
 
-    def at(
+    def make_state(
         self, time_s: float, inputs: FloatArray, position: FloatArray, velocity: FloatArray
     ) -> PlantState:
-        """Return a given state, each (axes,), under inputs that hold until the first sample."""
-        return self._placed(time_s, inputs, position, velocity, *self._risen(inputs))
+        """Return the state at these positions and velocities; all arrays (axes,).
 
-    def _risen(self, inputs: FloatArray) -> tuple[kernel.State, FloatArray]:
-        """Return a state whose inputs rose long ago, and the inputs that reach the mechanics."""
+        The inputs are held until the first sample.
+        """
+        return self._place_axes(time_s, inputs, position, velocity, *self._simulate_rise(inputs))
+
+    def _simulate_rise(self, inputs: FloatArray) -> tuple[kernel.KernelState, FloatArray]:
         assembly = self.assembly
-        state = kernel.State(
+        state = kernel.KernelState(
             np.zeros(sum(group.states for group in assembly.all_groups)),
-            np.zeros(assembly.memory),
+            np.zeros(assembly.memory_size),
             np.zeros(len(assembly.functions)),
         )
         if not self.effects:
             return state, inputs
-        low = self.open_loop_inputs(self._low[None])[0]
-        return state, kernel.rise_inputs(assembly.machine, state, low, inputs)
+        low = self.compute_open_loop_inputs(self._range_lows[None])[0]
+        return state, kernel.simulate_input_rise(assembly.tables, state, low, inputs)
 
-    def _placed(
+    def _place_axes(
         self,
         time_s: float,
         inputs: FloatArray,
         position: FloatArray,
         velocity: FloatArray,
-        risen: kernel.State,
-        reached: FloatArray,
+        kernel_state: kernel.KernelState,
+        acting_inputs: FloatArray,
     ) -> PlantState:
-        """Return a state whose axes are at ``position`` with ``velocity``, each (axes,)."""
         groups = self.assembly.all_groups
-        for group, first in zip(groups, self.assembly.machine.group["first"], strict=True):
-            index = self._index(group)
-            own = group.settled(position[index], reached[index])
+        for group, first in zip(groups, self.assembly.tables.group["first"], strict=True):
+            columns = self._find_columns(group)
+            group_state = group.compute_rest_state(position[columns], acting_inputs[columns])
             if not group.static:
-                own[group.size : 2 * group.size] = velocity[index]
-            risen.x[first : first + group.states] = own
+                group_state[group.size : 2 * group.size] = velocity[columns]
+            kernel_state.x[first : first + group.states] = group_state
         if self.effects:
-            kernel.rise_positions(self.assembly.machine, risen, self._low, reached)
+            kernel.simulate_position_rise(
+                self.assembly.tables, kernel_state, self._range_lows, acting_inputs
+            )
         offset = np.array([axis.offset for axis in self.robot.axes.values()])
         return PlantState(
             np.array([time_s]),
@@ -175,36 +196,47 @@ class Plant:
             (position + offset)[None],
             0.0,
             np.zeros(len(self.axes)),
-            *risen,
+            *kernel_state,
         )
 
-    def _led_in(self, state: PlantState, reached: FloatArray, command: FloatArray) -> PlantState:
-        """Return the state at rest that is found by letting the machine come to it."""
-        lead = lead_of(self.axes, self.effects)
-        back = lead.below / self.assembly.machine.axis["asked"]
-        _, after = self.advance(
+    def _settle_from_below(
+        self, state: PlantState, acting_inputs: FloatArray, command: FloatArray
+    ) -> PlantState:
+        """Return the state at rest, found by simulating the path to rest.
+
+        Only the memory of forces is taken from the end of the path. All other effects keep their
+        memory after the rise.
+        """
+        path = make_settling_path(self.axes, self.effects)
+        retraction = path.retraction / self.assembly.tables.axis["asked"]
+        _, end_state = self.advance(
             state,
-            lead.time_s + state.time_s[-1],
-            np.tile(command, (len(back), 1)),
-            inputs=reached - back,
-            behind=Behind.ACTUATOR,
+            path.time_s + state.time_s[-1],
+            np.tile(command, (len(retraction), 1)),
+            inputs=acting_inputs - retraction,
+            entry_point=ChainPoint.ACTUATOR,
         )
         memory = state.memory.copy()
-        for one, function in zip(
-            self.assembly.functions, self.assembly.machine.function, strict=True
+        for effect, function in zip(
+            self.assembly.functions, self.assembly.tables.function, strict=True
         ):
-            if phase_of(one) == "force":
-                own = slice(function["memory_at"], function["memory_at"] + states_of(one))
-                memory[own] = after.memory[own]
-        looped = np.array([loop is not None for loop in self.loops])
-        inputs = np.where(looped, after.inputs[-1:], state.inputs)
-        settled = kernel.State(after.x, memory, state.seen.copy())
-        kernel.rise_positions(self.assembly.machine, settled, self._low, reached)
-        return replace(state, inputs=inputs, x=after.x, memory=memory, seen=settled.seen)
+            if find_phase(effect) == "force":
+                memory_slice = slice(
+                    function["memory_at"], function["memory_at"] + count_states(effect)
+                )
+                memory[memory_slice] = end_state.memory[memory_slice]
+        has_loop = np.array([loop is not None for loop in self.loops])
+        inputs = np.where(has_loop, end_state.inputs[-1:], state.inputs)
+        settled_state = kernel.KernelState(end_state.x, memory, state.called_s.copy())
+        kernel.simulate_position_rise(
+            self.assembly.tables, settled_state, self._range_lows, acting_inputs
+        )
+        return replace(
+            state, inputs=inputs, x=end_state.x, memory=memory, called_s=settled_state.called_s
+        )
 
     @property
-    def _low(self) -> FloatArray:
-        """The low ends (axes,) of the ranges."""
+    def _range_lows(self) -> FloatArray:
         return np.array([axis.range[0] for axis in self.robot.axes.values()], dtype=np.float64)
 
     def advance(
@@ -215,252 +247,283 @@ class Plant:
         *,
         add: FloatArray | None = None,
         inputs: FloatArray | None = None,
-        behind: Behind = Behind.COMMAND,
+        entry_point: ChainPoint = ChainPoint.COMMAND,
         perturbation: Perturbation | None = None,
-        chance: Chance | None = None,
-    ) -> tuple[Motion, PlantState]:
+        random_streams: RandomStreams | None = None,
+    ) -> tuple[PlantMotion, PlantState]:
         """Sample the response to ``command`` and return it with the state after it.
 
         Parameters
         ----------
         state : PlantState
-            From :meth:`at_rest`, :meth:`at` or an earlier call.
+            From :meth:`at_rest`, :meth:`make_state` or an earlier call.
         time_s : (n,)
-            Sample times, increasing, from the state's time on (at that very time, the state is
-            the first sample). A response is sampled at
-            ``time_s[k]`` before ``command[k]`` acts.
+            Increasing sample times, not before the state's time. If the first one equals the
+            state's time, the state is the first sample. The response is sampled at ``time_s[k]``
+            before ``command[k]`` acts.
         command : (n, axes)
             m or rad.
         add : (n, axes), optional
             V, added to the controllers' outputs.
         inputs : (n, axes), optional
-            Inputs of the axes without a closed loop instead of those that the command asks for, V.
-        behind : Behind
-            What the inputs have passed already: effects before it are left out.
+            Inputs of the axes without a closed loop, V, instead of those that the command requests.
+        entry_point : ChainPoint
+            Point after which the inputs enter; effects before it are ignored.
         perturbation : Perturbation, optional
-            Q of Eq. (1), n rows; for every piece of a run that is shaken.
-        chance : Chance, optional
-            Noise, rounding and random effects; without it the plant is what a model can know.
+            Q of Eq. (1), n rows. A run with a perturbation needs one for each of its pieces.
+        random_streams : RandomStreams, optional
+            Source of noise and random effects. With it, readings are rounded. Without it the result
+            is what a model can predict.
 
         Raises
         ------
         PlantError
-            If the response leaves what a float can hold, with axis and time, or a perturbation does
-            not fit or ends without a row of zeros.
+            If the response overflows a float, with axis and time, or a perturbation does not fit or
+            ends without a row of zeros.
         """
-        # A sample at the state's own time replaces it; later ones find it as their history.
+        # A sample at the state's own time replaces it; for later ones the state is their history.
         history = len(state.time_s) if time_s[0] > state.time_s[-1] else 0
-        asked = self.open_loop_inputs(command) if inputs is None else np.array(inputs, order="C")
-        stack = Stack.of(state, history, time_s, asked)
-        # Effects count time from the start of the run, whatever the samples' times count from.
-        clock_s = stack.time_s + (state.elapsed_s - state.time_s[-1])
-        given = self._given(
-            state.perturbation, clock_s[history:], history, command, add, perturbation, chance
+        requested = (
+            self.compute_open_loop_inputs(command)
+            if inputs is None
+            else np.array(inputs, order="C")
         )
-        given = given._replace(time_s=clock_s)
-        electronics = self.assembly.electronics & (behind is Behind.COMMAND)
-        effort = np.empty_like(stack.inputs[: len(stack.inputs) if electronics.any() else 0])
-        moved = kernel.State(state.x.copy(), state.memory.copy(), state.seen.copy())
-        acting = self._acting(stack, behind)
+        rows = SampleRows.of(state, history, time_s, requested)
+        # Effects count time from the start of the run, wherever the times of the samples start.
+        clock_s = rows.time_s + (state.elapsed_s - state.time_s[-1])
+        run_inputs = self._make_kernel_inputs(
+            state.perturbation,
+            clock_s[history:],
+            history,
+            command,
+            add,
+            perturbation,
+            random_streams,
+        )
+        run_inputs = run_inputs._replace(time_s=clock_s)
+        electronics = self.assembly.has_electronics & (entry_point is ChainPoint.COMMAND)
+        effort = np.empty_like(rows.inputs[: len(rows.inputs) if electronics.any() else 0])
+        kernel_state = kernel.KernelState(
+            state.x.copy(), state.memory.copy(), state.called_s.copy()
+        )
+        acting_rows = self._delay_static_inputs(rows, entry_point)
         kernel.run(
-            _machine(self, behind),
-            self.steps(stack.time_s, history, behind),
-            given,
-            acting.taken(effort),
-            moved,
+            _find_tables(self, entry_point),
+            self.make_steps(rows.time_s, history, entry_point),
+            run_inputs,
+            acting_rows.to_kernel_samples(effort),
+            kernel_state,
             float(clock_s[max(history - 1, 0)]),
         )
-        looped = np.array([loop is not None for loop in self.loops])
-        stack.inputs[:, looped] = acting.inputs[:, looped]
-        self._check(stack)
-        effort = np.where(electronics, effort, stack.inputs) if len(effort) else stack.inputs
-        reading = on_skewed_clocks(
+        has_loop = np.array([loop is not None for loop in self.loops])
+        rows.inputs[:, has_loop] = acting_rows.inputs[:, has_loop]
+        self._check_finite(rows)
+        effort = np.where(electronics, effort, rows.inputs) if len(effort) else rows.inputs
+        reading = skew_readings(
             self.assembly.skews,
-            stack.position,
-            stack.reading,
+            rows.position,
+            rows.reading,
             clock_s,
             self.robot,
-            rounded=chance is not None,
+            rounded=random_streams is not None,
         )
-        last = state.perturbation if perturbation is None else perturbation.acceleration[-1]
-        new = slice(history, None)
-        motion = Motion(stack.position[new], stack.velocity[new], effort[new], reading[new])
-        return motion, self._after(stack, moved, float(clock_s[-1]), last)
+        last_acceleration = (
+            state.perturbation if perturbation is None else perturbation.acceleration[-1]
+        )
+        new_rows = slice(history, None)
+        motion = PlantMotion(
+            rows.position[new_rows], rows.velocity[new_rows], effort[new_rows], reading[new_rows]
+        )
+        return motion, self._make_next_state(
+            rows, kernel_state, float(clock_s[-1]), last_acceleration
+        )
 
-    def _given(
+    def _make_kernel_inputs(
         self,
-        shaken: FloatArray,
+        previous_acceleration: FloatArray,
         clock_s: FloatArray,
         first: int,
         command: FloatArray,
         add: FloatArray | None,
         perturbation: Perturbation | None,
-        chance: Chance | None,
-    ) -> kernel.Given:
+        random_streams: RandomStreams | None,
+    ) -> kernel.KernelInputs:
         axes, rows = len(self.axes), len(clock_s)
         force, kick = np.zeros((0, axes)), np.zeros((0, 0))
-        if perturbation is None and shaken.any():
+        if perturbation is None and previous_acceleration.any():
             raise PlantError(
-                message(
-                    "engine",
-                    "perturbation: none is given, but Q of the previous row still acts; pass "
-                    "one for every piece of a run, with zeros where nothing shakes",
-                )
+                "perturbation: none is given, but Q of the previous row still acts; pass "
+                "one for every piece of a run, with zeros where nothing shakes"
             )
         if perturbation is not None:
             perturbation.check(rows, self.axes)
-            force = perturbation.forces(shaken)
-            kick = perturbation.kicks(shaken, self.axes, self.assembly.all_groups)
-        drawn = np.zeros((0, axes))
-        if chance is not None:
-            drawn = chance.draw(rows, axes, self.assembly.random)
-        return kernel.Given(
+            force = perturbation.compute_forces(previous_acceleration)
+            kick = perturbation.compute_state_jumps(
+                previous_acceleration, self.axes, self.assembly.all_groups
+            )
+        variates = np.zeros((0, axes))
+        if random_streams is not None:
+            variates = random_streams.draw(rows, axes, self.assembly.variate_count)
+        return kernel.KernelInputs(
             first,
-            _only_read(clock_s),
-            _only_read(command),
-            _only_read(np.zeros((0, axes)) if add is None else add),
+            _make_read_only(clock_s),
+            _make_read_only(command),
+            _make_read_only(np.zeros((0, axes)) if add is None else add),
             force,
             kick,
-            drawn,
+            variates,
         )
 
-    def _acting(self, stack: Stack, behind: Behind) -> Stack:
-        """Return the rows with the inputs of static axes as late as they act.
+    def _delay_static_inputs(self, rows: SampleRows, behind: ChainPoint) -> SampleRows:
+        """Return the rows with the inputs of static axes delayed.
 
-        Such an axis is at once where its input puts it, so it is read with a row's own input. One
-        that comes late by less than a row is taken to be on its way there, in a straight line: so
-        it passes from no delay to a whole row without a leap, and is right at both.
+        A static axis follows its input immediately, so a sample sees the input of the same row. A
+        delay by a fraction of a row is interpolated linearly. So the response depends continuously
+        on the delay, and is exact for a delay of zero or one row.
         """
-        late = _lateness(self, behind).of_static
-        if not late.any():
-            return stack
-        inputs = stack.inputs.copy()
-        for column in np.flatnonzero(late):
-            acts_s = stack.time_s - late[column]
-            inputs[:, column] = np.interp(acts_s, stack.time_s, stack.inputs[:, column])
-        return stack._replace(inputs=inputs)
+        delays_s = _find_input_delays(self, behind).static_s
+        if not delays_s.any():
+            return rows
+        inputs = rows.inputs.copy()
+        for column in np.flatnonzero(delays_s):
+            input_time_s = rows.time_s - delays_s[column]
+            inputs[:, column] = np.interp(input_time_s, rows.time_s, rows.inputs[:, column])
+        return rows._replace(inputs=inputs)
 
-    def _lateness(self, behind: Behind) -> "_Lateness":
-        at_once = [
+    def _split_delays(self, behind: ChainPoint) -> "_InputDelays":
+        follows_immediately = [
             axis.static and loop is None
             for axis, loop in zip(self.robot.axes.values(), self.loops, strict=True)
         ]
-        delays_s = self._delays(behind)
-        of_static = np.where(at_once, delays_s, 0.0)
-        between = tuple(np.asarray(delays_s) - of_static)
-        return _Lateness(of_static, between, tuple(sorted(set(between))))
+        delays_s = self._compute_delays(behind)
+        static_delays_s = np.where(follows_immediately, delays_s, 0.0)
+        dynamic_delays_s = tuple(np.asarray(delays_s) - static_delays_s)
+        return _InputDelays(static_delays_s, dynamic_delays_s, tuple(sorted(set(dynamic_delays_s))))
 
-    def steps(self, time_s: FloatArray, first: int, behind: Behind) -> kernel.Steps:
+    def make_steps(self, time_s: FloatArray, first: int, behind: ChainPoint) -> kernel.KernelSteps:
         """Return the steps through samples (n,), of which those before ``first`` are history."""
-        return steps_of_run(
+        return make_steps_of_run(
             time_s,
             first,
-            _lateness(self, behind).distinct,
+            _find_input_delays(self, behind).distinct_s,
             self.assembly.all_groups,
             inner_step_s=self.assembly.inner_step_s,
             may_grow=self.assembly.steps_may_grow,
             with_holds=bool(self.effects),
         )
 
-    def machine(self, behind: Behind) -> Machine:
-        """Return the tables with the loops entered."""
-        machine = self.assembly.machine
-        axis = machine.axis.copy()
-        _, between, distinct = _lateness(self, behind)
-        axis["late"] = [distinct.index(delay) for delay in between]
+    def make_tables(self, behind: ChainPoint) -> PlantTables:
+        """Return the tables with controllers and delays entered."""
+        tables = self.assembly.tables
+        axis = tables.axis.copy()
+        _, dynamic_s, distinct_s = _find_input_delays(self, behind)
+        axis["late"] = [distinct_s.index(delay) for delay in dynamic_s]
         for row, loop in zip(axis, self.loops, strict=True):
             if loop is None:
                 row["part"] = behind
             else:
                 row["kp"], row["kv"], row["limit"] = loop.kp, loop.kv, loop.limit
-                by_state = loop.velocity == "state"
-                row["loop"] = kernel.STATE_VELOCITY if by_state else kernel.BACKWARD_VELOCITY
-        return machine._replace(axis=axis)
+                uses_state_velocity = loop.velocity == "state"
+                row["loop"] = (
+                    kernel.STATE_VELOCITY if uses_state_velocity else kernel.BACKWARD_VELOCITY
+                )
+        return tables._replace(axis=axis)
 
-    def _delays(self, behind: Behind = Behind.COMMAND) -> tuple[float, ...]:
-        """Return the delay of each axis' input, s; what is late, is so before the amplifier."""
-        late = self.assembly.delays_s
+    def _compute_delays(self, behind: ChainPoint = ChainPoint.COMMAND) -> tuple[float, ...]:
+        """Return the delay of each axis' input, s; an effect's delay acts before the amplifier."""
+        effect_delays_s = self.assembly.delays_s
         return tuple(
-            loop.delay_s + late[i] if loop else late[i] * (behind is Behind.COMMAND)
+            loop.delay_s + effect_delays_s[i]
+            if loop
+            else effect_delays_s[i] * (behind is ChainPoint.COMMAND)
             for i, loop in enumerate(self.loops)
         )
 
-    def _static_position(self, inputs: FloatArray) -> FloatArray:
-        """Position (n, axes) of the static axes, ``gain·u`` or the command; 0 for the others."""
+    def _compute_static_position(self, inputs: FloatArray) -> FloatArray:
+        """Return positions (n, axes) of static axes, ``gain·u`` or the command; 0 for others."""
         axes = self.robot.axes.values()
         static: FloatArray = np.array([axis.gain if axis.static else 0.0 for axis in axes])
         return np.asarray(np.where(static != 0.0, inputs, 0.0) * static)
 
-    def _index(self, group: Group) -> IntArray:
+    def _find_columns(self, group: AxisGroup) -> IntArray:
         return np.array([self.axes.index(name) for name in group.axes], dtype=np.int64)
 
-    def _after(
-        self, stack: Stack, moved: kernel.State, elapsed_s: float, perturbation: FloatArray
+    def _make_next_state(
+        self,
+        sample_rows: SampleRows,
+        kernel_state: kernel.KernelState,
+        elapsed_s: float,
+        perturbation: FloatArray,
     ) -> PlantState:
-        """Keep the present and every sample whose delayed input has yet to act or acts now."""
         lag_s = max(self.assembly.skews.values(), default=0.0) * elapsed_s
-        since_s = stack.time_s[-1] - max(*self._delays(), lag_s, 0.0)
-        first = int(np.searchsorted(stack.time_s, since_s, side="right")) - 1
-        first -= ROWS if self.assembly.skews else 0
-        kept = slice(max(first, 0), None)
+        oldest_needed_s = sample_rows.time_s[-1] - max(*self._compute_delays(), lag_s, 0.0)
+        first = int(np.searchsorted(sample_rows.time_s, oldest_needed_s, side="right")) - 1
+        # Skewed clocks also interpolate through earlier rows.
+        first -= INTERPOLATION_ROWS if self.assembly.skews else 0
+        rows = slice(max(first, 0), None)
         return PlantState(
-            stack.time_s[kept].copy(),
-            stack.inputs[kept].copy(),
-            stack.position[kept].copy(),
-            stack.velocity[kept].copy(),
-            stack.reading[kept].copy(),
+            sample_rows.time_s[rows].copy(),
+            sample_rows.inputs[rows].copy(),
+            sample_rows.position[rows].copy(),
+            sample_rows.velocity[rows].copy(),
+            sample_rows.reading[rows].copy(),
             elapsed_s,
             perturbation,
-            moved.x,
-            moved.memory,
-            moved.seen,
+            kernel_state.x,
+            kernel_state.memory,
+            kernel_state.called_s,
         )
 
-    def _check(self, stack: Stack) -> None:
+    def _check_finite(self, rows: SampleRows) -> None:
         with np.errstate(over="ignore", invalid="ignore"):
-            if np.isfinite(stack.position.sum()):  # one pass without room for an answer per row
+            # The sum takes one pass and no array with a flag per row.
+            if np.isfinite(rows.position.sum()):
                 return
-        finite = np.isfinite(stack.position[stack.first :])
+        finite = np.isfinite(rows.position[rows.first_new_row :])
         if finite.all():
             return
         row = int(np.argmax(~finite.all(axis=1)))
         axis = self.axes[int(np.argmax(~finite[row]))]
-        named = "".join(f" {one.asked.id} on {one.asked.axis}," for one in self.effects)
+        effects = "".join(f" {effect.entry.id} on {effect.entry.axis}," for effect in self.effects)
         raise PlantError(
-            message(
-                "engine",
-                "axis {axis}: the response grows without bound at t = {time_s} s; check the "
-                "commands,{named} and the controller's gains",
-            ).fill(axis=axis, time_s=rounded(stack.time_s[stack.first + row], 6), named=named)
+            "axis {axis}: the response grows without bound at t = {time_s} s; check the "
+            "commands,{named} and the controller's gains",
+            axis=axis,
+            time_s=format_rounded(rows.time_s[rows.first_new_row + row], 6),
+            named=effects,
         )
 
 
-class _Lateness(NamedTuple):
-    """Delays, s.
+class _InputDelays(NamedTuple):
+    """Delays of inputs, s.
 
-    ``of_static`` (axes,) are those of static axes without a loop, 0 of others. Inputs of the others
-    act ``between`` rows; these delays are ``distinct`` when sorted.
+    ``static_s`` (axes,): those of static axes without a controller; 0 for other axes.
+    ``dynamic_s``: those of the other axes, whose inputs may begin to act between rows; 0 for static
+    axes. ``distinct_s``: the sorted distinct values of ``dynamic_s``.
     """
 
-    of_static: FloatArray
-    between: tuple[float, ...]
-    distinct: tuple[float, ...]
+    static_s: FloatArray
+    dynamic_s: tuple[float, ...]
+    distinct_s: tuple[float, ...]
 
 
 @lru_cache(maxsize=32)
-def _lateness(plant: Plant, behind: Behind) -> _Lateness:
-    return plant._lateness(behind)
+def _find_input_delays(plant: Plant, behind: ChainPoint) -> _InputDelays:
+    return plant._split_delays(behind)
 
 
 @lru_cache(maxsize=32)
-def _machine(plant: Plant, behind: Behind) -> Machine:
-    return plant.machine(behind)
+def _find_tables(plant: Plant, behind: ChainPoint) -> PlantTables:
+    return plant.make_tables(behind)
 
 
 @lru_cache(maxsize=32)
-def _rest(plant: Plant, command: bytes) -> PlantState:
-    """Return the rest at a command, which many runs begin from: nobody may change it."""
-    state = plant._equilibrium(np.frombuffer(command))
+def _find_rest_state(plant: Plant, command: bytes) -> PlantState:
+    """Return the rest at a command.
+
+    The arrays are read-only, because many runs start from this cached state.
+    """
+    state = plant._find_equilibrium(np.frombuffer(command))
     for name in state.__slots__:
         value = getattr(state, name)
         if isinstance(value, np.ndarray):
@@ -468,8 +531,11 @@ def _rest(plant: Plant, command: bytes) -> PlantState:
     return state
 
 
-def _only_read(values: FloatArray) -> FloatArray:
-    """Return values that nobody may change, so that one kind of rows is compiled for, not two."""
+def _make_read_only(values: FloatArray) -> FloatArray:
+    """Return a read-only view of the values.
+
+    numba then compiles for one kind of array, not for two.
+    """
     values = np.ascontiguousarray(values).view()
     values.flags.writeable = False
     return values

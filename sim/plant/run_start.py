@@ -1,33 +1,38 @@
-"""How a run starts that does not start at rest: in its steady state, or as it was measured."""
+"""Start of a run that does not start at rest: in its steady state, or as measured."""
 
 from dataclasses import replace
 
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.messages import message
-from rotemina.sim.plant.errors import PlantError
+from rotemina.sim.errors import PlantError
 from rotemina.sim.plant.plant import Plant
-from rotemina.sim.plant.run import Run
-from rotemina.sim.plant.state import PlantState
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.model import ForceAxis
+from rotemina.sim.plant.state import PlantState, RunCommands
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot import ForceAxis
 
-_FIRST_ROWS = 8  # rows from which position and velocity at the start are taken
-_SURE = 3.0  # standard errors from which a first velocity is told from noise
-_SETTLED = 1e-11  # change from period to period, over the motion, that counts as steady
-_ROUNDING = 1e-9  # of a range: an axis that stands still, or is but shaken by rounding, has settled
-_SETTLED_EFFECTS = 1e-7  # the same for a plant with effects
-_NEARLY_SETTLED = 1e-3  # and what is still enough after the last period
-_MOST_PERIODS = 60
-_UNHELD = 1e9  # condition from which a period leaves some state as it was
+# Rows from which position and velocity at the start are estimated.
+_START_ROW_COUNT = 8
+# An initial velocity counts only if it exceeds this many standard errors; otherwise it is noise.
+_MIN_VELOCITY_ERRORS = 3.0
+# A change from period to period below this, relative to the motion, counts as steady.
+_STEADY_CHANGE_RATIO = 1e-11
+# The same for a plant with effects.
+_STEADY_CHANGE_WITH_EFFECTS_RATIO = 1e-7
+# Change, relative to the range, that is attributed to rounding.
+_ROUNDING_RANGE_RATIO = 1e-9
+# With effects, this larger change is accepted after the last period.
+_NEARLY_STEADY_CHANGE_RATIO = 1e-3
+_MAX_PERIOD_COUNT = 60
+# From this condition number on, some state does not return to equilibrium over a period.
+_MAX_CONDITION = 1e9
 
 
-def steady_start(plant: Plant, run: Run, period_samples: int | None) -> PlantState:
+def find_steady_start(plant: Plant, run: RunCommands, period_samples: int | None) -> PlantState:
     """Return the state at the first row in the steady state of a periodic run.
 
-    Without closed loops and effects the plant is linear, and the state that a period brings back
-    to itself is solved for; else periods are run until they repeat.
+    Without closed loops and effects the plant is linear, and the state that repeats after a period
+    is computed directly. Otherwise periods are simulated until they repeat.
 
     Raises
     ------
@@ -38,139 +43,154 @@ def steady_start(plant: Plant, run: Run, period_samples: int | None) -> PlantSta
     period = period_samples or rows
     if period > rows:
         raise PlantError(
-            message("engine", "period_samples = {period}: the record has only {rows} rows").fill(
-                period=period, rows=rows
-            )
+            "period_samples = {period}: the record has only {rows} rows", period=period, rows=rows
         )
-    lead = _lead(run, period)
+    lead_in = _make_lead_in(run, period)
     if any(plant.loops) or plant.effects:
-        return _settle(plant, lead, run)
-    return _solve(plant, lead, run)
+        return _simulate_until_steady(plant, lead_in, run)
+    return _solve_steady_state(plant, lead_in, run)
 
 
-def measured_start(plant: Plant, record: Record, run: Run, *, settled: bool = False) -> PlantState:
-    """Return the state at the first row by position and velocity of the first rows measured.
+def estimate_start(
+    plant: Plant, record: Record, run: RunCommands, *, settled: bool = False
+) -> PlantState:
+    """Estimate the state at the first row from position and velocity of the first measured rows.
 
-    ``settled``: an axis that a spring or a motor holds, and that does not move for sure, is in
-    equilibrium with its first command. How far a reading is from there is offset and memory; a
-    model that began aside would ring.
+    With ``settled``, an axis that a spring or a motor holds starts in equilibrium with its first
+    command, unless it clearly moves. The difference between its reading and this position is then
+    attributed to offset and memory. A model that started at the reading would ring.
     """
-    rest = plant.at_rest(run.time_s[0], run.command[0])
+    rest = plant.find_rest_state(run.time_s[0], run.command[0])
     position, velocity = rest.position[0].copy(), rest.velocity[0].copy()
     for column, name in enumerate(plant.axes):
         tap = Tap.REF if record.has(name, Tap.REF) else Tap.MEAS
         if record.has(name, tap):
             offset = plant.robot.axes[name].offset if tap is Tap.MEAS else 0.0
-            signal = record.signal(name, tap)[:_FIRST_ROWS] - offset
-            begun = _first(record.time_s[: len(signal)] - record.time_s[0], signal)
-            held = settled and not isinstance(plant.robot.axes[name], ForceAxis)
-            if begun[1] != 0.0 or not held:
-                position[column], velocity[column] = begun
-    return plant.at(run.time_s[0], run.inputs[0], position, velocity)
+            signal = record.signal(name, tap)[:_START_ROW_COUNT] - offset
+            motion = _estimate_first_motion(record.time_s[: len(signal)] - record.time_s[0], signal)
+            starts_at_command = settled and not isinstance(plant.robot.axes[name], ForceAxis)
+            if motion[1] != 0.0 or not starts_at_command:
+                position[column], velocity[column] = motion
+    return plant.make_state(run.time_s[0], run.inputs[0], position, velocity)
 
 
-def _first(since_s: FloatArray, signal: FloatArray) -> tuple[float, float]:
-    """Return position and velocity at 0 by a parabola; at rest where no velocity is sure.
+def _estimate_first_motion(elapsed_s: FloatArray, signal: FloatArray) -> tuple[float, float]:
+    """Return position and velocity at time 0 by a parabola.
 
-    A noisy velocity would make a stiff model ring that in truth stands still.
+    The velocity is zero unless it is significant: a noisy one would make a stiff model ring while
+    the machine stands still.
     """
     if len(signal) < 4:
         return float(signal[0]), 0.0
-    matrix = np.vander(since_s / since_s[-1], 3, increasing=True)
-    curve, *_ = np.linalg.lstsq(matrix, signal, rcond=None)
-    scatter = float(np.sum((signal - matrix @ curve) ** 2)) / max(len(signal) - 3, 1)
-    error = np.sqrt(scatter * np.linalg.inv(matrix.T @ matrix)[1, 1])
-    if abs(curve[1]) <= _SURE * error:
+    matrix = np.vander(elapsed_s / elapsed_s[-1], 3, increasing=True)
+    coefficients, *_ = np.linalg.lstsq(matrix, signal, rcond=None)
+    variance = float(np.sum((signal - matrix @ coefficients) ** 2)) / max(len(signal) - 3, 1)
+    error = np.sqrt(variance * np.linalg.inv(matrix.T @ matrix)[1, 1])
+    if abs(coefficients[1]) <= _MIN_VELOCITY_ERRORS * error:
         return float(np.mean(signal)), 0.0
-    return float(curve[0]), float(curve[1] / since_s[-1])
+    return float(coefficients[0]), float(coefficients[1] / elapsed_s[-1])
 
 
-def _lead(run: Run, period: int) -> Run:
-    """Return the first period, moved to end where the record begins."""
+def _make_lead_in(run: RunCommands, period: int) -> RunCommands:
+    """Return the first period, shifted in time so that it ends where the record begins."""
     rows = len(run.time_s)
     if period < rows:
         length = run.time_s[period] - run.time_s[0]
     else:
         length = (run.time_s[-1] - run.time_s[0]) * rows / max(rows - 1, 1)
-    first = slice(0, period)
-    return Run(run.time_s[first] - length, run.command[first], run.add[first], run.inputs[first])
-
-
-def _settle(plant: Plant, lead: Run, run: Run) -> PlantState:
-    """Run periods until they repeat.
-
-    Some effects, creep among them, never quite do: what they still change is then allowed to be
-    small instead of nothing. Effects count time from the first row of the run.
-    """
-    state = plant.at_rest(lead.time_s[0], run.command[0])
-    enough = _SETTLED_EFFECTS if plant.effects else _SETTLED
-    rounding = np.array([_ROUNDING * axis.span for axis in plant.robot.axes.values()])
-    for period in range(_MOST_PERIODS):
-        motion, after = plant.advance(
-            state, lead.time_s, lead.command, add=lead.add, inputs=lead.inputs
-        )
-        size = np.ptp(motion.position, axis=0) + np.ptp(motion.velocity, axis=0)
-        change = _change(plant, state, after)
-        elapsed_s = float(lead.time_s[-1] - run.time_s[0])
-        after = replace(after, elapsed_s=elapsed_s, seen=after.seen + (elapsed_s - after.elapsed_s))
-        last = plant.effects and period == _MOST_PERIODS - 1
-        if (change <= (_NEARLY_SETTLED if last else enough) * size + rounding).all():
-            return after
-        state = replace(after, time_s=after.time_s + (lead.time_s[0] - run.time_s[0]))
-    raise PlantError(
-        message(
-            "engine",
-            "the model does not reach a steady state within {most_periods} periods; use '# "
-            "history: unknown'",
-        ).fill(most_periods=_MOST_PERIODS)
+    period_rows = slice(0, period)
+    return RunCommands(
+        run.time_s[period_rows] - length,
+        run.command[period_rows],
+        run.add[period_rows],
+        run.inputs[period_rows],
     )
 
 
-def _change(plant: Plant, before: PlantState, after: PlantState) -> FloatArray:
-    """Return by how much positions and speeds (axes,) have changed, apart from what time does."""
-    axis = plant.assembly.machine.axis
-    moving = axis["place"] >= 0
+def _simulate_until_steady(plant: Plant, lead_in: RunCommands, run: RunCommands) -> PlantState:
+    """Simulate periods until they repeat.
+
+    With some effects, such as creep, they never repeat exactly: a small remaining change is then
+    accepted. Effects count time from the first row of the run.
+    """
+    state = plant.find_rest_state(lead_in.time_s[0], run.command[0])
+    tolerance = _STEADY_CHANGE_WITH_EFFECTS_RATIO if plant.effects else _STEADY_CHANGE_RATIO
+    rounding = np.array([_ROUNDING_RANGE_RATIO * axis.span for axis in plant.robot.axes.values()])
+    for period in range(_MAX_PERIOD_COUNT):
+        motion, end_state = plant.advance(
+            state, lead_in.time_s, lead_in.command, add=lead_in.add, inputs=lead_in.inputs
+        )
+        motion_range = np.ptp(motion.position, axis=0) + np.ptp(motion.velocity, axis=0)
+        change = _compute_change(plant, state, end_state)
+        elapsed_s = float(lead_in.time_s[-1] - run.time_s[0])
+        end_state = replace(
+            end_state,
+            elapsed_s=elapsed_s,
+            called_s=end_state.called_s + (elapsed_s - end_state.elapsed_s),
+        )
+        is_last = plant.effects and period == _MAX_PERIOD_COUNT - 1
+        if (
+            change
+            <= (_NEARLY_STEADY_CHANGE_RATIO if is_last else tolerance) * motion_range + rounding
+        ).all():
+            return end_state
+        state = replace(end_state, time_s=end_state.time_s + (lead_in.time_s[0] - run.time_s[0]))
+    raise PlantError(
+        "the model does not reach a steady state within {most_periods} periods; use '# "
+        "history: unknown'",
+        most_periods=_MAX_PERIOD_COUNT,
+    )
+
+
+def _compute_change(plant: Plant, before: PlantState, after: PlantState) -> FloatArray:
+    axis = plant.assembly.tables.axis
+    has_dynamics = axis["place"] >= 0
     change = np.abs(after.position[-1] - before.position[-1])
-    gap = np.abs(after.x - before.x)
-    change[moving] = gap[axis["place"][moving]] + gap[axis["rate"][moving]]
+    state_change = np.abs(after.x - before.x)
+    change[has_dynamics] = (
+        state_change[axis["place"][has_dynamics]] + state_change[axis["rate"][has_dynamics]]
+    )
     return np.asarray(change)
 
 
-def _solve(plant: Plant, lead: Run, run: Run) -> PlantState:
-    """Solve ``x = Φ x + b`` over one period; Φ is found by starting each state a little aside."""
-    rest = plant.at_rest(lead.time_s[0], run.command[0])
-    start = np.concatenate([rest.position[-1], rest.velocity[-1]])
-    end = _end(plant, lead, run, start)
+def _solve_steady_state(plant: Plant, lead_in: RunCommands, run: RunCommands) -> PlantState:
+    """Solve ``x = Φ x + b`` over one period; Φ comes from displacing each state a little."""
+    rest = plant.find_rest_state(lead_in.time_s[0], run.command[0])
+    start_motion = np.concatenate([rest.position[-1], rest.velocity[-1]])
+    end_motion = _simulate_period(plant, lead_in, run, start_motion)
     axes = len(plant.axes)
-    solved = start.copy()
+    steady_state = start_motion.copy()
     for group in plant.groups:
-        own = [plant.axes.index(name) for name in group.axes]
-        own += [axes + column for column in own]
-        map_ = np.empty((len(own), len(own)))
-        for number, state in enumerate(own):
-            aside = start.copy()
+        states = [plant.axes.index(name) for name in group.axes]
+        states += [axes + column for column in states]
+        transition = np.empty((len(states), len(states)))
+        for column, state in enumerate(states):
+            displaced = start_motion.copy()
             step = 1e-3 * (plant.robot.axes[plant.axes[state % axes]].span)
-            aside[state] += step
-            map_[:, number] = (_end(plant, lead, run, aside) - end)[own] / step
-        lasting = np.eye(len(own)) - map_
-        if np.linalg.cond(lasting / np.abs(lasting).max(axis=1, keepdims=True)) > _UNHELD:
+            displaced[state] += step
+            transition[:, column] = (_simulate_period(plant, lead_in, run, displaced) - end_motion)[
+                states
+            ] / step
+        system = np.eye(len(states)) - transition
+        # Scale the rows: positions and speeds have different units.
+        if np.linalg.cond(system / np.abs(system).max(axis=1, keepdims=True)) > _MAX_CONDITION:
             raise PlantError(
-                message(
-                    "engine",
-                    "axis {axes} has no steady state because nothing holds it; use '# "
-                    "history: unknown'",
-                ).fill(axes=group.axes[0])
+                "axis {axes} has no steady state because nothing holds it; use '# "
+                "history: unknown'",
+                axes=group.axes[0],
             )
-        solved[own] += np.linalg.solve(lasting, (end - start)[own])
-    return plant.at(run.time_s[0], run.inputs[0], solved[:axes], solved[axes:])
+        steady_state[states] += np.linalg.solve(system, (end_motion - start_motion)[states])
+    return plant.make_state(run.time_s[0], run.inputs[0], steady_state[:axes], steady_state[axes:])
 
 
-def _end(plant: Plant, lead: Run, run: Run, start: FloatArray) -> FloatArray:
-    """Return the state (2·axes,) where the record begins, from one a period before."""
+def _simulate_period(
+    plant: Plant, lead_in: RunCommands, run: RunCommands, start: FloatArray
+) -> FloatArray:
+    """Return the state (2·axes,) where the record begins, simulated from one period before."""
     axes = len(plant.axes)
-    state = plant.at(lead.time_s[0], lead.inputs[0], start[:axes], start[axes:])
-    time_s = np.append(lead.time_s, run.time_s[0])
-    command = np.vstack([lead.command, run.command[:1]])
-    inputs = np.vstack([lead.inputs, run.inputs[:1]])
-    _, after = plant.advance(state, time_s, command, inputs=inputs)
-    return np.concatenate([after.position[-1], after.velocity[-1]])
+    state = plant.make_state(lead_in.time_s[0], lead_in.inputs[0], start[:axes], start[axes:])
+    time_s = np.append(lead_in.time_s, run.time_s[0])
+    command = np.vstack([lead_in.command, run.command[:1]])
+    inputs = np.vstack([lead_in.inputs, run.inputs[:1]])
+    _, end_state = plant.advance(state, time_s, command, inputs=inputs)
+    return np.concatenate([end_state.position[-1], end_state.velocity[-1]])

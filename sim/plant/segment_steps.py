@@ -1,4 +1,4 @@
-"""Exact steps through the segments of a run, laid out for the compiled loop."""
+"""Exact steps through the segments of a run, arranged for the compiled loop."""
 
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
@@ -7,35 +7,46 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray, IntArray
-from rotemina.sim.plant.coupled_groups import Group
-from rotemina.sim.plant.kernel import Steps
-from rotemina.sim.plant.zero_order_hold import Linear, Segments, Ticks, cut, step_matrices, ticks_of
+from rotemina.sim.plant.coupled_groups import AxisGroup
+from rotemina.sim.plant.kernel import KernelSteps
+from rotemina.sim.plant.zero_order_hold import (
+    LinearSystem,
+    RunSegments,
+    SampleTicks,
+    compute_step_matrices,
+    cut_run,
+    make_ticks,
+)
 
-_ROUNDING = 1e-6  # share of an inner step by which a length may exceed a whole number of them
-_RUNG_OUT = 1e-6  # of a vibration, that is left when inner steps begin to grow
-_GROWTH = 1.5  # from one length of inner steps to the next
-_STEPS_A_LENGTH = 32  # so that a step is at most a 64th of the time since the input began to act
+# Rounding may make a length exceed a whole number of inner steps by this fraction of a step.
+_LENGTH_SLACK_RATIO = 1e-6
+# Fraction of a vibration that remains when inner steps begin to grow.
+_RESIDUAL_VIBRATION_RATIO = 1e-6
+# Ratio of the time in a hold at the end of a piece to that at its beginning.
+_PIECE_GROWTH_RATIO = 1.5
+# With this number, a step is at most a 64th of the time since the input began to act.
+_STEPS_PER_PIECE = 32
 
 
-def steps_of_run(
+def make_steps_of_run(
     time_s: FloatArray,
     first: int,
     delays_s: tuple[float, ...],
-    groups: Sequence[Group],
+    groups: Sequence[AxisGroup],
     *,
     inner_step_s: float,
     may_grow: bool,
     with_holds: bool,
-) -> Steps:
+) -> KernelSteps:
     """Return the steps through samples (n,), of which those before ``first`` are history.
 
-    ``delays_s`` is as in :func:`~rotemina.sim.plant.zero_order_hold.cut`, the rest as in
-    :func:`steps_through`. Steps are kept by times and matrices: a fit simulates the same records
-    with one plant after the other, and a live run repeats the same few rows.
+    ``delays_s`` is as in :func:`~rotemina.sim.plant.cut_run`, the other parameters
+    as in :func:`make_steps`. The steps are cached by times and matrices, because a fit simulates
+    the same records with many plants, and a live run repeats the same few rows.
     """
-    run = ticks_of(time_s, first)
-    return _steps(
-        _segments(run.at.tobytes(), run.length_s, first, delays_s),
+    run = make_ticks(time_s, first)
+    return _make_steps(
+        _cut_segments(run.at.tobytes(), run.length_s, first, delays_s),
         tuple((group.generator.tobytes(), group.states) for group in groups),
         inner_step_s,
         may_grow=may_grow,
@@ -44,74 +55,79 @@ def steps_of_run(
 
 
 @lru_cache(maxsize=16)
-def _segments(ticks: bytes, tick_s: float, first: int, delays_s: tuple[float, ...]) -> Segments:
-    return cut(Ticks(np.frombuffer(ticks, dtype=np.int64), tick_s), first, delays_s)
+def _cut_segments(
+    ticks: bytes, tick_s: float, first: int, delays_s: tuple[float, ...]
+) -> RunSegments:
+    return cut_run(SampleTicks(np.frombuffer(ticks, dtype=np.int64), tick_s), first, delays_s)
 
 
 @lru_cache(maxsize=24)
-def _steps(
-    segments: Segments,
+def _make_steps(
+    segments: RunSegments,
     groups: tuple[tuple[bytes, int], ...],
     inner_step_s: float,
     *,
     may_grow: bool,
     with_holds: bool,
-) -> Steps:
-    return steps_through(
+) -> KernelSteps:
+    return make_steps(
         segments,
-        [Linear.of(numbers, states) for numbers, states in groups],
+        [LinearSystem.of(numbers, states) for numbers, states in groups],
         inner_step_s=inner_step_s,
         may_grow=may_grow,
         with_holds=with_holds,
     )
 
 
-def steps_through(
-    segments: Segments,
-    groups: Sequence[Linear | Group],
+def make_steps(
+    segments: RunSegments,
+    groups: Sequence[LinearSystem | AxisGroup],
     *,
     inner_step_s: float = np.inf,
     may_grow: bool = False,
     with_holds: bool = False,
-) -> Steps:
+) -> KernelSteps:
     """Return the steps through ``segments``.
 
-    In a hold that outlasts every vibration, steps may grow with the time since it began: what still
-    changes then does so ever more slowly. So a row every ten seconds costs little more than one
-    every tenth of a second.
+    In a hold that outlasts every vibration, the steps may grow with the time since the hold began,
+    because the remaining changes become ever slower. A row every ten seconds then costs little more
+    than one every tenth of a second.
 
     Parameters
     ----------
-    segments : Segments
-    groups : sequence of Group
+    segments : RunSegments
+    groups : sequence of AxisGroup
     inner_step_s : float
-        Longest step while anything rings; longer segments are done in several.
+        Longest step while anything vibrates; longer segments are divided.
     may_grow : bool
-        Let steps be longer later in a hold.
+        Whether steps may become longer later in a hold.
     with_holds : bool
-        Tell for how long each input acts, which effects on inputs need to know.
+        Whether to compute how long each input acts, which effects on inputs need.
     """
-    hold = np.zeros((0, segments.applied.shape[1]))
+    hold_times_s = np.zeros((0, segments.applied.shape[1]))
     if with_holds:
-        hold = _holds(segments)
+        hold_times_s = _compute_holds(segments)
     longest_s = float(segments.lengths_s.max())
-    grows_after_s = _grows_after(groups, inner_step_s, longest_s) if may_grow else np.inf
-    cut = [list(_pieces(float(s), inner_step_s, grows_after_s)) for s in segments.lengths_s]
-    pieces = list(dict.fromkeys(piece for each in cut for piece in each))
-    if len(pieces) > len(cut):
-        segments, hold = _with_pieces(segments, hold, cut, pieces)
-    count = np.array([piece.steps for piece in pieces], dtype=np.int64)
-    inner = np.array([piece.length_s for piece in pieces]) / count
-    matrices = [step_matrices(group, inner) for group in groups]
-    state, state_at = _flat([states for states, _ in matrices])
-    inputs, input_at = _flat([into for _, into in matrices])
-    return Steps(
+    grows_after_s = _find_growth_start(groups, inner_step_s, longest_s) if may_grow else np.inf
+    cut_lengths = [
+        list(_cut_length(float(s), inner_step_s, grows_after_s)) for s in segments.lengths_s
+    ]
+    # Segments of equal length share their pieces, and therefore their matrices.
+    pieces = list(dict.fromkeys(piece for cut_length in cut_lengths for piece in cut_length))
+    if len(pieces) > len(cut_lengths):
+        segments, hold_times_s = _split_segments(segments, hold_times_s, cut_lengths, pieces)
+    step_counts = np.array([piece.steps for piece in pieces], dtype=np.int64)
+    step_lengths_s = np.array([piece.length_s for piece in pieces]) / step_counts
+    matrices = [compute_step_matrices(group, step_lengths_s) for group in groups]
+    state, state_at = _flatten([states for states, _ in matrices])
+    inputs, input_at = _flatten([input_matrices for _, input_matrices in matrices])
+    return KernelSteps(
         segments.step,
         segments.sample,
         segments.applied,
-        hold,
-        inner,
-        count,
+        hold_times_s,
+        step_lengths_s,
+        step_counts,
         state,
         state_at,
         inputs,
@@ -120,81 +136,86 @@ def steps_through(
 
 
 class _Piece(NamedTuple):
-    """A part of a segment, done in equal steps."""
-
     length_s: float
     steps: int
 
 
-def _grows_after(groups: Sequence[Linear | Group], inner_step_s: float, longest_s: float) -> float:
-    """Return the time in a hold, s, from which inner steps may grow; infinite where they may not.
+def _find_growth_start(
+    groups: Sequence[LinearSystem | AxisGroup], inner_step_s: float, longest_s: float
+) -> float:
+    """Return the time in a hold, s, after which inner steps may grow; infinite if they may not.
 
-    An axis that nothing holds may ring at any time, where it meets something.
+    An axis without stiffness may start to vibrate at any time, when it meets a contact.
     """
-    least_s = inner_step_s * _STEPS_A_LENGTH / (_GROWTH - 1.0)
-    if longest_s <= _GROWTH * least_s:
+    start_s = inner_step_s * _STEPS_PER_PIECE / (_PIECE_GROWTH_RATIO - 1.0)
+    if longest_s <= _PIECE_GROWTH_RATIO * start_s:
         return np.inf
     for group in groups:
         rates = np.linalg.eigvals(group.generator[: group.states, : group.states])
-        if np.any(rates.real >= -_ROUNDING * np.abs(rates)):
+        if np.any(rates.real >= -_LENGTH_SLACK_RATIO * np.abs(rates)):
             return np.inf
-        ringing = -rates.real[rates.imag != 0.0]
-        least_s = max(least_s, -np.log(_RUNG_OUT) / ringing.min(initial=np.inf))
-    return float(least_s)
+        decay_rates = -rates.real[rates.imag != 0.0]
+        start_s = max(start_s, -np.log(_RESIDUAL_VIBRATION_RATIO) / decay_rates.min(initial=np.inf))
+    return float(start_s)
 
 
-def _pieces(length_s: float, inner_step_s: float, grows_after_s: float) -> Iterator[_Piece]:
-    """Cut one length into pieces, each with equal steps, that grow from one to the next."""
+def _cut_length(length_s: float, inner_step_s: float, grows_after_s: float) -> Iterator[_Piece]:
+    def make_piece(piece_s: float, step_s: float) -> _Piece:
+        return _Piece(piece_s, max(int(np.ceil(piece_s / step_s - _LENGTH_SLACK_RATIO)), 1))
 
-    def equal(piece_s: float, step_s: float) -> _Piece:
-        return _Piece(piece_s, max(int(np.ceil(piece_s / step_s - _ROUNDING)), 1))
-
-    if length_s <= _GROWTH * grows_after_s:
-        yield equal(length_s, inner_step_s)
+    if length_s <= _PIECE_GROWTH_RATIO * grows_after_s:
+        yield make_piece(length_s, inner_step_s)
         return
-    yield equal(grows_after_s, inner_step_s)
+    yield make_piece(grows_after_s, inner_step_s)
     begin_s = grows_after_s
     while begin_s < length_s:
-        most_s = (_GROWTH - 1.0) * begin_s
-        yield equal(min(most_s, length_s - begin_s), most_s / _STEPS_A_LENGTH)
-        begin_s += most_s
+        longest_s = (_PIECE_GROWTH_RATIO - 1.0) * begin_s
+        yield make_piece(min(longest_s, length_s - begin_s), longest_s / _STEPS_PER_PIECE)
+        begin_s += longest_s
 
 
-def _with_pieces(
-    segments: Segments, hold: FloatArray, cut: Sequence[Sequence[_Piece]], pieces: Sequence[_Piece]
-) -> tuple[Segments, FloatArray]:
-    """Return segments cut into pieces, and for how long each input acts."""
-    place = {piece: number for number, piece in enumerate(pieces)}
-    numbers = [np.array([place[piece] for piece in each], dtype=np.int64) for each in cut]
-    times = np.array([len(each) for each in cut])[segments.step]
-    first = np.cumsum(times) - times
-    sample = np.full(int(times.sum()), -1, dtype=np.int64)
-    sample[first] = segments.sample
-    step = np.concatenate([numbers[number] for number in segments.step])
-    applied = np.repeat(segments.applied, times, axis=0)
-    if len(hold):
-        hold = np.repeat(hold, times, axis=0)
+def _split_segments(
+    segments: RunSegments,
+    hold_times_s: FloatArray,
+    cut_lengths: Sequence[Sequence[_Piece]],
+    pieces: Sequence[_Piece],
+) -> tuple[RunSegments, FloatArray]:
+    index_of_piece = {piece: index for index, piece in enumerate(pieces)}
+    piece_indices = [
+        np.array([index_of_piece[piece] for piece in pieces_of_length], dtype=np.int64)
+        for pieces_of_length in cut_lengths
+    ]
+    piece_counts = np.array([len(pieces_of_length) for pieces_of_length in cut_lengths])[
+        segments.step
+    ]
+    first_rows = np.cumsum(piece_counts) - piece_counts
+    sample = np.full(int(piece_counts.sum()), -1, dtype=np.int64)
+    sample[first_rows] = segments.sample
+    step = np.concatenate([piece_indices[length_index] for length_index in segments.step])
+    applied = np.repeat(segments.applied, piece_counts, axis=0)
+    if len(hold_times_s):
+        hold_times_s = np.repeat(hold_times_s, piece_counts, axis=0)
     lengths_s = np.array([piece.length_s for piece in pieces])
-    return Segments(sample, applied, step, lengths_s), hold
+    return RunSegments(sample, applied, step, lengths_s), hold_times_s
 
 
-def _flat(matrices: Sequence[FloatArray]) -> tuple[FloatArray, IntArray]:
-    """Return all matrices in one row, and where each group's begin."""
+def _flatten(matrices: Sequence[FloatArray]) -> tuple[FloatArray, IntArray]:
     parts = [matrix.ravel() for matrix in matrices]
     begin = np.cumsum([0] + [len(part) for part in parts], dtype=np.int64)[:-1]
     return np.concatenate([*parts, np.zeros(1)]), begin
 
 
-def _holds(segments: Segments) -> FloatArray:
-    """Return for how long the input applied at each segment acts on, (s, d), within the run."""
+def _compute_holds(segments: RunSegments) -> FloatArray:
+    """Return the times (s, d) for which the input applied at each segment acts within the run."""
     lengths = segments.lengths_s[segments.step]
     if segments.applied.shape[1] == 1 and (np.diff(segments.applied[:, 0]) > 0).all():
-        return lengths[:, None]  # no input is late: each acts for one segment
-    begin = np.concatenate([[0.0], np.cumsum(lengths)[:-1]])
-    end = float(begin[-1] + lengths[-1])
-    hold = np.empty(segments.applied.shape)
+        # No input is delayed: each acts for one segment.
+        return lengths[:, None]
+    begin_s = np.concatenate([[0.0], np.cumsum(lengths)[:-1]])
+    run_end_s = float(begin_s[-1] + lengths[-1])
+    hold_times_s = np.empty(segments.applied.shape)
     for column, applied in enumerate(segments.applied.T):
         changes = np.diff(applied, prepend=applied[:1]) != 0
-        until = np.append(begin[changes], end)
-        hold[:, column] = until[np.cumsum(changes)] - begin
-    return hold
+        end_s = np.append(begin_s[changes], run_end_s)
+        hold_times_s[:, column] = end_s[np.cumsum(changes)] - begin_s
+    return hold_times_s

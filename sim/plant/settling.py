@@ -1,7 +1,8 @@
-"""How a machine under the forces of effects is brought to rest before a run.
+"""Path to rest before a run, for a machine with effects that are forces.
 
-Rest under dry friction depends on how it was reached. By convention a run begins as after a rise
-from below, long ago: so the axes are let back a little, and brought up again, before it.
+Under dry friction, the rest position depends on how it was reached. By convention, a run begins in
+the state after a rise from below long ago. The axes are therefore retracted a little and raised
+again before the run.
 """
 
 from collections.abc import Sequence
@@ -10,53 +11,68 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.effects.attachment import Attached
-from rotemina.sim.effects.facts import Facts
-from rotemina.sim.effects.formulation import Force
+from rotemina.sim.effects import AttachedEffect, AxisProperties, ForceFunction
 
-_SHARE = 0.002  # of the range, by which an axis is let back
-_PERIODS = 10.0  # of its slowest vibration that the way back takes
-_DECAYS = 20.0  # time constants of that vibration that the way up takes
-_LEAST_DECAY = 0.005  # damping ratio that is taken where an axis has less
+# Retraction of an axis, relative to its range.
+_RETRACTION_RANGE_RATIO = 0.002
+# Duration of the retraction, in periods of the slowest vibration.
+_RETRACTION_PERIODS = 10.0
+# Duration of the rise, in time constants of that vibration.
+_RISE_TIME_CONSTANTS = 20.0
+# An axis with less damping is treated as if it had this damping ratio.
+_MIN_DAMPING_RATIO = 0.005
 _ROWS_PER_PERIOD = 8
 
 
-class Lead(NamedTuple):
-    """Times (n,) from 0 on, and by how much each axis is let back at them, (n, axes), m or rad."""
+class SettlingPath(NamedTuple):
+    """Path to rest.
+
+    ``time_s`` (n,) from 0 on; ``retraction`` (n, axes): how far each axis is retracted, m or rad.
+    """
 
     time_s: FloatArray
-    below: FloatArray
+    retraction: FloatArray
 
 
-def is_led(facts: Facts) -> bool:
-    """Return whether an axis comes to rest under its input; one moved by a force is put there."""
+def needs_settling(facts: AxisProperties) -> bool:
+    """Return whether an axis settles under its input.
+
+    An axis that is moved by a force does not: it is placed at its command.
+    """
     return facts.stiffness > 0.0 and facts.kind != "force"
 
 
-def lead_of(axes: Sequence[str], effects: Sequence[Attached]) -> Lead:
-    """Return the path to rest of a machine with such effects.
+def make_settling_path(axes: Sequence[str], effects: Sequence[AttachedEffect]) -> SettlingPath:
+    """Return the path to rest of a machine with these effects.
 
-    The way up is ``(1 + t/τ) exp(−t/τ)`` with the time constant τ of the slowest vibration, so
-    the axis never runs ahead of its input: ``M |ẍ| < D |ẋ|``. It slides until it stands, and dry
-    friction ends where it does after an infinitely slow rise. What is left at the end is taken
-    off evenly.
+    The rise is ``(1 + t/τ) exp(−t/τ)`` with the time constant τ of the slowest vibration, so the
+    axis never runs ahead of its input: ``M |ẍ| < D |ẋ|``. It slides until it stops, and dry
+    friction ends where it would after an infinitely slow rise. The retraction that remains at the
+    end is removed linearly over the rise.
     """
-    held: dict[str, Facts] = {
-        one.asked.axis: one.facts
-        for one in effects
-        if isinstance(one.formulation.acts, Force) and is_led(one.facts)
+    settling_axes: dict[str, AxisProperties] = {
+        effect.entry.axis: effect.facts
+        for effect in effects
+        if isinstance(effect.formulation.acts, ForceFunction) and needs_settling(effect.facts)
     }
-    slowest = min(facts.frequency_hz for facts in held.values())
-    decay = min(
-        2.0 * np.pi * facts.frequency_hz * max(facts.damping_ratio, _LEAST_DECAY)
-        for facts in held.values()
+    slowest_hz = min(facts.frequency_hz for facts in settling_axes.values())
+    decay_rate = min(
+        2.0 * np.pi * facts.frequency_hz * max(facts.damping_ratio, _MIN_DAMPING_RATIO)
+        for facts in settling_axes.values()
     )
-    back_s = _PERIODS / slowest
-    rows = int(np.ceil((back_s + _DECAYS / decay) * slowest * _ROWS_PER_PERIOD))
-    time_s = np.arange(1, rows + 1) / (slowest * _ROWS_PER_PERIOD)
-    back = 0.5 - 0.5 * np.cos(np.pi * np.minimum(time_s / back_s, 1.0))
-    since = np.maximum(time_s - back_s, 0.0) * decay
-    rise = (1.0 + since) * np.exp(-since)
-    rise -= rise[-1] * since / since[-1]
-    depth = np.array([_SHARE * held[name].span if name in held else 0.0 for name in axes])
-    return Lead(time_s, np.outer(back * rise, depth))
+    retraction_s = _RETRACTION_PERIODS / slowest_hz
+    rows = int(
+        np.ceil((retraction_s + _RISE_TIME_CONSTANTS / decay_rate) * slowest_hz * _ROWS_PER_PERIOD)
+    )
+    time_s = np.arange(1, rows + 1) / (slowest_hz * _ROWS_PER_PERIOD)
+    retraction_profile = 0.5 - 0.5 * np.cos(np.pi * np.minimum(time_s / retraction_s, 1.0))
+    rise_time = np.maximum(time_s - retraction_s, 0.0) * decay_rate
+    rise_profile = (1.0 + rise_time) * np.exp(-rise_time)
+    rise_profile -= rise_profile[-1] * rise_time / rise_time[-1]
+    max_retraction = np.array(
+        [
+            _RETRACTION_RANGE_RATIO * settling_axes[name].span if name in settling_axes else 0.0
+            for name in axes
+        ]
+    )
+    return SettlingPath(time_s, np.outer(retraction_profile * rise_profile, max_retraction))

@@ -1,4 +1,4 @@
-"""The state of a run, with the samples whose inputs still act or will act."""
+"""Commands of a run, and its state with the latest samples, whose inputs may still act later."""
 
 from dataclasses import dataclass
 from enum import IntEnum
@@ -10,20 +10,21 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.plant import kernel
 
 
-class Behind(IntEnum):
-    """What the inputs of a run have passed already."""
+class ChainPoint(IntEnum):
+    """Point of the signal chain after which the inputs of a run enter."""
 
-    COMMAND = kernel.WHOLE
-    AMPLIFIER = kernel.BEHIND_AMPLIFIER
-    ACTUATOR = kernel.BEHIND_ACTUATOR
+    COMMAND = kernel.WHOLE_CHAIN
+    AMPLIFIER = kernel.AFTER_AMPLIFIER
+    ACTUATOR = kernel.AFTER_ACTUATOR
 
 
-class Motion(NamedTuple):
+class PlantMotion(NamedTuple):
     """Response at n samples of all axes of a plant, each (n, axes), in the plant's order.
 
-    ``position`` m or rad as seen from outside, ``velocity`` of the axis itself, m/s or rad/s (zero
-    for static axes), ``inputs`` V as the amplifier gives them, or the commanded position of a
-    stepper, ``reading`` what the sensors say, offset included.
+    ``position``: m or rad, at the output of the axis, so after effects such as backlash.
+    ``velocity``: of the axis before these effects, m/s or rad/s (zero for static axes). ``inputs``:
+    V at the output of the amplifier, or the commanded position of a stepper. ``reading``: of the
+    sensors, including their offset.
     """
 
     position: FloatArray
@@ -34,12 +35,14 @@ class Motion(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PlantState:
-    """The state of a run, with the samples whose inputs still act or will act.
+    """State of a run, with the latest samples, whose inputs may still act after a delay.
 
-    ``time_s`` (h,), and ``inputs`` (as asked for), ``position``, ``velocity``, ``reading``
-    (h, axes) of the last h samples; the very last is the present. ``elapsed_s`` is the time since
-    the run began; ``perturbation`` (axes,) is the Q that acts. ``x``, ``memory`` and ``seen`` are
-    the states of the axes and of their effects.
+    ``time_s`` (h,), and ``inputs`` (as requested), ``position``, ``velocity``, ``reading`` (h,
+    axes) are those of the last h samples, up to and including the current one. ``elapsed_s`` is the
+    time since the run began. ``perturbation`` (axes,) is the present acceleration Q of the base
+    (:mod:`rotemina.sim.plant.perturbation`). ``x`` holds the states of the axes, ``memory`` those
+    of the effects, and ``called_s`` the time of the last call of each effect
+    (:class:`rotemina.sim.plant.KernelState`).
     """
 
     time_s: FloatArray
@@ -51,13 +54,16 @@ class PlantState:
     perturbation: FloatArray
     x: FloatArray
     memory: FloatArray
-    seen: FloatArray
+    called_s: FloatArray
 
 
-class Stack(NamedTuple):
-    """The rows of one call, those of the history first."""
+class SampleRows(NamedTuple):
+    """Sample rows of one call of ``Plant.advance``: the history, then the new samples.
 
-    first: int
+    ``first_new_row`` is the number of rows of the history.
+    """
+
+    first_new_row: int
     time_s: FloatArray
     inputs: FloatArray
     position: FloatArray
@@ -65,25 +71,42 @@ class Stack(NamedTuple):
     reading: FloatArray
 
     @classmethod
-    def of(cls, state: PlantState, history: int, time_s: FloatArray, inputs: FloatArray) -> Self:
-        """Make room for the rows to come behind those of the history; take ``inputs`` over."""
-        old = slice(0, history)
+    def of(
+        cls, state: PlantState, history_count: int, time_s: FloatArray, inputs: FloatArray
+    ) -> Self:
+        """Copy ``inputs`` into new rows after the first ``history_count`` samples of a state."""
+        history_rows = slice(0, history_count)
         return cls(
-            history,
-            np.concatenate([state.time_s[old], time_s]) if history else time_s,
-            np.concatenate([state.inputs[old], inputs]) if history else inputs,
-            _extended(state.position[old], len(time_s)),
-            _extended(state.velocity[old], len(time_s)),
-            _extended(state.reading[old], len(time_s)),
+            history_count,
+            np.concatenate([state.time_s[history_rows], time_s]) if history_count else time_s,
+            np.concatenate([state.inputs[history_rows], inputs]) if history_count else inputs,
+            _extend_rows(state.position[history_rows], len(time_s)),
+            _extend_rows(state.velocity[history_rows], len(time_s)),
+            _extend_rows(state.reading[history_rows], len(time_s)),
         )
 
-    def taken(self, effort: FloatArray) -> kernel.Taken:
-        """Return what the compiled loop fills in."""
-        return kernel.Taken(self.inputs, effort, self.position, self.velocity, self.reading)
+    def to_kernel_samples(self, effort: FloatArray) -> kernel.KernelSamples:
+        """Return the rows as the arrays that the compiled loop fills.
+
+        ``effort`` receives the inputs after the effects of the electronics.
+        """
+        return kernel.KernelSamples(self.inputs, effort, self.position, self.velocity, self.reading)
 
 
-def _extended(history: FloatArray, rows: int) -> FloatArray:
-    """Return room for ``rows`` more rows behind those of the history."""
+def _extend_rows(history: FloatArray, rows: int) -> FloatArray:
     extended = np.empty((len(history) + rows, history.shape[1]))
     extended[: len(history)] = history
     return extended
+
+
+class RunCommands(NamedTuple):
+    """Commands of a run at the sample times ``time_s`` (n,).
+
+    Each (n, axes): set-points ``command``, voltages ``add`` that are added to the outputs of the
+    controllers, and ``inputs`` of the axes without a closed loop.
+    """
+
+    time_s: FloatArray
+    command: FloatArray
+    add: FloatArray
+    inputs: FloatArray

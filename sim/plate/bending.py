@@ -1,10 +1,10 @@
 """Bending of a thin plate by Morley's triangle, assembled with scikit-fem.
 
-Kirchhoff's plate, ``D Δ²w = p`` with the moments' free edges as natural conditions. Morley's
-element has w at the corners and its normal derivative at the edges' middles; its curvature is
-constant. It bends without transverse shear, so there is nothing in it that could lock however
-thin the plate is. Argyris' element, of higher order, loses it on the straight-sided mesh of a
-round plate, and a rigid hub puts conditions on its second derivatives too.
+The model is Kirchhoff's plate, ``D Δ²w = p``, with free edges as natural boundary conditions.
+The unknowns of Morley's element are w at the corners and its normal derivative at the midpoints of
+the edges. Its curvature is constant. It bends without transverse shear, so it cannot lock, however
+thin the plate is. The Argyris element, of higher order, loses its accuracy on the straight-sided
+mesh of a round plate, and a rigid hub would impose conditions on its second derivatives too.
 
 Source: L. S. D. Morley, "The triangular equilibrium element in the solution of plate bending
 problems", Aero. Quart. 19 (1968); convergence: M. Wang, J. Xu, Numer. Math. 103 (2006).
@@ -23,23 +23,23 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Bending:
-    """A plate's matrices, in the unknowns w (m) at points and R ∂w/∂n (m) at edges.
+class BendingMatrices:
+    """Matrices of a plate for the unknowns w (m) at points and R ∂w/∂n (m) at edges.
 
-    The mesh is in units of the length R: figures then have the same size for every plate.
+    The mesh is in units of the length R, so that numbers have a similar size for every plate.
 
     Attributes
     ----------
     basis : skfem.Basis
-        Of the stiffness, one integration point in each element.
+        Basis of the stiffness matrix, with one integration point in each element.
     length : float
-        R, m.
+        Length R, m.
     stiffness : (n, n) sparse array
-        N/m.
+        Stiffness matrix, N/m.
     mass : (n, n) sparse array
-        kg.
+        Mass matrix, kg.
     normals : (2, facets) array
-        The directions in which the unknowns at edges count.
+        Directions n of the unknowns at the edges.
     """
 
     basis: "Basis"
@@ -50,18 +50,18 @@ class Bending:
 
     @property
     def points(self) -> np.ndarray:
-        """The unknowns at the mesh's points, (n,) indices."""
+        """Indices (n,) of the unknowns at the mesh's points."""
         return np.asarray(self.basis.nodal_dofs[0])
 
     @property
     def edges(self) -> np.ndarray:
-        """The unknowns at the mesh's edges, (facets,) indices."""
+        """Indices (facets,) of the unknowns at the mesh's edges."""
         return np.asarray(self.basis.facet_dofs[0])
 
     def interpolate(self, value: FloatArray, slope: FloatArray) -> FloatArray:
         """Return the unknowns of a function from its values and its gradient.
 
-        ``value`` (points,), m; ``slope`` (2, facets), m per unit of the mesh, at edges' middles.
+        ``value`` (points,), m; ``slope`` (2, facets), m per unit of the mesh, at edge midpoints.
         """
         unknowns = np.zeros(self.basis.N)
         unknowns[self.points] = value
@@ -74,21 +74,24 @@ class Bending:
         return np.stack([hessian[0, 0], hessian[1, 1], hessian[0, 1]])
 
 
-def assemble(
+def assemble_bending(
     mesh: "MeshTri", length: float, rigidity: float, poissons_ratio: float, areal_mass: float
-) -> Bending:
-    """Assemble the matrices of a plate.
+) -> BendingMatrices:
+    """Assemble the stiffness and mass matrices of a plate.
 
     Parameters
     ----------
     mesh : MeshTri
-        In units of ``length`` (m).
+        Mesh in units of ``length``.
+    length : float
+        Length R, m.
     rigidity : float
-        D, N m.
+        Flexural rigidity D, N m.
+    poissons_ratio : float
     areal_mass : float
-        kg/m².
+        Mass per area, kg/m².
     """
-    # Loaded here, so that a program that computes no plate starts sooner.
+    # Imported here, so that programs that compute no plate start faster.
     from skfem import Basis, BilinearForm, ElementTriMorley
     from skfem.helpers import dd, ddot, trace
 
@@ -101,35 +104,37 @@ def assemble(
     def inertia(u, v, _):  # type: ignore[no-untyped-def]
         return u * v
 
-    element = ElementTriMorley()  # one for both: it keeps its shape functions
+    # Both bases use the same element, which caches its shape functions.
+    element = ElementTriMorley()
     basis = Basis(mesh, element, intorder=0)
-    return Bending(
+    return BendingMatrices(
         basis=basis,
         length=length,
         stiffness=rigidity / length**2 * bending.assemble(basis).tocsr(),
         mass=areal_mass * length**2 * inertia.assemble(Basis(mesh, element, intorder=4)).tocsr(),
-        normals=_normals(mesh),
+        normals=_compute_edge_normals(mesh),
     )
 
 
-def _normals(mesh: "MeshTri") -> FloatArray:
-    """Return the normals of edges as scikit-fem's element counts them: outwards at a border.
+def _compute_edge_normals(mesh: "MeshTri") -> FloatArray:
+    """Return the normals of the edges with the signs that scikit-fem's element uses.
 
-    Inside, from the corner with the lower number to that with the higher, turned to the left.
+    At a border they point outwards. Inside, they are the direction from the corner with the lower
+    index to the corner with the higher index, turned to the left.
     """
-    low, high = mesh.p[:, mesh.facets[0]], mesh.p[:, mesh.facets[1]]
-    along = low - high
-    normals = np.stack([along[1], -along[0]]) / np.hypot(*along)
+    first_corners, second_corners = mesh.p[:, mesh.facets[0]], mesh.p[:, mesh.facets[1]]
+    edge_vectors = first_corners - second_corners
+    normals = np.stack([edge_vectors[1], -edge_vectors[0]]) / np.hypot(*edge_vectors)
     border = mesh.boundary_facets()
-    inside = mesh.p[:, mesh.t[:, mesh.f2t[0, border]]].mean(axis=1)
-    middle = 0.5 * (low + high)[:, border]
-    inwards = np.sum(normals[:, border] * (middle - inside), axis=0) < 0.0
-    normals[:, border[inwards]] *= -1.0
+    element_centres = mesh.p[:, mesh.t[:, mesh.f2t[0, border]]].mean(axis=1)
+    midpoints = 0.5 * (first_corners + second_corners)[:, border]
+    is_inward = np.sum(normals[:, border] * (midpoints - element_centres), axis=0) < 0.0
+    normals[:, border[is_inward]] *= -1.0
     return np.asarray(normals)
 
 
-def factorized(matrix: "scipy.sparse.spmatrix") -> "scipy.sparse.linalg.SuperLU":
-    """Factorize a symmetric positive definite matrix; its pivots need no search."""
+def factorize(matrix: "scipy.sparse.spmatrix") -> "scipy.sparse.linalg.SuperLU":
+    """Factorize a symmetric positive definite matrix, which needs no search for pivots."""
     return scipy.sparse.linalg.splu(
         scipy.sparse.csc_matrix(matrix),
         permc_spec="MMD_AT_PLUS_A",

@@ -1,4 +1,4 @@
-"""The plate's mesh with its fields as a file of the Visualization Toolkit (``.vtu``)."""
+"""Export of the mesh and its fields to a file of the Visualization Toolkit (``.vtu``)."""
 
 import tempfile
 from os import PathLike, fspath
@@ -7,21 +7,20 @@ from pathlib import Path
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.messages import message
-from rotemina.sim.plate.errors import PlateError
-from rotemina.sim.plate.modes import Modes
+from rotemina.sim.errors import PlateError
+from rotemina.sim.files import replace_file
+from rotemina.sim.plate.modes import PlateModes
 from rotemina.sim.plate.statics import UnitSolutions
-from rotemina.sim.plate.stress import deflection, principal, surface_stress, von_mises
-from rotemina.sim.whole_files import replaced
+from rotemina.sim.plate.stress import deflection, principal_stresses, surface_stress, von_mises
 
 
 def write_vtu(
     path: str | PathLike[str],
     solutions: UnitSolutions,
     pose: FloatArray,
-    modes: Modes | None = None,
+    modes: PlateModes | None = None,
 ) -> None:
-    """Write mesh (m), displacement (m), stress of the upper surface (Pa) and modes.
+    """Write mesh (m), displacement (m), stress of the upper surface (Pa) and modes to a file.
 
     Raises
     ------
@@ -30,34 +29,36 @@ def write_vtu(
     FileWriteError
         If the file cannot be written.
     """
-    import meshio  # only this needs it, and it would make every start of the program slower
+    # Imported here, because it is needed only here and would slow down every start of the program.
+    import meshio
 
     name = fspath(path)
     if not name.endswith(".vtu"):
-        raise PlateError(message("engine", "{name}: the name must end with .vtu").fill(name=name))
-    mesh = solutions.held.mesh
+        raise PlateError("{name}: the name must end with .vtu", name=name)
+    mesh = solutions.clamped.mesh
     stress = surface_stress(solutions, pose)
-    larger, smaller = principal(stress)
+    larger, smaller = principal_stresses(stress)
     fields = {
-        "displacement": _along_pin(deflection(solutions, pose)),
+        "displacement": _make_pin_vectors(deflection(solutions, pose)),
         "von_mises": von_mises(stress),
         "principal_1_top": larger,
         "principal_2_top": smaller,
-        "stress_top": stress.T.copy(),  # σx, σy, τxy
+        # The columns are σx, σy, τxy.
+        "stress_top": stress.T.copy(),
     }
     if modes is not None:
         shapes = zip(modes.frequencies_hz, modes.deflection, strict=True)
         for number, (frequency, shape) in enumerate(shapes, start=1):
-            fields[f"mode_{number}_{frequency:.1f}_Hz"] = _along_pin(shape)
+            fields[f"mode_{number}_{frequency:.1f}_Hz"] = _make_pin_vectors(shape)
     points = np.concatenate([mesh.points, np.zeros((1, mesh.points.shape[1]))]).T
-    made = meshio.Mesh(points, [("triangle", mesh.triangles.T)], point_data=fields)
-    # meshio writes to a name only; ours take the place of another file when they are complete.
+    vtk_mesh = meshio.Mesh(points, [("triangle", mesh.triangles.T)], point_data=fields)
+    # meshio writes only to a file name. The target is replaced when the draft is complete.
     with tempfile.TemporaryDirectory() as folder:
         draft = Path(folder) / "plate.vtu"
-        meshio.write(draft, made)
-        with replaced(name) as file:
+        meshio.write(draft, vtk_mesh)
+        with replace_file(name) as file:
             file.write(draft.read_bytes())
 
 
-def _along_pin(values: FloatArray) -> FloatArray:
+def _make_pin_vectors(values: FloatArray) -> FloatArray:
     return np.stack([np.zeros_like(values), np.zeros_like(values), values], axis=1)

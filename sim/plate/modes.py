@@ -1,4 +1,4 @@
-"""Eigenfrequencies and eigenforms of the plate with hub and pin."""
+"""Natural frequencies and mode shapes of the plate with hub and pin."""
 
 from dataclasses import dataclass
 
@@ -6,25 +6,24 @@ import numpy as np
 import scipy
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.messages import message
-from rotemina.sim.plate.bending import factorized
-from rotemina.sim.plate.errors import PlateError
-from rotemina.sim.plate.statics import HeldPlate, hub_inertia, reduced
+from rotemina.sim.errors import PlateError
+from rotemina.sim.plate.bending import factorize
+from rotemina.sim.plate.statics import ClampedPlate, hub_inertia, reduce_matrix
 
-MOST = 60
+MAX_MODES = 60
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Modes:
-    """Undamped modes, slowest first.
+class PlateModes:
+    """Undamped modes in order of rising frequency.
 
     Attributes
     ----------
     frequencies_hz : (n,) array
     deflection : (n, points) array
-        With the largest deflection 1.
+        Mode shapes, scaled to a largest deflection of 1.
     hub : (n, 3) array
-        zn (m), thx, thy (rad) of the hub in the same scale.
+        Motion zn (m), thx, thy (rad) of the hub at the same scale.
     """
 
     frequencies_hz: FloatArray
@@ -32,44 +31,43 @@ class Modes:
     hub: FloatArray
 
 
-def eigenmodes(held: HeldPlate, pin_length_m: float, count: int = 10) -> Modes:
-    """Return the slowest modes; the pin rides on the hub as a rigid rod.
+def compute_eigenmodes(clamped: ClampedPlate, pin_length_m: float, count: int = 10) -> PlateModes:
+    """Return the modes of lowest frequency. The pin is a rigid rod on the hub.
 
     Raises
     ------
     PlateError
-        If more modes are asked for than are computed well.
+        If ``count`` is out of range.
     """
-    if not 1 <= count <= MOST:
-        raise PlateError(
-            message("engine", "modes = {count}: must be 1 to {most}").fill(count=count, most=MOST)
-        )
-    length = held.bending.length
-    scale = np.array([1.0, length, length])
-    inertia = hub_inertia(held.plate, pin_length_m) / np.outer(scale, scale)
-    stiffness = reduced(held, held.bending.stiffness)
-    mass = reduced(held, held.bending.mass)
+    if not 1 <= count <= MAX_MODES:
+        raise PlateError("modes = {count}: must be 1 to {most}", count=count, most=MAX_MODES)
+    length = clamped.bending.length
+    unknown_scales = np.array([1.0, length, length])
+    inertia = hub_inertia(clamped.plate, pin_length_m) / np.outer(unknown_scales, unknown_scales)
+    stiffness = reduce_matrix(clamped, clamped.bending.stiffness)
+    mass = reduce_matrix(clamped, clamped.bending.mass)
     size = stiffness.shape[0]
-    rigid = scipy.sparse.block_diag(
+    rigid_mass = scipy.sparse.block_diag(
         [inertia, scipy.sparse.csr_matrix((size - 3, size - 3))], format="csc"
     )
-    factors = factorized(stiffness)
+    factors = factorize(stiffness)
     inverse = scipy.sparse.linalg.LinearOperator(
         (size, size), matvec=factors.solve, dtype=np.float64
     )
-    start = np.random.default_rng(0).standard_normal(size)  # the same answer every time
-    squares, vectors = scipy.sparse.linalg.eigsh(
-        stiffness, count, M=mass + rigid, sigma=0.0, OPinv=inverse, v0=start, which="LM"
+    # A fixed start vector makes the result reproducible.
+    start_vector = np.random.default_rng(0).standard_normal(size)
+    squared_frequencies, vectors = scipy.sparse.linalg.eigsh(
+        stiffness, count, M=mass + rigid_mass, sigma=0.0, OPinv=inverse, v0=start_vector, which="LM"
     )
-    order = np.argsort(squares)
-    squares, vectors = squares[order], vectors[:, order]
-    unknowns = held.hub_motion @ (vectors[:3] / scale[:, None])
-    unknowns[held.free] = vectors[3:]
-    deflection = unknowns[held.bending.points].T
+    order = np.argsort(squared_frequencies)
+    squared_frequencies, vectors = squared_frequencies[order], vectors[:, order]
+    unknowns = clamped.hub_motion @ (vectors[:3] / unknown_scales[:, None])
+    unknowns[clamped.free] = vectors[3:]
+    deflection = unknowns[clamped.bending.points].T
     rows = np.arange(count)
-    largest = deflection[rows, np.argmax(np.abs(deflection), axis=1)]
-    return Modes(
-        frequencies_hz=np.sqrt(squares) / (2.0 * np.pi),
-        deflection=deflection / largest[:, None],
-        hub=(vectors[:3] / scale[:, None] / largest).T,
+    largest_deflections = deflection[rows, np.argmax(np.abs(deflection), axis=1)]
+    return PlateModes(
+        frequencies_hz=np.sqrt(squared_frequencies) / (2.0 * np.pi),
+        deflection=deflection / largest_deflections[:, None],
+        hub=(vectors[:3] / unknown_scales[:, None] / largest_deflections).T,
     )

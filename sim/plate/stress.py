@@ -1,4 +1,4 @@
-"""Stress of the plate as a superposition of unit solutions, and its safety against yield."""
+"""Stress of the plate by superposition of unit solutions, and its safety against yield."""
 
 from dataclasses import dataclass
 from itertools import product
@@ -7,16 +7,14 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.messages import marked, message
-from rotemina.sim.plate.errors import PlateError
+from rotemina.sim.errors import PlateError
+from rotemina.sim.messages import Message, format_fixed, message
 from rotemina.sim.plate.statics import AXES, UnitSolutions
-from rotemina.sim.quantities import fixed
-from rotemina.sim.robot.model import Robot
-from rotemina.sim.robot.plate import Plate
+from rotemina.sim.robot import Plate, Robot
 
 
 class StressPoint(NamedTuple):
-    """A stress (von Mises, Pa) and where on the plate it is: radius m, direction rad."""
+    """A von Mises stress, Pa, and its position on the plate: radius m, direction rad."""
 
     stress: float
     radius: float
@@ -24,14 +22,15 @@ class StressPoint(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Safety:
-    """The least safety against yield, and where and when that is.
+class YieldSafety:
+    """Safety against yield, with the most stressed point and the pose of the hub.
 
     Attributes
     ----------
     factor : float
-        Yield stress over von Mises stress; below 1 the plate yields.
+        Ratio of yield stress to von Mises stress; below 1 the plate yields.
     point : StressPoint
+        The point with the largest stress.
     pose : (zn m, thx rad, thy rad)
     """
 
@@ -41,56 +40,62 @@ class Safety:
 
 
 def deflection(solutions: UnitSolutions, pose: FloatArray) -> FloatArray:
-    """Return the deflection of the points for a motion (zn, thx, thy) of the hub, m."""
+    """Return the deflection (points,), m, for a motion (zn, thx, thy) of the hub."""
     return np.asarray(pose @ solutions.deflection)
 
 
 def surface_stress(solutions: UnitSolutions, pose: FloatArray) -> FloatArray:
-    """Return σx, σy, τxy at the upper surface, (3, points), Pa; opposite at the lower one."""
+    """Return σx, σy, τxy at the upper surface, (3, points), Pa.
+
+    The stress at the lower surface has the opposite sign.
+    """
     return np.asarray(np.tensordot(pose, solutions.stress, axes=1))
 
 
 def von_mises(stress: FloatArray) -> FloatArray:
-    """Return ``√(σx² − σx σy + σy² + 3 τxy²)``, plane stress; the same at both surfaces."""
+    """Return the von Mises stress ``√(σx² − σx σy + σy² + 3 τxy²)`` for plane stress.
+
+    It is the same at both surfaces.
+    """
     x, y, xy = stress
     return np.asarray(np.sqrt(x**2 - x * y + y**2 + 3.0 * xy**2))
 
 
-def principal(stress: FloatArray) -> tuple[FloatArray, FloatArray]:
+def principal_stresses(stress: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the larger and the smaller principal stress of the upper surface, Pa.
 
-    At the lower surface the larger one is minus the smaller one here, and the other way round.
+    Those of the lower surface have the opposite sign, so the larger one becomes the smaller one.
     """
     x, y, xy = stress
     middle, radius = 0.5 * (x + y), np.hypot(0.5 * (x - y), xy)
     return middle + radius, middle - radius
 
 
-def greatest(solutions: UnitSolutions, pose: FloatArray) -> StressPoint:
-    """Return the largest von Mises stress and its place."""
+def find_peak_stress(solutions: UnitSolutions, pose: FloatArray) -> StressPoint:
+    """Return the largest von Mises stress and its position."""
     mises = von_mises(surface_stress(solutions, pose))
     point = int(np.argmax(mises))
-    x, y = solutions.held.mesh.points[:, point]
+    x, y = solutions.clamped.mesh.points[:, point]
     return StressPoint(float(mises[point]), float(np.hypot(x, y)), float(np.arctan2(y, x)))
 
 
-def safety(solutions: UnitSolutions, pose: FloatArray) -> Safety:
-    """Return the safety against yield at one pose (zn m, thx rad, thy rad)."""
-    point = greatest(solutions, pose)
-    yields = solutions.held.plate.yield_stress
-    factor = yields / point.stress if point.stress > 0.0 else float("inf")
+def safety_at(solutions: UnitSolutions, pose: FloatArray) -> YieldSafety:
+    """Return the safety against yield at a pose (zn m, thx rad, thy rad)."""
+    point = find_peak_stress(solutions, pose)
+    yield_stress = solutions.clamped.plate.yield_stress
+    factor = yield_stress / point.stress if point.stress > 0.0 else float("inf")
     zn, thx, thy = (float(value) for value in pose)
-    return Safety(factor, point, (zn, thx, thy))
+    return YieldSafety(factor, point, (zn, thx, thy))
 
 
-def least_safety(solutions: UnitSolutions, ranges: FloatArray) -> Safety:
-    """Return the least safety over all poses between ``ranges`` (3, 2).
+def find_min_safety(solutions: UnitSolutions, ranges: FloatArray) -> YieldSafety:
+    """Return the minimum safety over all poses within ``ranges`` (3, 2).
 
-    Von Mises stress is a norm of a linear function of the pose, so it is convex: its largest value
-    over a box is at one of the eight corners.
+    Von Mises stress is a norm of a linear function of the pose. It is therefore convex, and its
+    largest value over a box is at one of the eight corners.
     """
-    corners = (safety(solutions, np.array(corner)) for corner in product(*ranges))
-    return min(corners, key=lambda one: one.factor)
+    corners = (safety_at(solutions, np.array(corner)) for corner in product(*ranges))
+    return min(corners, key=lambda safety: safety.factor)
 
 
 def motion_ranges(robot: Robot) -> FloatArray:
@@ -104,26 +109,26 @@ def motion_ranges(robot: Robot) -> FloatArray:
     missing = [name for name in AXES if name not in robot.axes]
     if missing:
         raise PlateError(
-            message(
-                "engine",
-                "robot {name} has no axis {missing}; the plate carries {axes}: name a robot "
-                "that has them",
-            ).fill(name=robot.name, missing=", ".join(missing), axes=", ".join(AXES))
+            "robot {name} has no axis {missing}; the plate carries {axes}: name a robot "
+            "that has them",
+            name=robot.name,
+            missing=", ".join(missing),
+            axes=", ".join(AXES),
         )
     return np.array([robot.axes[name].range for name in AXES], dtype=np.float64)
 
 
-def place_text(point: StressPoint, plate: Plate) -> str:
-    """Say where on the plate a place is."""
-    share = (point.radius - plate.hub_radius) / (plate.rim_radius - plate.hub_radius)
+def describe_place(point: StressPoint, plate: Plate) -> Message:
+    """Return the position of a stress on the plate as text."""
+    fraction = (point.radius - plate.hub_radius) / (plate.rim_radius - plate.hub_radius)
     where = (
-        marked("engine", "at the hub")
-        if share < 0.02
-        else marked("engine", "at the rim")
-        if share > 0.98
-        else "between"
+        message("engine", "at the hub")
+        if fraction < 0.02
+        else message("engine", "at the rim")
+        if fraction > 0.98
+        else message("engine", "between hub and rim")
     )
     degrees = np.degrees(point.direction) % 360.0
     return message("engine", "{where}, r {radius} mm, {degrees}°").fill(
-        where=where, radius=fixed(1000.0 * point.radius, 2), degrees=fixed(degrees, 0)
+        where=where, radius=format_fixed(1000.0 * point.radius, 2), degrees=format_fixed(degrees, 0)
     )

@@ -1,12 +1,14 @@
-"""Parsing and writing rows with polars, at the speed of a data library.
+"""Fast parsing of rows with pyarrow.
 
-:func:`parse` gives up, by returning None, wherever it could differ from the strict parser.
+:func:`parse` returns None if its result could differ from that of the strict parser.
 """
 
 import re
+from collections.abc import Iterator
 
 import numpy as np
-import polars as pl
+import pyarrow as pa  # type: ignore[import-untyped,unused-ignore] # it comes without types
+import pyarrow.csv  # type: ignore[import-untyped,unused-ignore]
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.records.fields import COMMENT_BEGIN
@@ -16,16 +18,17 @@ _COMMENT_LINES = re.compile(rb"^" + COMMENT_BEGIN + rb"[^\n]*\n", re.MULTILINE)
 
 
 def without_comments(data: bytes) -> tuple[bytes, int]:
-    """Return whole lines without those that are comments, and how many those were."""
-    # A search for two bytes takes a hundred times as long as one for a byte.
-    marked = any(sign in data for sign in (b"#", b"%", b"/"))
-    return _COMMENT_LINES.subn(b"", data) if marked else (data, 0)
+    """Return lines without the comments among them, and the number of comments."""
+    # A search for two bytes takes a hundred times as long as a search for one byte.
+    may_have_comments = any(sign in data for sign in (b"#", b"%", b"/"))
+    return _COMMENT_LINES.subn(b"", data) if may_have_comments else (data, 0)
 
 
-def decimal_sign(rows: bytes, separator: str) -> str | None:
-    """Return the decimal sign of rows, "" if there is none and None if it is in doubt.
+def find_decimal_sign(rows: bytes, separator: str) -> str | None:
+    """Return the decimal sign of rows, "" if there is none, or None if it is ambiguous.
 
-    Commas are separators where those are commas, but for quoted numbers, which are not read here.
+    If the separator is a comma, all commas are separators. A comma in a quoted number would be a
+    decimal sign, but quoted numbers are left to the strict parser.
     """
     if separator == ",":
         return "." if b"." in rows else ""
@@ -34,9 +37,9 @@ def decimal_sign(rows: bytes, separator: str) -> str | None:
 
 
 def normalise(data: bytes, separator: str) -> bytes | None:
-    """Return rows without blanks, quotes, CR and decimal commas; None where a stray CR is left.
+    """Return rows without blanks, quotes, CR and decimal commas, or None if a stray CR remains.
 
-    Each step is left out where a search, which costs next to nothing, finds nothing to do.
+    Each step is skipped if a search, which is very fast, finds nothing to do.
     """
     if b"\r" in data:
         data = data.replace(b"\r\n", b"\n")
@@ -54,36 +57,37 @@ def normalise(data: bytes, separator: str) -> bytes | None:
 
 
 def _without_quotes(data: bytes, separator: bytes) -> bytes:
-    """Return rows without quotes, if each pair of them encloses one whole field; else as they are.
+    """Return rows without quotes if each pair encloses one whole field, otherwise unchanged.
 
-    Quotes within a field, and separators within quotes, are for the strict parser.
+    Quotes within a field and separators within quotes are left to the strict parser.
     """
-    signs = np.frombuffer(data, dtype=np.uint8)
-    quotes = np.flatnonzero(signs == ord('"'))
+    characters = np.frombuffer(data, dtype=np.uint8)
+    quotes = np.flatnonzero(characters == ord('"'))
     if len(quotes) % 2:
         return data
     opening, closing = quotes[::2], quotes[1::2]
-    is_end = (signs == ord(separator)) | (signs == ord("\n"))
+    is_end = (characters == ord(separator)) | (characters == ord("\n"))
     ends = np.flatnonzero(is_end)
-    # The data end with LF, which also stands in for the end of a field before the first.
+    # For a quote at the very beginning, index -1 refers to the LF at the end of the data, which
+    # counts as the end of the field before.
     are_pairs = is_end[opening - 1].all() and is_end[closing + 1].all()
-    are_full = (closing - opening > 1).all()
+    are_non_empty = (closing - opening > 1).all()
     in_one_field = (np.searchsorted(ends, opening) == np.searchsorted(ends, closing)).all()
-    return data.replace(b'"', b"") if are_pairs and are_full and in_one_field else data
+    return data.replace(b'"', b"") if are_pairs and are_non_empty and in_one_field else data
 
 
 def _without_blanks(data: bytes, separator: bytes) -> bytes:
     while b"  " in data:
         data = data.replace(b"  ", b" ")
-    for sign in {separator, b"\n"} - {b" "}:
-        data = data.replace(b" " + sign, sign).replace(sign + b" ", sign)
+    for delimiter in {separator, b"\n"} - {b" "}:
+        data = data.replace(b" " + delimiter, delimiter).replace(delimiter + b" ", delimiter)
     return data.removeprefix(b" ")
 
 
 def _without_fillers(data: bytes, separator: bytes) -> bytes:
     """Return rows without empty lines, and without the separators at their ends.
 
-    A row of separators alone is for the strict parser.
+    A row that consists of separators is left to the strict parser.
     """
     if b"\n" + separator not in b"\n" + data[:1] and b"\n" + separator not in data:
         while separator + b"\n" in data:
@@ -94,34 +98,53 @@ def _without_fillers(data: bytes, separator: bytes) -> bytes:
 
 
 def parse(data: bytes, lines: int, separator: str, columns: int) -> FloatArray | None:
-    """Return the (rows, columns) numbers of rows, or None where the strict parser decides."""
+    """Return the numbers (rows, columns) of rows, or None if the strict parser must decide."""
     rows = normalise(data, separator)
     if rows is None:
         return None
     numbers = _read_numbers(rows, lines, separator, columns)
     if numbers is None:
-        # Searched for last, because it is the one search that takes its time.
-        shorter = _without_fillers(rows, separator.encode())
-        if len(shorter) < len(rows):
-            numbers = _read_numbers(shorter, count_lines(shorter), separator, columns)
+        # This search is slow, so it comes last.
+        compact_rows = _without_fillers(rows, separator.encode())
+        if len(compact_rows) < len(rows):
+            numbers = _read_numbers(compact_rows, count_lines(compact_rows), separator, columns)
     return numbers
 
 
 def _read_numbers(rows: bytes, lines: int, separator: str, columns: int) -> FloatArray | None:
     """Return (lines, columns) finite numbers, or None if there is anything else.
 
-    polars reads a missing field as null, which becomes NaN here; it raises at anything else that
-    is no number.
+    pyarrow raises an error for a row of another length, and for a field that is not a number. It
+    would skip a byte order mark.
     """
     if not rows:
         return np.empty((0, columns))
-    schema = {str(index): pl.Float64 for index in range(columns)}
-    try:
-        table = pl.read_csv(
-            rows, has_header=False, schema=schema, separator=separator, quote_char=None
-        )
-    except pl.exceptions.PolarsError:
+    if not rows.isascii():
         return None
-    numbers = table.to_numpy(order="fortran", writable=True)
-    whole = numbers.shape == (lines, columns)
-    return numbers if whole and np.isfinite(numbers).all() else None
+    numbers = np.empty((lines, columns), order="F")
+    row_count = 0
+    try:
+        for batch in _read_batches(rows, separator, columns):
+            if row_count + len(batch) > lines:
+                return None
+            batch_rows = slice(row_count, row_count + len(batch))
+            for index, column in enumerate(batch.columns):
+                # pyarrow's own conversion to numpy imports pandas if it is installed.
+                numbers[batch_rows, index] = np.from_dlpack(column)
+            row_count += len(batch)
+    except pa.ArrowInvalid:
+        return None
+    return numbers if row_count == lines and np.isfinite(numbers).all() else None
+
+
+def _read_batches(rows: bytes, separator: str, columns: int) -> Iterator[pa.RecordBatch]:
+    names = [str(index) for index in range(columns)]
+    with pa.csv.open_csv(
+        pa.BufferReader(rows),
+        pa.csv.ReadOptions(column_names=names),
+        pa.csv.ParseOptions(delimiter=separator, quote_char=False, ignore_empty_lines=False),
+        pa.csv.ConvertOptions(
+            column_types=dict.fromkeys(names, pa.float64()), null_values=[], check_utf8=False
+        ),
+    ) as batches:
+        yield from batches

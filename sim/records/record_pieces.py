@@ -1,4 +1,4 @@
-"""Records in pieces: files that are read with bounded memory, however long they are."""
+"""Reading of records in pieces, so that long files need bounded memory."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -7,15 +7,16 @@ from os import PathLike, fspath
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.records.file_blocks import LIMITS, Limits, open_blocks
-from rotemina.sim.records.metadata import Comments
-from rotemina.sim.records.reading import assembled, collected, parsed_blocks
+from rotemina.sim.records.file_blocks import DEFAULT_LIMITS, FileLimits, open_blocks
+from rotemina.sim.records.metadata import FileComments
+from rotemina.sim.records.reading import assemble_record, collect_comments, parse_blocks
 from rotemina.sim.records.record import Record
-from rotemina.sim.robot.model import Robot
+from rotemina.sim.robot import Robot
 
-# With these a simulation of six axes takes about 400 MB at most; larger ones are no faster.
+# With pieces of this size, a simulation of six axes takes at most about 400 MB. Larger pieces are
+# no faster.
 PIECE_ROWS = 32_768
-PIECE_LIMITS = replace(LIMITS, block_bytes=4_000_000)
+PIECE_LIMITS = replace(DEFAULT_LIMITS, block_bytes=4_000_000)
 
 
 def read_pieces(
@@ -24,45 +25,46 @@ def read_pieces(
     columns: str | None = None,
     robot: Robot | None = None,
     rows: int = PIECE_ROWS,
-    limits: Limits = PIECE_LIMITS,
+    limits: FileLimits = PIECE_LIMITS,
 ) -> Iterator[Record]:
-    """Import a record or trajectory piece by piece, plain or compressed.
+    """Read a record or trajectory in pieces from a plain or compressed file.
 
-    Every piece has ``rows`` rows, but for the last, and the metadata of the whole file. Joined,
-    they are what :func:`~rotemina.sim.records.reading.read_record` returns; parameters and errors
-    are its own, an error coming when its piece does. ``limits.values`` does not bind.
+    Every piece except the last has ``rows`` rows. All have the metadata of the whole file. Joined,
+    the pieces equal the result of :func:`~rotemina.sim.records.read_record`. Parameters and
+    errors are the same, but an error is raised only when its piece is read, and ``limits.values``
+    is ignored.
     """
-    # A comment counts wherever it stands, so all are collected before the first row is given.
-    metadata = _metadata(path, limits)
-    blocks = parsed_blocks(path, Comments(), columns=columns, robot=robot, limits=limits)
-    held: list[FloatArray] = []
-    missing = rows
+    # A comment at the end of the file counts too, so all are collected before the first piece.
+    metadata = _read_metadata(path, limits)
+    blocks = parse_blocks(path, FileComments(), columns=columns, robot=robot, limits=limits)
+    parts: list[FloatArray] = []
+    missing_rows = rows
     for layout, _, part in blocks:
-        while len(part) >= missing:
-            yield assembled(layout, [*held, part[:missing]], metadata)
-            part, held, missing = part[missing:], [], rows
+        while len(part) >= missing_rows:
+            yield assemble_record(layout, [*parts, part[:missing_rows]], metadata)
+            part, parts, missing_rows = part[missing_rows:], [], rows
         if len(part):
-            held.append(part)
-            missing -= len(part)
-    if held:
-        yield assembled(layout, held, metadata)
+            parts.append(part)
+            missing_rows -= len(part)
+    if parts:
+        yield assemble_record(layout, parts, metadata)
 
 
-def _metadata(path: str | PathLike[str], limits: Limits) -> Mapping[str, str]:
-    comments = Comments()
+def _read_metadata(path: str | PathLike[str], limits: FileLimits) -> Mapping[str, str]:
+    comments = FileComments()
     with open_blocks(path, limits) as blocks:
-        for _ in collected(fspath(path), blocks, comments, limits.comment_bytes):
+        for _ in collect_comments(fspath(path), blocks, comments, limits.comment_bytes):
             pass
     return comments.metadata
 
 
 def join_records(pieces: Sequence[Record]) -> Record:
-    """Return pieces of the same columns, one behind the other, as one record.
+    """Join pieces with the same columns into one record.
 
     Raises
     ------
     RecordError
-        If time does not increase from one to the next.
+        If time does not increase from one piece to the next.
     """
     first = pieces[0]
     if len(pieces) == 1:

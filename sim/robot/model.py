@@ -1,17 +1,20 @@
-"""The description of a machine: its axes, their coupling and what its sensors declare.
+"""Description of a machine: its axes, their coupling and its declared sensors.
 
 Units are SI throughout (m, rad, kg, N, V, s). The numbers come from a robot file
-(:mod:`rotemina.sim.robot.file`); the equations that use them are in :mod:`rotemina.sim.plant`.
+(:mod:`rotemina.sim.robot_files`); the equations that use them are in :mod:`rotemina.sim.plant`.
 """
 
 from collections.abc import Mapping
 from dataclasses import field
 from math import pi
-from typing import Annotated, ClassVar, Literal, NamedTuple
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal, NamedTuple
 
+import numpy as np
 from pydantic import Field
 from pydantic.dataclasses import dataclass
 
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.compatibility import serve_former_names
 from rotemina.sim.robot.numbers import (
     FORBID_UNKNOWN,
     Count,
@@ -23,11 +26,12 @@ from rotemina.sim.robot.numbers import (
 )
 from rotemina.sim.robot.plate import Plate
 
-VOLTAGE_SLACK = 1e-6  # relative slack of voltage limits
+# Rounding may make a voltage exceed its limit by this ratio.
+VOLTAGE_SLACK_RATIO = 1e-6
 
 
-class Inertia(NamedTuple):
-    """The second-order figures of one axis: mass, damping, stiffness (SI, linear or angular)."""
+class AxisInertia(NamedTuple):
+    """Mass, damping and stiffness of one axis (SI, linear or angular)."""
 
     mass: float
     damping: float
@@ -35,8 +39,8 @@ class Inertia(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
-class Sensor:
-    """What an axis' own sensor declares: resolution and white noise, m or rad."""
+class AxisSensor:
+    """Declared resolution and white noise of an axis' own sensor, m or rad."""
 
     kind: str
     resolution: NotNegative = 0.0
@@ -44,7 +48,7 @@ class Sensor:
 
     @property
     def noise_floor(self) -> float:
-        """Declared noise floor ``sqrt(noise_rms² + resolution²/12)``, m or rad."""
+        """Noise floor ``sqrt(noise_rms² + resolution²/12)``, m or rad."""
         return float((self.noise_rms**2 + self.resolution**2 / 12.0) ** 0.5)
 
 
@@ -54,8 +58,9 @@ class CascadeController:
 
     ``u_k = clip(kv (kp (cmd_k - q_k) - v_k) + add_k, ±limit)``, held until the next sample.
 
-    Attributes: ``kp`` 1/s, ``kv`` V s/m or V s/rad, ``limit`` V, ``velocity`` how v is obtained
-    (``"backward"`` difference of the position, or the true ``"state"``), ``delay_s`` of u.
+    Attributes: ``kp`` 1/s, ``kv`` V s/m or V s/rad, ``limit`` V. ``velocity``: how v is obtained,
+    from the ``"backward"`` difference of the position or the true ``"state"``. ``delay_s``: delay
+    of u.
     """
 
     kind: Literal["cascade"]
@@ -81,10 +86,10 @@ class _Axis:
     max_acceleration: Positive | None = None
     repeatability: NotNegative = 0.0
     following_bound: Positive | None = None
-    sensor: Sensor | None = None
+    sensor: AxisSensor | None = None
 
-    #: Share of the range that ``following_bound`` is where a robot file does not give it.
-    _following_share: ClassVar[float] = 0.05
+    #: Default of ``following_bound``, as a share of the range.
+    _following_bound_ratio: ClassVar[float] = 0.05
 
     @property
     def span(self) -> float:
@@ -92,13 +97,13 @@ class _Axis:
         return self.range[1] - self.range[0]
 
     @property
-    def following(self) -> float:
-        """How far the reading may be from the command before motion locks, m or rad."""
-        return self.following_bound or self._following_share * self.span
+    def following_limit(self) -> float:
+        """Distance of the reading from the command at which motion locks, m or rad."""
+        return self.following_bound or self._following_bound_ratio * self.span
 
     @property
-    def inertia(self) -> Inertia | None:
-        """Mass, damping and stiffness (0 if free), or None for a static axis.
+    def inertia(self) -> AxisInertia | None:
+        """Mass, damping and stiffness (0 for a free axis), or None for a static axis.
 
         From a natural frequency f and damping ratio ζ, with the mass taken as 1:
         ``stiffness = (2πf)²``, ``damping = 2ζ(2πf)``.
@@ -106,18 +111,18 @@ class _Axis:
         if self.static:
             return None
         if self.natural_frequency_hz is not None and self.damping_ratio is not None:
-            rate = 2.0 * pi * self.natural_frequency_hz
-            return Inertia(1.0, 2.0 * self.damping_ratio * rate, rate**2)
+            omega = 2.0 * pi * self.natural_frequency_hz
+            return AxisInertia(1.0, 2.0 * self.damping_ratio * omega, omega**2)
         if self.mass is None or self.damping is None:
             raise ValueError("an axis with dynamics needs mass and damping")
-        return Inertia(self.mass, self.damping, self.stiffness or 0.0)
+        return AxisInertia(self.mass, self.damping, self.stiffness or 0.0)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
 class StepperAxis(_Axis):
-    """A stepper with ball screw: its input is the commanded table position (m or rad)."""
+    """Stepper with ball screw: its input is the commanded table position (m or rad)."""
 
-    #: It goes where it is told, by no voltage and under no controller.
+    #: A stepper follows its command, without a voltage or a controller.
     gain: ClassVar[float] = 1.0
     voltage_range: ClassVar[None] = None
     controller: ClassVar[None] = None
@@ -130,9 +135,10 @@ class StepperAxis(_Axis):
 
 @dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
 class PiezoAxis(_Axis):
-    """A piezo driven open loop with ``u = cmd / gain``; ``gain`` in m/V or rad/V."""
+    """Piezo driven open loop with ``u = cmd / gain``; ``gain`` in m/V or rad/V."""
 
-    _following_share: ClassVar[float] = 0.35  # hysteresis, creep and a load take their part
+    # Hysteresis, creep and a load shift a piezo further from its command than other axes.
+    _following_bound_ratio: ClassVar[float] = 0.35
 
     kind: Literal["piezo"]
     gain: Number
@@ -142,7 +148,7 @@ class PiezoAxis(_Axis):
 
 @dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
 class ForceAxis(_Axis):
-    """A force on a mass: ``M q̈ + D q̇ + C q = gain·u - force_offset``; ``gain`` in N/V."""
+    """Force on a mass: ``M q̈ + D q̇ + C q = gain·u - force_offset``; ``gain`` in N/V."""
 
     kind: Literal["force"]
     gain: Number
@@ -155,8 +161,8 @@ Axis = StepperAxis | PiezoAxis | ForceAxis
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
-class Coupling:
-    """An off-diagonal, symmetric entry of M, D or C between two axes (SI)."""
+class AxisCoupling:
+    """Off-diagonal, symmetric entry of M, D or C between two axes (SI)."""
 
     matrix: Literal["M", "D", "C"]
     axes: tuple[str, str]
@@ -165,9 +171,9 @@ class Coupling:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AxisEffect:
-    """An effect that sits on an axis, as a robot file names it (:mod:`rotemina.sim.effects`).
+    """Effect on an axis, as specified in a robot file (:mod:`rotemina.sim.effects`).
 
-    ``parameters`` are SI; those left out have their preset. ``formulation`` None is the usual one.
+    ``parameters`` are SI; omitted ones have their presets. ``formulation`` None is the default one.
     """
 
     axis: str
@@ -186,27 +192,27 @@ class ReferenceNoise:
     angular: NotNegative | None = None
 
     def of(self, unit: str | None) -> float | None:
-        """Return the rms on an axis whose unit is ``rad``, or ``m``; None where undeclared."""
+        """Return the rms on an axis whose unit is ``rad``, or else ``m``; None if undeclared."""
         return self.angular if unit == "rad" else self.linear
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
-class Reference:
-    """What the independent reference (laser, microscope) declares."""
+class ReferenceSensor:
+    """Declared noise of the independent reference (laser, microscope)."""
 
     noise_rms: ReferenceNoise = field(default_factory=ReferenceNoise)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
-class Tool:
-    """The pin or pipette: its approach angle to the dish, rad."""
+class RobotTool:
+    """Pin or pipette: its approach angle to the dish, rad."""
 
     approach_angle: Number | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
-class Microscope:
-    """The microscope and its camera; lengths in m."""
+class RobotMicroscope:
+    """Microscope and its camera; lengths in m."""
 
     optical_axis: tuple[Number, Number, Number] | None = None
     pixel_size: Positive | None = None
@@ -217,7 +223,7 @@ class Microscope:
 
 @dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
 class KeepOut:
-    """Where the tip must not go, m: :class:`rotemina.sim.kinematics.keep_out.KeepOutZone`."""
+    """Region that the tip must not enter, m; see :mod:`rotemina.sim.kinematics.keep_out`."""
 
     floor: Number | None = None
     radius: Positive | None = None
@@ -226,26 +232,61 @@ class KeepOut:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Robot:
-    """A machine: named axes in the order of ``q``, their coupling and their surroundings.
+    """Machine: named axes in the order of ``q``, their coupling and their surroundings.
 
-    ``stages`` names groups of axes for the operator; ``pin_length`` and ``piezo_lever_arm`` in m;
-    ``plate`` holds the pin (every machine has one, the shipped one unless the file says otherwise);
-    ``effects`` are what makes it imperfect, in the order in which a signal meets them.
+    ``stages`` are the groups of axes that the operator sees. ``pin_length`` and
+    ``piezo_lever_arm`` are in m. ``plate`` holds the pin; every machine has one, by default the
+    shipped one. ``effects`` make the machine imperfect, in the order in which a signal passes them.
     """
 
     name: str
     axes: Mapping[str, Axis]
     stages: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
-    couplings: tuple[Coupling, ...] = ()
+    couplings: tuple[AxisCoupling, ...] = ()
     pin_length: float | None = None
     piezo_lever_arm: float | None = None
-    reference: Reference = field(default_factory=Reference)
-    tool: Tool = field(default_factory=Tool)
-    microscope: Microscope = field(default_factory=Microscope)
+    reference: ReferenceSensor = field(default_factory=ReferenceSensor)
+    tool: RobotTool = field(default_factory=RobotTool)
+    microscope: RobotMicroscope = field(default_factory=RobotMicroscope)
     keep_out: KeepOut = field(default_factory=KeepOut)
     plate: Plate = field(default_factory=Plate)
     effects: tuple[AxisEffect, ...] = ()
 
     def unit(self, axis: str) -> str | None:
-        """Return ``"m"`` or ``"rad"``, or None where the robot file leaves it to the record."""
+        """Return ``"m"`` or ``"rad"``, or None if the robot file leaves the unit to the record."""
         return self.axes[axis].unit
+
+
+class InertiaMatrices(NamedTuple):
+    """Matrices ``M``, ``D``, ``C`` (m, m) of the m axes with dynamics, in the order of ``axes``."""
+
+    axes: tuple[str, ...]
+    mass: FloatArray
+    damping: FloatArray
+    stiffness: FloatArray
+
+
+def assemble_inertia_matrices(robot: Robot) -> InertiaMatrices:
+    """Assemble M, D, C (SI) over the axes that are not static, in the robot's order."""
+    inertias = {name: axis.inertia for name, axis in robot.axes.items()}
+    dynamic_axes = tuple(name for name, inertia in inertias.items() if inertia is not None)
+    diagonals = np.array([inertias[name] for name in dynamic_axes], dtype=np.float64).reshape(-1, 3)
+    matrices = {letter: np.diag(diagonals[:, k]) for k, letter in enumerate("MDC")}
+    for coupling in robot.couplings:
+        first, second = (dynamic_axes.index(name) for name in coupling.axes)
+        matrices[coupling.matrix][first, second] = coupling.value
+        matrices[coupling.matrix][second, first] = coupling.value
+    return InertiaMatrices(dynamic_axes, matrices["M"], matrices["D"], matrices["C"])
+
+
+if not TYPE_CHECKING:
+    __getattr__ = serve_former_names(
+        __name__,
+        Coupling="AxisCoupling",
+        Inertia="AxisInertia",
+        Microscope="RobotMicroscope",
+        Reference="ReferenceSensor",
+        Sensor="AxisSensor",
+        Tool="RobotTool",
+        VOLTAGE_SLACK="VOLTAGE_SLACK_RATIO",
+    )

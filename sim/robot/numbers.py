@@ -1,7 +1,7 @@
-"""Numbers of a robot file: what pydantic accepts as one.
+"""Number types of a robot file, as pydantic accepts them.
 
-Numbers are strict (no text, no booleans, no NaN); tables and lists may come as dict and list,
-the only containers that TOML has.
+Numbers are strict (no text, no booleans, no NaN). Tables and lists may come as dict and list, the
+only containers that TOML has.
 """
 
 from typing import Annotated
@@ -15,6 +15,6 @@ Positive = Annotated[float, Field(strict=True, allow_inf_nan=False, gt=0)]
 NotNegative = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0)]
 Count = Annotated[int, Field(strict=True, ge=1)]
 Switch = Annotated[bool, Field(strict=True)]
-# Far beyond any machine, and far from where squares of numbers overflow.
+# Far beyond any machine, but small enough that squares do not overflow.
 Bound = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=-1e6, le=1e6)]
 Range = tuple[Bound, Bound]

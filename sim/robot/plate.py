@@ -1,8 +1,8 @@
 """The plate that holds the pin, as a robot file describes it: ``[plate]`` and its inner tables.
 
-Lengths m, angles rad, stress and moduli Pa, masses kg. The defaults are the shipped plate. Moduli
-are the source paper's; the rest is a design choice that meets the nominal robot's stiffness and
-mass (``docs/plate.md``).
+Lengths are in m, angles in rad, stress and moduli in Pa, masses in kg. The defaults are the shipped
+plate. The moduli come from the source paper; the rest is a design choice that gives the stiffness
+and mass of the nominal robot (``docs/plate.md``).
 """
 
 from dataclasses import field
@@ -13,18 +13,19 @@ from pydantic.dataclasses import dataclass
 
 from rotemina.sim.robot.numbers import FORBID_UNKNOWN, NotNegative, Number, Positive
 
-# Below 0 for no metal, and a plate stays stable up to 0.5.
+# No metal has a negative ratio, and a plate is stable up to 0.5.
 PoissonsRatio = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0, le=0.5)]
 Repeats = Annotated[int, Field(strict=True, ge=1, le=60)]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
-class Cutout:
-    """A ring of equal cut-outs, evenly spread over the turn.
+class PlateCutout:
+    """Ring of equal cut-outs, evenly spaced over the circumference.
 
     ``"slot"``: from ``inner_radius`` to ``outer_radius``, ``width`` (rad, seen from the centre)
-    wide, turned by ``twist`` (rad) on its way outwards: 0 is a straight slot, else a spiral one.
-    ``"hole"``: ``radius`` around centres on ``circle_radius``. The first one is at ``start``.
+    wide, turned by ``twist`` (rad) from the inner to the outer end: 0 gives straight slots, other
+    values spiral slots. ``"hole"``: ``radius`` around centres on ``circle_radius``. The first
+    cut-out is at the angle ``start``.
     """
 
     kind: Literal["slot", "hole"]
@@ -39,8 +40,8 @@ class Cutout:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
-class Hub:
-    """What sits rigidly on the plate's hub besides the pin: holder and share of the actuators.
+class PlateHub:
+    """Rigid parts on the plate's hub other than the pin: the holder and part of the actuators.
 
     ``mass``; ``inertia`` about any diameter of the hub, ``product`` of inertia, kg m².
     """
@@ -51,10 +52,10 @@ class Hub:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
-class Pin:
-    """The pin, a round rod from the plate's middle down to the tip.
+class PlatePin:
+    """Pin: a round rod from the plate's middle down to the tip.
 
-    Without ``length`` it is as long as the robot's ``pin_length``.
+    By default, the pin is as long as the robot's ``pin_length``.
     """
 
     length: Positive | None = None
@@ -66,12 +67,12 @@ class Pin:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
-class Joint:
-    """The pin's seat in the hub, held by Coulomb friction.
+class PinJoint:
+    """Seat of the pin in the hub, held by Coulomb friction.
 
-    ``clamp_force`` N, the sum of the normal forces; ``arm`` m, from the seat's middle to where
-    they act: friction carries ``friction · clamp_force`` along the pin, and that times ``arm`` as
-    a moment.
+    ``clamp_force`` N: sum of the normal forces. ``arm`` m: distance from the seat's middle to where
+    they act. Friction carries ``friction · clamp_force`` along the pin, and this force times
+    ``arm`` as a moment.
     """
 
     friction: Positive = 0.15
@@ -81,7 +82,7 @@ class Joint:
 
 @dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
 class Plate:
-    """A thin round plate, clamped at its rim, with a stiff hub in its middle."""
+    """Thin round plate, clamped at its rim, with a stiff hub in its middle."""
 
     rim_radius: Positive = 0.01725
     hub_radius: Positive = 0.005175
@@ -90,13 +91,13 @@ class Plate:
     poissons_ratio: PoissonsRatio = 0.260
     density: Positive = 7850.0
     yield_stress: Positive = 1.0e9
-    cutout: tuple[Cutout, ...] = ()
-    hub: Hub = field(default_factory=Hub)
-    pin: Pin = field(default_factory=Pin)
-    joint: Joint = field(default_factory=Joint)
+    cutout: tuple[PlateCutout, ...] = ()
+    hub: PlateHub = field(default_factory=PlateHub)
+    pin: PlatePin = field(default_factory=PlatePin)
+    joint: PinJoint = field(default_factory=PinJoint)
 
     @property
     def flexural_rigidity(self) -> float:
-        """``E h³ / (12 (1 - ν²))``, N m."""
+        """Flexural rigidity ``E h³ / (12 (1 - ν²))``, N m."""
         ratio = 1.0 - self.poissons_ratio**2
         return self.youngs_modulus * self.thickness**3 / (12.0 * ratio)

@@ -1,4 +1,4 @@
-"""A move as a few cubics, which is what a board runs by itself."""
+"""Approximation of a move by a few cubics, which a board can run by itself."""
 
 from dataclasses import dataclass
 
@@ -6,112 +6,119 @@ import numpy as np
 import scipy
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.messages import message
-from rotemina.sim.quantities import rounded
-from rotemina.sim.shaping.errors import ShapingError
-from rotemina.sim.shaping.move_shape import Shape, joined_breaks, summed
+from rotemina.sim.errors import ShapingError
+from rotemina.sim.messages import format_rounded
+from rotemina.sim.shaping.move_shape import MoveShape, merge_breaks, sum_coefficients
 
-_CANDIDATES = 65  # places at which one cubic may end and the next begin
-_LOOKS = np.linspace(0.0, 1.0, 27)[1:-1]  # places of a cubic at which the choice looks
+# Number of instants at which one cubic may end and the next begin.
+_CANDIDATE_COUNT = 65
+# Points of a cubic, as shares of its duration, at which its error is sampled to choose the breaks.
+_SAMPLE_POINTS = np.linspace(0.0, 1.0, 27)[1:-1]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CubicFit:
-    """Cubics with neither jumps of position nor of speed, and how far they are from the move.
+    """Cubics that approximate a move, with continuous position and speed.
 
-    ``error`` is the greatest distance, m or rad, exact: found at the turns of the difference.
+    ``error`` is the largest distance from the move, m or rad. It is exact, because it is evaluated
+    at the extremes of the difference.
     """
 
-    shape: Shape
+    shape: MoveShape
     error: float
 
 
-def as_cubics(shape: Shape, most_pieces: int, most_error: float) -> CubicFit:
-    """Return a move in at most so many cubics: itself, where it is such a move already.
+def fit_cubics(shape: MoveShape, max_pieces: int, max_error: float) -> CubicFit:
+    """Approximate a move by at most ``max_pieces`` cubics.
 
-    Otherwise each cubic has the move's position and speed at its two ends, which are chosen among
-    65 places so that the greatest error is least (dynamic programming).
+    A move that already consists of at most that many cubics is returned unchanged. Otherwise each
+    cubic has the position and speed of the move at its two ends. The ends are chosen among 65
+    instants so that the largest error is minimal (dynamic programming).
 
     Raises
     ------
     ShapingError
-        If the error is greater than ``most_error``.
+        If the error is greater than ``max_error``.
     """
     degree, pieces = shape.coefficients.shape[0] - 1, shape.coefficients.shape[1]
-    if degree <= 3 and pieces <= most_pieces:
+    if degree <= 3 and pieces <= max_pieces:
         return CubicFit(shape, 0.0)
-    places = _candidates(shape)
-    fit = _hermite(shape, places[_chosen(_errors(shape, places), most_pieces)])
-    error = _distance(shape, fit)
-    if error > most_error:
+    instants = _make_candidates(shape)
+    fit = _interpolate_hermite(
+        shape, instants[_choose_breaks(_compute_segment_errors(shape, instants), max_pieces)]
+    )
+    error = _compute_max_distance(shape, fit)
+    if error > max_error:
         raise ShapingError(
-            message(
-                "engine",
-                "profile: {most_pieces} cubics leave an error of {error}, more than "
-                "{most_error} (SI units); choose a smoother profile, or input shaping of a "
-                "lower order",
-            ).fill(
-                most_pieces=most_pieces, error=rounded(error, 3), most_error=rounded(most_error, 3)
-            )
+            "profile: {most_pieces} cubics leave an error of {error}, more than "
+            "{most_error} (SI units); choose a smoother profile, or input shaping of a "
+            "lower order",
+            most_pieces=max_pieces,
+            error=format_rounded(error, 3),
+            most_error=format_rounded(max_error, 3),
         )
     return CubicFit(fit, error)
 
 
-def _candidates(shape: Shape) -> FloatArray:
-    """Return instants, rising: breaks of the shape, and some between them."""
+def _make_candidates(shape: MoveShape) -> FloatArray:
     breaks = shape.breaks_s
-    if len(breaks) > _CANDIDATES:
-        breaks = breaks[np.unique(np.linspace(0, len(breaks) - 1, _CANDIDATES).astype(int))]
-    between = np.linspace(0.0, shape.duration_s, max(_CANDIDATES - len(breaks), 2))
-    return joined_breaks(breaks, between)
+    if len(breaks) > _CANDIDATE_COUNT:
+        breaks = breaks[np.unique(np.linspace(0, len(breaks) - 1, _CANDIDATE_COUNT).astype(int))]
+    between = np.linspace(0.0, shape.duration_s, max(_CANDIDATE_COUNT - len(breaks), 2))
+    return merge_breaks(breaks, between)
 
 
-def _errors(shape: Shape, places: FloatArray) -> FloatArray:
-    """Return the error (n, n) of one cubic from a place to a later one; infinite elsewhere."""
+def _compute_segment_errors(shape: MoveShape, instants: FloatArray) -> FloatArray:
+    """Return the errors (n, n) of one cubic from one instant to a later one.
+
+    They are infinite where the second instant is not later.
+    """
     position, speed = shape.polynomial, shape.polynomial.derivative()
-    x, v = np.asarray(position(places)), np.asarray(speed(places))
-    low, high = np.triu_indices(len(places), 1)
-    span = (places[high] - places[low])[:, None]
-    s = _LOOKS[None, :]
+    positions, speeds = np.asarray(position(instants)), np.asarray(speed(instants))
+    begins, ends = np.triu_indices(len(instants), 1)
+    durations_s = (instants[ends] - instants[begins])[:, None]
+    s = _SAMPLE_POINTS[None, :]
     cubic = (
-        x[low, None] * (1 + 2 * s) * (1 - s) ** 2
-        + span * v[low, None] * s * (1 - s) ** 2
-        + x[high, None] * s**2 * (3 - 2 * s)
-        + span * v[high, None] * s**2 * (s - 1)
+        positions[begins, None] * (1 + 2 * s) * (1 - s) ** 2
+        + durations_s * speeds[begins, None] * s * (1 - s) ** 2
+        + positions[ends, None] * s**2 * (3 - 2 * s)
+        + durations_s * speeds[ends, None] * s**2 * (s - 1)
     )
-    error = np.full((len(places), len(places)), np.inf)
-    error[low, high] = np.abs(cubic - position(places[low, None] + s * span)).max(axis=1)
-    return error
+    errors = np.full((len(instants), len(instants)), np.inf)
+    errors[begins, ends] = np.abs(cubic - position(instants[begins, None] + s * durations_s)).max(
+        axis=1
+    )
+    return errors
 
 
-def _chosen(error: FloatArray, most_pieces: int) -> list[int]:
-    """Return the places (numbers, rising) between which the greatest error is least."""
-    cost = error[0]
-    before: list[FloatArray] = []
-    for _ in range(most_pieces - 1):
-        through = np.maximum(cost[:, None], error)
-        through[0] = error[0]  # or fewer pieces
-        before.append(np.argmin(through, axis=0))
-        cost = through.min(axis=0)
-    at, chosen = len(error) - 1, [len(error) - 1]
-    for last in reversed(before):
-        at = int(last[at])
-        if at == 0:
+def _choose_breaks(errors: FloatArray, max_pieces: int) -> list[int]:
+    """Return the indices of the instants that make the largest of the segment errors minimal."""
+    cost = errors[0]
+    predecessors: list[FloatArray] = []
+    for _ in range(max_pieces - 1):
+        costs = np.maximum(cost[:, None], errors)
+        # The first row keeps the solution with fewer pieces.
+        costs[0] = errors[0]
+        predecessors.append(np.argmin(costs, axis=0))
+        cost = costs.min(axis=0)
+    index, chosen_indices = len(errors) - 1, [len(errors) - 1]
+    for predecessor in reversed(predecessors):
+        index = int(predecessor[index])
+        if index == 0:
             break
-        chosen.append(at)
-    return [0, *reversed(chosen)]
+        chosen_indices.append(index)
+    return [0, *reversed(chosen_indices)]
 
 
-def _hermite(shape: Shape, places: FloatArray) -> Shape:
-    """Return the cubics through a move's positions and speeds at some instants."""
+def _interpolate_hermite(shape: MoveShape, instants: FloatArray) -> MoveShape:
     polynomial = shape.polynomial
     spline = scipy.interpolate.CubicHermiteSpline(
-        places, polynomial(places), polynomial.derivative()(places)
+        instants, polynomial(instants), polynomial.derivative()(instants)
     )
-    return Shape(spline.x, spline.c)
+    return MoveShape(spline.x, spline.c)
 
 
-def _distance(one: Shape, other: Shape) -> float:
-    breaks = joined_breaks(one.breaks_s, other.breaks_s)
-    difference = summed(breaks, one.refined(breaks), -other.refined(breaks))
-    return difference.greatest(0)
+def _compute_max_distance(first: MoveShape, second: MoveShape) -> float:
+    breaks = merge_breaks(first.breaks_s, second.breaks_s)
+    difference = sum_coefficients(breaks, first.split_at(breaks), -second.split_at(breaks))
+    return difference.max_magnitude(0)

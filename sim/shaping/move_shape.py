@@ -1,4 +1,4 @@
-"""The shape of a move: a position over time, as polynomials one after the other."""
+"""The shape of a move: position over time as a piecewise polynomial."""
 
 from dataclasses import dataclass
 from math import factorial
@@ -7,28 +7,30 @@ from typing import Self
 import numpy as np
 import scipy
 
-from rotemina.sim.arrays import FloatArray, read_only
-from rotemina.sim.messages import message
-from rotemina.sim.shaping.errors import ShapingError
+from rotemina.sim.arrays import FloatArray, make_read_only
+from rotemina.sim.errors import ShapingError
 
-_SAME = 1e-9  # of the duration: instants that are this near are one
+# Instants closer than this share of the duration are merged.
+_MIN_INTERVAL_RATIO = 1e-9
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Shape:
-    """Pieces ``x(t) = Σ c[d] (t − t₀)^(D−d)``; before them the axis is at 0, behind them at rest.
+class MoveShape:
+    """A move as pieces ``x(t) = Σ c[d] (t − t₀)^(D−d)``.
+
+    Before the first piece the axis is at 0, and after the last one it is at rest.
 
     Attributes
     ----------
     breaks_s : (n + 1,)
-        Where the pieces begin and end, s, increasing from 0.
+        Times at which the pieces begin and end, s, rising from 0.
     coefficients : (D + 1, n)
-        Of each piece, highest power first; m or rad.
+        Coefficients of each piece, highest power first; m or rad.
 
     Raises
     ------
     ShapingError
-        If they are no such thing.
+        If shapes do not match, a number is not finite, or the times do not rise from 0.
     """
 
     breaks_s: FloatArray
@@ -37,38 +39,38 @@ class Shape:
     def __post_init__(self) -> None:
         for name in ("breaks_s", "coefficients"):
             array = np.ascontiguousarray(getattr(self, name), dtype=np.float64)
-            object.__setattr__(self, name, read_only(array))
+            object.__setattr__(self, name, make_read_only(array))
         times, values = self.breaks_s, self.coefficients
         if values.ndim != 2 or times.shape != (values.shape[1] + 1,) or len(times) < 2:
             raise ShapingError(
-                message("engine", "shape: {shape} times for coefficients {values_shape}").fill(
-                    shape=str(times.shape), values_shape=str(values.shape)
-                )
+                "shape: {shape} times for coefficients {values_shape}",
+                shape=str(times.shape),
+                values_shape=str(values.shape),
             )
         if not (np.isfinite(times).all() and np.isfinite(values).all()):
-            raise ShapingError(message("engine", "shape: times and coefficients must be finite"))
+            raise ShapingError("shape: times and coefficients must be finite")
         if times[0] != 0.0 or (np.diff(times) <= 0.0).any():
-            raise ShapingError(message("engine", "shape: times must rise from 0 s"))
+            raise ShapingError("shape: times must rise from 0 s")
 
     @classmethod
-    def of(cls, polynomial: "scipy.interpolate.PPoly") -> Self:
+    def from_polynomial(cls, polynomial: "scipy.interpolate.PPoly") -> Self:
         """Return the shape of a polynomial that begins at 0 s."""
         return cls(polynomial.x, polynomial.c)
 
     @property
     def polynomial(self) -> "scipy.interpolate.PPoly":
-        """The pieces alone, without what is before and behind them."""
+        """The pieces alone, without the rest before and after them."""
         return scipy.interpolate.PPoly(self.coefficients, self.breaks_s)
 
     @property
     def duration_s(self) -> float:
-        """How long the move takes."""
+        """Duration of the move."""
         return float(self.breaks_s[-1])
 
     @property
     def length(self) -> float:
-        """How far it goes, m or rad; with its sign."""
-        return float(self._ends(0)[1, -1])
+        """Signed length of the move, m or rad."""
+        return float(self._end_values(0)[1, -1])
 
     @property
     def average_speed(self) -> float:
@@ -78,87 +80,102 @@ class Shape:
     def position(self, time_s: FloatArray) -> FloatArray:
         """Return positions at times (…,), m or rad."""
         time_s = np.asarray(time_s, dtype=np.float64)
-        inside = self.polynomial(np.clip(time_s, 0.0, self.duration_s))
-        inside = np.where(time_s >= self.duration_s, self.length, inside)
-        return np.asarray(np.where(time_s <= 0.0, 0.0, inside), dtype=np.float64)
+        positions = self.polynomial(np.clip(time_s, 0.0, self.duration_s))
+        positions = np.where(time_s >= self.duration_s, self.length, positions)
+        return np.asarray(np.where(time_s <= 0.0, 0.0, positions), dtype=np.float64)
 
     def extremes(self, order: int = 0) -> tuple[float, float]:
-        """Return least and greatest value of a derivative: 0 position, 1 speed, 2 acceleration.
+        """Return minimum and maximum of a derivative: 0 position, 1 speed, 2 acceleration.
 
-        They are exact: found at the ends of pieces and the roots of the next derivative.
+        They are exact, because the ends of the pieces and the roots of the next derivative are
+        evaluated.
         """
-        slope = self.polynomial.derivative(order + 1)
-        turns = slope.roots(discontinuity=False, extrapolate=False)
-        turns = turns[np.isfinite(turns)]
-        inside = self.polynomial.derivative(order)(turns) if order else self.polynomial(turns)
-        values = np.concatenate([self._ends(order).ravel(), np.ravel(inside)])
+        next_derivative = self.polynomial.derivative(order + 1)
+        stationary_s = next_derivative.roots(discontinuity=False, extrapolate=False)
+        stationary_s = stationary_s[np.isfinite(stationary_s)]
+        stationary_values = (
+            self.polynomial.derivative(order)(stationary_s)
+            if order
+            else self.polynomial(stationary_s)
+        )
+        values = np.concatenate([self._end_values(order).ravel(), np.ravel(stationary_values)])
         return float(values.min()), float(values.max())
 
-    def greatest(self, order: int) -> float:
-        """Return the greatest amount of a derivative: 1 speed, 2 acceleration, 3 jerk."""
+    def max_magnitude(self, order: int) -> float:
+        """Return the largest magnitude of a derivative: 1 speed, 2 acceleration, 3 jerk."""
         return max(map(abs, self.extremes(order)))
 
-    def jump(self, order: int) -> float:
-        """Return the greatest jump of a derivative, at the two ends too, where it comes from 0."""
-        begins, ends = self._ends(order)
+    def max_jump(self, order: int) -> float:
+        """Return the largest jump of a derivative.
+
+        The two ends of the move count too; outside it derivatives are 0.
+        """
+        begins, ends = self._end_values(order)
         inner = begins[1:] - ends[:-1]
         outer = [begins[0], 0.0 if order == 0 else ends[-1]]
         return float(np.abs(np.concatenate([inner, outer])).max())
 
-    def scaled(self, factor: float) -> Self:
-        """Return the move ``factor`` times as far, in the same time."""
+    def scale(self, factor: float) -> Self:
+        """Return the move with ``factor`` times the length and the same duration."""
         return type(self)(self.breaks_s, factor * self.coefficients)
 
-    def refined(self, breaks_s: FloatArray) -> FloatArray:
+    def split_at(self, breaks_s: FloatArray) -> FloatArray:
         """Return coefficients (D + 1, m) of the pieces between other times (m + 1,).
 
-        No break of the shape may lie within one of them. They may be before or behind the shape.
+        No break of the shape may lie inside one of these pieces. They may lie before or after the
+        shape.
         """
         begin, end = breaks_s[:-1], breaks_s[1:]
         middle = 0.5 * (begin + end)
         degree = self.coefficients.shape[0] - 1
-        piece = np.clip(np.searchsorted(self.breaks_s, middle, "right") - 1, 0, self._pieces - 1)
-        since = begin - self.breaks_s[piece]
-        found = np.zeros((degree + 1, len(begin)))
-        derived = self.coefficients[:, piece]
+        piece_indices = np.clip(
+            np.searchsorted(self.breaks_s, middle, "right") - 1, 0, self._piece_count - 1
+        )
+        elapsed_s = begin - self.breaks_s[piece_indices]
+        coefficients = np.zeros((degree + 1, len(begin)))
+        derivative = self.coefficients[:, piece_indices]
         for order in range(degree + 1):
-            found[degree - order] = _horner(derived, since) / factorial(order)
-            powers = np.arange(len(derived) - 1, 0, -1)[:, None]
-            derived = derived[:-1] * powers if len(derived) > 1 else np.zeros((1, len(begin)))
-        found[:, (middle < 0.0) | (middle > self.duration_s)] = 0.0
-        found[-1, middle > self.duration_s] = self.length
-        return found
+            coefficients[degree - order] = _evaluate_polynomials(derivative, elapsed_s) / factorial(
+                order
+            )
+            powers = np.arange(len(derivative) - 1, 0, -1)[:, None]
+            derivative = (
+                derivative[:-1] * powers if len(derivative) > 1 else np.zeros((1, len(begin)))
+            )
+        coefficients[:, (middle < 0.0) | (middle > self.duration_s)] = 0.0
+        coefficients[-1, middle > self.duration_s] = self.length
+        return coefficients
 
     @property
-    def _pieces(self) -> int:
+    def _piece_count(self) -> int:
         return len(self.breaks_s) - 1
 
-    def _ends(self, order: int) -> FloatArray:
-        """Return a derivative (2, n) at the beginning and the end of each piece, from within."""
-        derived = self.polynomial.derivative(order).c if order else self.coefficients
+    def _end_values(self, order: int) -> FloatArray:
+        """Return a derivative (2, n) at the beginning and at the end of each piece."""
+        derivative = self.polynomial.derivative(order).c if order else self.coefficients
         spans = np.diff(self.breaks_s)
-        return np.array([derived[-1], _horner(derived, spans)])
+        return np.array([derivative[-1], _evaluate_polynomials(derivative, spans)])
 
 
-def joined_breaks(*several: FloatArray) -> FloatArray:
-    """Return all times of several arrays, rising; those that rounding alone parts are one."""
-    times = np.unique(np.concatenate(several))
-    apart = np.diff(times) > _SAME * (times[-1] - times[0])
-    return np.asarray(times[np.concatenate([[True], apart])])
+def merge_breaks(*arrays: FloatArray) -> FloatArray:
+    """Return the times of several arrays in rising order, with equal ones merged."""
+    times = np.unique(np.concatenate(arrays))
+    is_distinct = np.diff(times) > _MIN_INTERVAL_RATIO * (times[-1] - times[0])
+    return np.asarray(times[np.concatenate([[True], is_distinct])])
 
 
-def summed(breaks_s: FloatArray, *parts: FloatArray) -> Shape:
-    """Return the sum of coefficients (Dᵢ + 1, n) on the same pieces."""
+def sum_coefficients(breaks_s: FloatArray, *parts: FloatArray) -> MoveShape:
+    """Return the sum of moves with coefficients (Dᵢ + 1, n) on the same pieces."""
     rows = max(len(part) for part in parts)
     total = np.zeros((rows, len(breaks_s) - 1))
     for part in parts:
         total[rows - len(part) :] += part
-    return Shape(breaks_s, total)
+    return MoveShape(breaks_s, total)
 
 
-def _horner(coefficients: FloatArray, at: FloatArray) -> FloatArray:
-    """Return the values (n,) of polynomials (D + 1, n), each at its own place (n,)."""
-    value = np.zeros_like(at)
+def _evaluate_polynomials(coefficients: FloatArray, points: FloatArray) -> FloatArray:
+    """Return the values (n,) of polynomials (D + 1, n), each at its own point (n,)."""
+    value = np.zeros_like(points)
     for row in coefficients:
-        value = value * at + row
+        value = value * points + row
     return np.asarray(value)

@@ -1,159 +1,220 @@
-"""Checks of a whole run with an effect: finite, repeatable, the same in pieces, at rest first."""
+"""Checks of a run with an effect: finite, repeatable, equal in pieces, and from rest."""
 
 from collections.abc import Callable, Iterator
 from itertools import pairwise
 
 import numpy as np
 
-from rotemina.sim.effects.formulation import Trait, Values
-from rotemina.sim.plant.errors import PlantError
-from rotemina.sim.records.record import RecordError
-from rotemina.sim.simulation.check_bench import SEED, Bench, moves, waves
-from rotemina.sim.simulation.check_result import Check, exceeds, left_out, measured, stated
-from rotemina.sim.simulation.simulation import Simulation
+from rotemina.sim.effects import EffectTrait, Values
+from rotemina.sim.errors import PlantError, RecordError
+from rotemina.sim.simulation.check_bench import SEED, EffectBench, make_moves, make_waves
+from rotemina.sim.simulation.check_result import (
+    CheckResult,
+    check_above,
+    check_at_most,
+    check_no_faults,
+    skip_check,
+)
+from rotemina.sim.simulation.simulation import SimulatedMachine
 
-ROWS = 600
-_EDGES = (0, 1, 2, 3, 7, 8, 60, 333, ROWS)  # between the pieces of a run
-_ROUNDING = 1e-9  # of the range
-_ABSENT = 1e-10  # of the range: finer steps round otherwise
-_SHARES = (1e-3, 1e-6)  # of the presets,
-_LESS = 0.1  # and how much of what the first adds the second may
-_QUIET = 1e-6  # of the range: how far a start at rest may creep
-_FREE = 1e-3  # the same of an axis that nothing holds
-_HINT = 1e-4  # share of the effect below which a leftover is no mere change of the model
-_TRIES = 3
+ROW_COUNT = 600
+# Rows at which the pieces of a run begin and end.
+_PIECE_EDGES = (0, 1, 2, 3, 7, 8, 60, 333, ROW_COUNT)
+# Differences below these fractions of the range are attributed to rounding. An effect may need
+# inner steps, which round differently even if it is absent.
+_ROUNDING_RANGE_RATIO = 1e-9
+_ABSENT_RANGE_RATIO = 1e-10
+# The effect is simulated with these two fractions of its presets. The ratio below bounds the
+# contribution at the smaller fraction, relative to that at the larger one.
+_ONSET_PRESET_RATIOS = (1e-3, 1e-6)
+_MAX_ONSET_RATIO = 0.1
+# Permitted creep of an axis at rest, relative to its range.
+_MAX_REST_RANGE_RATIO = 1e-6
+# Permitted jump of a free axis at the start, relative to its range.
+_MAX_FREE_JUMP_RANGE_RATIO = 1e-3
+# If the contribution at zero is larger, relative to that at the presets, zero does not remove the
+# effect.
+_MAX_ABSENT_EFFECT_RATIO = 1e-4
+_TIMING_COUNT = 3
 _TIMED_S = 10.0
 _TIMED_RATE_HZ = 2000.0
-_LONGEST_S = 0.25
+_MAX_RUN_TIME_S = 0.25
 
 
-def check_response(bench: Bench) -> Iterator[Check]:
+def check_response(bench: EffectBench) -> Iterator[CheckResult]:
     """Check runs with an effect at its presets, and at its bounds."""
-    yield from _at_presets_and_bounds(bench)
-    yield from _nothing(bench)
-    yield from _seeds(bench)
-    yield _pieces(bench)
-    yield _rest(bench)
+    yield from _check_presets_and_bounds(bench)
+    yield from _check_zero(bench)
+    yield from _check_seeds(bench)
+    yield _check_pieces(bench)
+    yield _check_rest(bench)
 
 
-def check_speed(bench: Bench, clock: Callable[[], float]) -> Check:
-    """Check that ten seconds at 2 kHz take no longer than a fit can afford; the best of three."""
+def check_speed(bench: EffectBench, clock: Callable[[], float]) -> CheckResult:
+    """Check that 10 s at 2 kHz, best of three runs, are simulated fast enough for a fit."""
     rows = int(_TIMED_S * _TIMED_RATE_HZ)
     slower = bench.rate_hz / _TIMED_RATE_HZ
-    commands = bench.record(waves(rows), slower=slower)
+    commands = bench.make_commands(make_waves(rows), slowdown=slower)
     bench.run(commands)
-    taken = []
-    for _ in range(_TRIES):
-        begin = clock()
+    durations_s = []
+    for _ in range(_TIMING_COUNT):
+        begin_s = clock()
         bench.run(commands)
-        taken.append(clock() - begin)
-    return measured("is fast enough to be fitted", min(taken), _LONGEST_S, "s for 10 s at 2 kHz")
+        durations_s.append(clock() - begin_s)
+    return check_at_most(
+        "is fast enough to be fitted", min(durations_s), _MAX_RUN_TIME_S, "s for 10 s at 2 kHz"
+    )
 
 
-def _at_presets_and_bounds(bench: Bench) -> Iterator[Check]:
-    """Check that all values give finite answers, and that some do something."""
-    greatest, faults = 0.0, []
-    for shape in (waves(ROWS), moves(ROWS)):
-        commands = bench.record(shape)
-        clean = bench.seen(bench.run(commands, seed=SEED, effects=()))
-        for values in ({}, *bench.corners()):
+def _check_presets_and_bounds(bench: EffectBench) -> Iterator[CheckResult]:
+    """Check that all values give finite responses, and that some of them change the response."""
+    largest_change, faults = 0.0, []
+    for shape in (make_waves(ROW_COUNT), make_moves(ROW_COUNT)):
+        commands = bench.make_commands(shape)
+        without_effect = bench.read_signals(bench.run(commands, seed=SEED, effects=()))
+        for values in ({}, *bench.list_corners()):
             try:
-                seen = bench.seen(bench.run(commands, values, seed=SEED))
-            except PlantError:  # it says cleanly that such a machine diverges
-                greatest = np.inf
+                signals = bench.read_signals(bench.run(commands, values, seed=SEED))
+            # A machine may diverge at a bound, if this is reported.
+            except PlantError:
+                largest_change = np.inf
                 continue
             except RecordError as error:
-                faults.append(f"{_said(values)}: {error}")
+                faults.append(f"{_describe_values(values)}: {error}")
                 continue
-            if np.isfinite(seen).all():
-                greatest = max(greatest, float(np.abs(seen - clean).max()))
+            if np.isfinite(signals).all():
+                largest_change = max(largest_change, float(np.abs(signals - without_effect).max()))
                 continue
-            faults.append(f"{_said(values)}: not finite")
-    yield stated("stays finite at presets and bounds", faults[:3])
+            faults.append(f"{_describe_values(values)}: not finite")
+    yield check_no_faults("stays finite at presets and bounds", faults[:3])
     if not faults:
-        acts = min(greatest / bench.own.span, 1e300)
-        yield exceeds("does something", acts, 1e-15, "nothing happens at any bound")
+        relative_change = min(largest_change / bench.robot_axis.span, 1e300)
+        yield check_above("has an effect", relative_change, 1e-15, "nothing happens at any bound")
 
 
-def _said(values: Values) -> str:
+def _describe_values(values: Values) -> str:
     return ", ".join(f"{name} = {value:g}" for name, value in values.items()) or "presets"
 
 
-def _nothing(bench: Bench) -> Iterator[Check]:
-    """Check that zeros, where they are no effect, leave the nominal response, and come smoothly."""
+def _check_zero(bench: EffectBench) -> Iterator[CheckResult]:
+    """Check that the effect is absent at zero, and that it starts smoothly from there."""
     name = "is absent at zero"
-    values = bench.nothing()
+    values = bench.find_zero_values()
     if values is None:
-        yield left_out(name, "no parameter can be zero")
+        yield skip_check(name, "no parameter can be zero")
         return
-    commands = bench.record(waves(ROWS))
-    left = np.abs(bench.added(commands, values, seed=SEED)).max() / bench.own.span
-    full = np.abs(bench.added(commands, seed=SEED)).max() / bench.own.span
-    if left > max(_HINT * full, _ABSENT):
-        yield left_out(name, "zeros are no absence of it")
-        return
-    yield measured(name, float(left), _ABSENT, "it nearly vanishes, but not quite")
-    yield _onset(bench, list(values))
-
-
-def _onset(bench: Bench, names: list[str]) -> Check:
-    """Check that a fit finds its way from nothing: a thousandth as much adds far less."""
-    name = "comes from zero smoothly"
-    if bench.own.static:
-        return left_out(name, "a static axis is late by whole samples")
-    commands, presets = bench.record(waves(ROWS)), bench.presets
-    some, less = (
-        float(np.abs(bench.added(commands, {n: share * presets[n] for n in names})).max())
-        for share in _SHARES
+    commands = bench.make_commands(make_waves(ROW_COUNT))
+    zero_contribution = (
+        np.abs(bench.measure_contribution(commands, values, seed=SEED)).max()
+        / bench.robot_axis.span
     )
-    span = bench.own.span
-    return measured(name, less / span, _LESS * some / span + _ABSENT, "it is there all at once")
+    preset_contribution = (
+        np.abs(bench.measure_contribution(commands, seed=SEED)).max() / bench.robot_axis.span
+    )
+    if zero_contribution > max(_MAX_ABSENT_EFFECT_RATIO * preset_contribution, _ABSENT_RANGE_RATIO):
+        yield skip_check(name, "zero parameters do not remove it")
+        return
+    yield check_at_most(
+        name, float(zero_contribution), _ABSENT_RANGE_RATIO, "it does not vanish completely"
+    )
+    yield _check_onset(bench, list(values))
 
 
-def _seeds(bench: Bench) -> Iterator[Check]:
-    commands = bench.record(waves(ROWS))
+def _check_onset(bench: EffectBench, names: list[str]) -> CheckResult:
+    """Check that a fit can start from zero: a much smaller amount must contribute far less."""
+    name = "starts smoothly from zero"
+    if bench.robot_axis.static:
+        return skip_check(name, "a static axis is delayed by whole samples")
+    commands, presets = bench.make_commands(make_waves(ROW_COUNT)), bench.presets
+    larger_contribution, smaller_contribution = (
+        float(
+            np.abs(
+                bench.measure_contribution(commands, {n: ratio * presets[n] for n in names})
+            ).max()
+        )
+        for ratio in _ONSET_PRESET_RATIOS
+    )
+    span = bench.robot_axis.span
+    return check_at_most(
+        name,
+        smaller_contribution / span,
+        _MAX_ONSET_RATIO * larger_contribution / span + _ABSENT_RANGE_RATIO,
+        "it sets in abruptly",
+    )
+
+
+def _check_seeds(bench: EffectBench) -> Iterator[CheckResult]:
+    commands = bench.make_commands(make_waves(ROW_COUNT))
     values = {}
-    if Trait.RANDOM in bench.formulation.traits:  # rare events are to happen here
+    # At the upper bounds even rare events occur in this run.
+    if EffectTrait.RANDOM in bench.formulation.traits:
         ends = {p.name: p.bounds(bench.facts)[1] for p in bench.formulation.parameters}
         values = {name: end for name, end in ends.items() if np.isfinite(end)}
-    first, again, other = (
-        bench.added(commands, values, seed=seed) for seed in (SEED, SEED, SEED + 1)
+    first, repeated, other_seed = (
+        bench.measure_contribution(commands, values, seed=seed) for seed in (SEED, SEED, SEED + 1)
     )
-    span = bench.own.span
-    same = float(np.abs(first - again).max()) / span
-    yield measured("one seed gives one answer", same, 0.0, "chance comes from elsewhere")
-    apart = float(np.abs(first - other).max()) / span
-    if Trait.RANDOM not in bench.formulation.traits:
-        yield measured("is not random", apart, _ROUNDING, "seeds matter: declare it random")
+    span = bench.robot_axis.span
+    repetition = float(np.abs(first - repeated).max()) / span
+    yield check_at_most(
+        "repeats with the same seed",
+        repetition,
+        0.0,
+        "its random numbers do not come from the seed",
+    )
+    difference = float(np.abs(first - other_seed).max()) / span
+    if EffectTrait.RANDOM not in bench.formulation.traits:
+        yield check_at_most(
+            "is not random",
+            difference,
+            _ROUNDING_RANGE_RATIO,
+            "it depends on the seed; declare it random",
+        )
         return
-    yield exceeds("differs from seed to seed", apart, 0.0, "declared random, but seeds do nothing")
-    silent = float(np.abs(bench.added(commands, values)).max()) / span
-    yield measured("is absent without chance", silent, 0.0, "it acts without a seed too")
+    yield check_above(
+        "differs from seed to seed",
+        difference,
+        0.0,
+        "it is declared random but does not depend on the seed",
+    )
+    without_seed = float(np.abs(bench.measure_contribution(commands, values)).max()) / span
+    yield check_at_most(
+        "is absent without a seed", without_seed, 0.0, "it also acts without a seed"
+    )
 
 
-def _pieces(bench: Bench) -> Check:
-    commands = bench.record(waves(ROWS))
-    whole = bench.seen(bench.run(commands, seed=SEED))
-    simulation = Simulation(bench.robot, [bench.asked()], commands, np.random.default_rng(SEED))
-    parts = [
-        bench.seen(simulation.follow(commands.part(slice(begin, end))))
-        for begin, end in pairwise(_EDGES)
+def _check_pieces(bench: EffectBench) -> CheckResult:
+    commands = bench.make_commands(make_waves(ROW_COUNT))
+    complete = bench.read_signals(bench.run(commands, seed=SEED))
+    simulation = SimulatedMachine(
+        bench.robot, [bench.make_entry()], commands, np.random.default_rng(SEED)
+    )
+    pieces = [
+        bench.read_signals(simulation.follow(commands.select_rows(slice(begin, end))))
+        for begin, end in pairwise(_PIECE_EDGES)
     ]
-    # Reference noise is drawn as it comes; so are all streams.
-    gap = float(np.abs(np.concatenate(parts) - whole).max()) / bench.own.span
-    return measured("in pieces is as at once", gap, _ROUNDING, "it forgets between pieces")
+    # All streams, including that of the reference noise, must draw the same numbers in pieces.
+    difference = float(np.abs(np.concatenate(pieces) - complete).max()) / bench.robot_axis.span
+    return check_at_most(
+        "gives the same in pieces",
+        difference,
+        _ROUNDING_RANGE_RATIO,
+        "it loses its memory between pieces",
+    )
 
 
-def _rest(bench: Bench) -> Check:
+def _check_rest(bench: EffectBench) -> CheckResult:
     name = "starts at rest"
-    if Trait.LOCKED_TO_TIME in bench.formulation.traits:
-        return left_out(name, "it acts by itself")
-    shape = np.full(60, 0.37) if bench.held else np.zeros(60)
-    reading = bench.seen(bench.run(bench.record(shape)))
-    span = bench.own.span
-    if bench.held:
-        return measured(
-            name, float(np.ptp(reading, axis=0).max()) / span, _QUIET, "the start is no equilibrium"
+    if EffectTrait.LOCKED_TO_TIME in bench.formulation.traits:
+        return skip_check(name, "it acts without motion")
+    shape = np.full(60, 0.37) if bench.is_held else np.zeros(60)
+    reading = bench.read_signals(bench.run(bench.make_commands(shape)))
+    span = bench.robot_axis.span
+    if bench.is_held:
+        return check_at_most(
+            name,
+            float(np.ptp(reading, axis=0).max()) / span,
+            _MAX_REST_RANGE_RATIO,
+            "the start is not an equilibrium",
         )
     jump = float(np.abs(np.diff(reading, axis=0)).max()) / span
-    return measured(name, jump, _FREE, "it jumps at the start")
+    return check_at_most(name, jump, _MAX_FREE_JUMP_RANGE_RATIO, "it jumps at the start")

@@ -1,24 +1,24 @@
-"""What a check of an effect finds: one measured value against its bound, and all of them."""
+"""Results of the checks of an effect: of one check, and of all checks."""
 
 from dataclasses import dataclass
 from math import inf, isfinite
 
 
 @dataclass(frozen=True, slots=True)
-class Check:
-    """One thing that was checked.
+class CheckResult:
+    """Result of one check.
 
     Attributes
     ----------
     name : str
     passed : bool or None
-        None: it does not apply here.
+        None if the check does not apply.
     value, bound : float
-        What was measured, and what it must not exceed; nan where there is nothing to measure.
+        Measured value and its bound; nan if nothing is measured.
     note : str
-        What is wrong, or why it does not apply.
+        The fault, or the reason why the check does not apply.
     formulation, place : str
-        Which formulation on which axis; empty where neither matters.
+        Which formulation on which axis; empty if neither matters.
     """
 
     name: str
@@ -31,45 +31,45 @@ class Check:
 
 
 @dataclass(frozen=True, slots=True)
-class Report:
-    """All checks of one effect."""
+class EffectReport:
+    """Results of all checks of one effect."""
 
     effect_id: str
-    checks: tuple[Check, ...]
+    checks: tuple[CheckResult, ...]
 
     @property
     def passed(self) -> bool:
-        """Whether nothing failed and something was checked."""
+        """Whether no check failed and at least one passed."""
         return not self.failures and any(check.passed for check in self.checks)
 
     @property
     def simulated(self) -> bool:
-        """Whether any formulation found an axis to be simulated on."""
+        """Whether any formulation was simulated on an axis."""
         return any(check.place and check.passed is not None for check in self.checks)
 
     @property
-    def failures(self) -> tuple[Check, ...]:
+    def failures(self) -> tuple[CheckResult, ...]:
         """The checks that failed."""
         return tuple(check for check in self.checks if check.passed is False)
 
 
-def measured(name: str, value: float, bound: float, note: str = "") -> Check:
-    """Return the check that a value does not exceed its bound."""
+def check_at_most(name: str, value: float, bound: float, note: str = "") -> CheckResult:
+    """Check that a value does not exceed its bound."""
     passed = isfinite(value) and value <= bound
-    return Check(name, passed, value, bound, "" if passed else note)
+    return CheckResult(name, passed, value, bound, "" if passed else note)
 
 
-def exceeds(name: str, value: float, bound: float, note: str) -> Check:
-    """Return the check that a value is above a bound."""
+def check_above(name: str, value: float, bound: float, note: str) -> CheckResult:
+    """Check that a value is above a bound."""
     passed = isfinite(value) and value > bound
-    return Check(name, passed, value, bound, "" if passed else note)
+    return CheckResult(name, passed, value, bound, "" if passed else note)
 
 
-def stated(name: str, faults: list[str]) -> Check:
-    """Return the check that there are no faults, each said in words."""
-    return Check(name, not faults, float(len(faults)), 0.0, "; ".join(faults))
+def check_no_faults(name: str, faults: list[str]) -> CheckResult:
+    """Check that there are no faults, each described in words."""
+    return CheckResult(name, not faults, float(len(faults)), 0.0, "; ".join(faults))
 
 
-def left_out(name: str, why: str) -> Check:
-    """Return a check that does not apply."""
-    return Check(name, None, bound=inf, note=why)
+def skip_check(name: str, reason: str) -> CheckResult:
+    """Return the result of a check that does not apply."""
+    return CheckResult(name, None, bound=inf, note=reason)

@@ -1,25 +1,23 @@
-"""The check of an effect, ours or a third party's: whether it is what it says.
+"""Check of an effect, built-in or third-party, against its own description.
 
-Every formulation is put on axes of the shipped robots, one of each kind that it can sit on, and
-simulated. A catalogue that says less than it should, a parameter whose bounds do not hold, a step
-function that reaches beyond its memory, a response that is not finite, not repeatable or not the
-same in pieces, and a declared trait that is not true are found.
+Every formulation is simulated on axes of the shipped robots, one of each kind that can carry it.
+The check finds an incomplete description, a parameter whose bounds are not enforced, a step
+function that writes outside its memory, and a declared trait that is not true. It also finds a
+response that is not finite, not repeatable, or different when it is simulated in pieces.
 """
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 
-from rotemina.sim.effects.errors import BrokenEffectError, EffectError
-from rotemina.sim.effects.formulation import Effect
-from rotemina.sim.effects.registry import effect_named
-from rotemina.sim.errors import InputError
-from rotemina.sim.plant.plant import Plant
-from rotemina.sim.robot.file import load_robot, nominal_robots
-from rotemina.sim.robot.model import Robot
-from rotemina.sim.simulation.check_bench import Bench, benches_of
+from rotemina.sim.effects import Effect, load_effect
+from rotemina.sim.errors import BrokenEffectError, EffectError, InputError
+from rotemina.sim.plant import Plant
+from rotemina.sim.robot import Robot
+from rotemina.sim.robot_files import list_nominal_robots, load_robot
+from rotemina.sim.simulation.check_bench import EffectBench, make_benches
 from rotemina.sim.simulation.check_catalogue import check_bounds, check_catalogue
 from rotemina.sim.simulation.check_response import check_response, check_speed
-from rotemina.sim.simulation.check_result import Check, Report, left_out
+from rotemina.sim.simulation.check_result import CheckResult, EffectReport, skip_check
 from rotemina.sim.simulation.check_step import check_step
 from rotemina.sim.simulation.check_traits import check_traits
 
@@ -29,83 +27,86 @@ def check_effect(
     robots: Sequence[Robot] | None = None,
     *,
     clock: Callable[[], float] | None = None,
-) -> Report:
+) -> EffectReport:
     """Check an installed effect.
 
     Parameters
     ----------
     effect_id : str
     robots : sequence of Robot, optional
-        Whose axes it is put on; all that are shipped by default.
+        Robots on whose axes the effect is checked; by default all shipped robots.
     clock : callable, optional
-        Tells the time in s; without, how long a run takes is not checked.
+        Returns the time in s. Without it, the duration of a run is not checked.
 
     Raises
     ------
     EffectError
-        If there is no effect of that id. One that cannot be loaded fails its check.
+        If there is no effect of this id. An effect that cannot be loaded fails its check.
     """
     try:
-        effect = effect_named(effect_id)
+        effect = load_effect(effect_id)
     except EffectError as error:
         if str(error).startswith("there is no effect"):
             raise
-        return Report(effect_id, (Check("can be loaded", False, note=str(error)),))
-    shipped = robots is None
+        return EffectReport(effect_id, (CheckResult("can be loaded", False, note=str(error)),))
+    are_shipped = robots is None
     if robots is None:
-        names = sorted(nominal_robots(), key=lambda name: (name != "rotemina", name))
+        names = sorted(list_nominal_robots(), key=lambda name: (name != "rotemina", name))
         robots = [load_robot(name) for name in names]
-    return Report(effect_id, tuple(_checks(effect, robots, clock, shipped)))
+    return EffectReport(effect_id, tuple(_run_checks(effect, robots, clock, are_shipped)))
 
 
-def _checks(
-    effect: Effect, robots: Sequence[Robot], clock: Callable[[], float] | None, shipped: bool
-) -> Iterator[Check]:
-    said = list(check_catalogue(effect))
-    yield from said
-    if not all(check.passed for check in said):
-        yield Check("can be simulated", None, note="what it says of itself comes first")
+def _run_checks(
+    effect: Effect, robots: Sequence[Robot], clock: Callable[[], float] | None, are_shipped: bool
+) -> Iterator[CheckResult]:
+    description = list(check_catalogue(effect))
+    yield from description
+    if not all(check.passed for check in description):
+        yield CheckResult("can be simulated", None, note="correct its description first")
         return
-    benches = benches_of(effect, robots)
+    benches = make_benches(effect, robots)
     for formulation in effect.formulations:
-        found = [
-            replace(check, formulation=formulation.name, place=bench.place)
+        results = [
+            replace(check, formulation=formulation.name, place=bench.location)
             for bench in benches
             if bench.formulation is formulation
-            for check in _guarded(bench, clock)
+            for check in _check_safely(bench, clock)
         ]
-        yield from found
-        if all(check.passed is None for check in found):
-            reason = found[0].note if found else f"it sits on {', '.join(sorted(effect.kinds))}"
-            missing = left_out("finds an axis", f"none of these fits: {reason}")
-            verdict = False if shipped else None  # a robot of one's own may lack such axes
-            yield replace(missing, passed=verdict, formulation=formulation.name)
+        yield from results
+        if all(check.passed is None for check in results):
+            reason = results[0].note if results else f"it acts on {', '.join(sorted(effect.kinds))}"
+            no_axis_result = skip_check("has a suitable axis", f"none of these fits: {reason}")
+            # A user's robot may lack such axes; the shipped robots have all kinds.
+            verdict = False if are_shipped else None
+            yield replace(no_axis_result, passed=verdict, formulation=formulation.name)
 
 
-def _guarded(bench: Bench, clock: Callable[[], float] | None) -> Iterator[Check]:
-    """Check on one bench; what a third party's code raises is a finding."""
+def _check_safely(bench: EffectBench, clock: Callable[[], float] | None) -> Iterator[CheckResult]:
+    """Check on one bench; an exception in the code of a plugin becomes a failed check."""
     try:
-        yield from _on(bench, clock)
+        yield from _check_bench(bench, clock)
     except InputError as error:
-        yield Check("can be simulated", False, note=str(error))
-    except Exception as error:  # whatever a plugin may raise
-        yield Check("can be simulated", False, note=f"{type(error).__name__}: {error}")
+        yield CheckResult("can be simulated", False, note=str(error))
+    # A plugin may raise anything.
+    except Exception as error:
+        yield CheckResult("can be simulated", False, note=f"{type(error).__name__}: {error}")
 
 
-def _on(bench: Bench, clock: Callable[[], float] | None) -> Iterator[Check]:
+def _check_bench(bench: EffectBench, clock: Callable[[], float] | None) -> Iterator[CheckResult]:
     try:
-        Plant.of(replace(bench.robot, effects=(bench.asked(),)))
+        Plant.of(replace(bench.robot, effects=(bench.make_entry(),)))
     except BrokenEffectError:
         raise
     except EffectError as error:
-        yield left_out("sits here", str(error))
+        yield skip_check("fits this axis", str(error))
         return
     bounds = check_bounds(bench)
     steps = list(check_step(bench))
     yield bounds
     yield from steps
     if not all(check.passed for check in (bounds, *steps[:1], *steps[2:3])):
-        return  # a run would write where it must not
+        # A run would write outside the memory of the function.
+        return
     yield from check_response(bench)
     yield from check_traits(bench)
     if clock is not None:

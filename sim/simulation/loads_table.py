@@ -1,16 +1,15 @@
-"""Files of joint loads: a plain table for spreadsheets and other programs, which is no record."""
+"""Files of joint loads: a plain table for spreadsheets and other programs, not a record."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from os import PathLike, fspath
 from typing import BinaryIO
 
-from rotemina.sim.plant.joint_loads import JointLoads
-from rotemina.sim.plant.plant import Plant
-from rotemina.sim.records.writing import open_export
+from rotemina.sim.plant import JointLoads, Plant
+from rotemina.sim.records import open_export, write_columns
 
-_MOTIONS = {"position": "", "velocity": "/s", "acceleration": "/s2"}
-_FORCES = (
+_MOTION_UNIT_SUFFIXES = {"position": "", "velocity": "/s", "acceleration": "/s2"}
+_FORCE_NAMES = (
     "inertia",
     "damping",
     "stiffness",
@@ -20,11 +19,11 @@ _FORCES = (
     "rest",
     "impulse",
 )
-_ENERGIES = ("kinetic_energy", "elastic_energy")
+_ENERGY_NAMES = ("kinetic_energy", "elastic_energy")
 
 
 class LoadsTable:
-    """A table of comma-separated values with a heading, such as ``x velocity [m/s]``, SI units.
+    """Table of comma-separated values with headings such as ``x velocity [m/s]``, in SI units.
 
     Static axes have no columns of forces.
     """
@@ -34,34 +33,33 @@ class LoadsTable:
         self._axes = [(name, axis.static) for name, axis in plant.robot.axes.items()]
         headings = ["t [s]"]
         for name, static in self._axes:
-            headings += _headings(name, units.get(name) or "m", static=static)
-        headings += [f"{name.replace('_', ' ')} [J]" for name in _ENERGIES]
+            headings += _list_headings(name, units.get(name) or "m", static=static)
+        headings += [f"{name.replace('_', ' ')} [J]" for name in _ENERGY_NAMES]
         file.write((",".join(headings) + "\n").encode())
 
     def add(self, loads: JointLoads) -> None:
-        """Write the rows of ``loads`` behind those before."""
-        import polars as pl  # takes its time to import; who writes no table goes without
-
+        """Write the rows of ``loads`` after the previous ones."""
         columns = [loads.time_s]
         for number, (_, static) in enumerate(self._axes):
-            names = _columns(static=static)
+            names = _list_columns(static=static)
             columns += [getattr(loads, name)[:, number] for name in names]
-        columns += [getattr(loads, name) for name in _ENERGIES]
-        table = pl.DataFrame({str(index): column for index, column in enumerate(columns)})
-        table.write_csv(self._file, include_header=False)
+        columns += [getattr(loads, name) for name in _ENERGY_NAMES]
+        write_columns(self._file, columns)
 
 
 @contextmanager
-def loads_table(
+def open_loads_table(
     path: str | PathLike[str], plant: Plant, units: Mapping[str, str]
 ) -> Iterator[LoadsTable]:
-    """Open a table of loads, which appears complete or not at all; ``.gz`` is compressed.
+    """Open a table of loads that is written atomically, and compressed if it ends in ``.gz``.
 
     Parameters
     ----------
-    path : of the file.
-    plant : whose axes have the columns.
-    units : mapping axis -> "m" or "rad"; m where left out.
+    path : path-like
+    plant : Plant
+        Its axes give the columns.
+    units : mapping of axis to "m" or "rad"
+        Axes that are not listed have the unit m.
 
     Raises
     ------
@@ -72,12 +70,12 @@ def loads_table(
         yield LoadsTable(file, plant, units)
 
 
-def _columns(*, static: bool) -> Sequence[str]:
-    return (*_MOTIONS, *(() if static else _FORCES))
+def _list_columns(*, static: bool) -> Sequence[str]:
+    return (*_MOTION_UNIT_SUFFIXES, *(() if static else _FORCE_NAMES))
 
 
-def _headings(axis: str, unit: str, *, static: bool) -> list[str]:
-    force = "N" if unit == "m" else "N m"
-    units = {name: f"{unit}{per}" for name, per in _MOTIONS.items()}
-    units |= dict.fromkeys(_FORCES, force) | {"impulse": f"{force} s"}
-    return [f"{axis} {name} [{units[name]}]" for name in _columns(static=static)]
+def _list_headings(axis: str, unit: str, *, static: bool) -> list[str]:
+    force_unit = "N" if unit == "m" else "N m"
+    units = {name: f"{unit}{per}" for name, per in _MOTION_UNIT_SUFFIXES.items()}
+    units |= dict.fromkeys(_FORCE_NAMES, force_unit) | {"impulse": f"{force_unit} s"}
+    return [f"{axis} {name} [{units[name]}]" for name in _list_columns(static=static)]

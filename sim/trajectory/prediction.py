@@ -1,7 +1,7 @@
-"""What the nominal model expects of a trajectory on a device: tracking errors, and the range.
+"""Prediction of a trajectory by the nominal model: tracking errors, and motion outside the range.
 
-The model runs through the instants of the device's own schedule, piece by piece, so that a long
-trajectory needs no more memory than a short one.
+The model runs through the instants of the device's schedule in chunks, so that a long trajectory
+needs no more memory than a short one.
 """
 
 from collections.abc import Iterator, Mapping
@@ -11,20 +11,22 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.sim.arrays import BoolArray, FloatArray
+from rotemina.sim.errors import PlantError
 from rotemina.sim.messages import message
-from rotemina.sim.plant.errors import PlantError
-from rotemina.sim.plant.plant import Plant
-from rotemina.sim.quantities import exact
-from rotemina.sim.records.record import Record
-from rotemina.sim.robot.model import Robot
-from rotemina.sim.trajectory.schedule import Schedule
-from rotemina.sim.trajectory.trajectory_excesses import Quantity, Violation
+from rotemina.sim.plant import Plant
+from rotemina.sim.records import Record
+from rotemina.sim.robot import Robot
+from rotemina.sim.trajectory.schedule import PlaybackSchedule
+from rotemina.sim.trajectory.trajectory_excesses import LimitedQuantity, LimitViolation
+from rotemina.sim.units import format_exact
 
-#: How far beyond its range, in shares of it, an axis may be predicted to swing.
-OVERSHOOT_SHARE = 0.01
-_LOOKS = 4  # at the motion of an axis without a loop, per set-point period: it may ring as fast
-_AFTER_S = 0.5  # for how long the halt after the last row is watched
-_CHUNK = 1 << 16
+#: Permitted predicted overshoot beyond the range, relative to the length of the range.
+MAX_OVERSHOOT_RATIO = 0.01
+# Axes without a controller may ring fast, so they are sampled several times per set-point period.
+_SAMPLES_PER_PERIOD = 4
+# The halt after the last row is simulated for this time.
+_HALT_DURATION_S = 0.5
+_CHUNK_INSTANTS = 1 << 16
 
 
 class TrackingError(NamedTuple):
@@ -35,41 +37,41 @@ class TrackingError(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Prediction:
-    """Tracking errors by axis, where an axis leaves its range, and why there is no prediction.
+class MotionPrediction:
+    """A prediction: tracking errors by axis, and axes that leave their range.
 
-    With a ``fault`` there are no ``errors``.
+    ``fault`` is the reason why the model cannot be simulated to the end; ``errors`` is then empty.
     """
 
     errors: Mapping[str, TrackingError]
-    violations: tuple[Violation, ...]
+    violations: tuple[LimitViolation, ...]
     fault: str | None = None
 
 
-def predict(robot: Robot, trajectory: Record, setpoint_period_s: float) -> Prediction:
+def predict_motion(robot: Robot, trajectory: Record, setpoint_period_s: float) -> MotionPrediction:
     """Run the nominal model through a trajectory, from rest at its first row.
 
-    Axes with a controller are under it, at the device's set-point period. An axis leaves its range
-    when it is more than ``OVERSHOOT_SHARE`` of it outside.
+    Controllers act at the device's set-point period. An axis leaves its range when it is outside by
+    more than ``MAX_OVERSHOOT_RATIO`` of the range.
     """
-    watched = {name: _Watch(robot, name) for name in trajectory.axes}
+    watches = {name: _AxisWatch(robot, name) for name in trajectory.axes}
     try:
-        for motion in _motions(robot, trajectory, setpoint_period_s):
-            for name, watch in watched.items():
-                watch.see(motion, motion.axes.index(name))
+        for motion in _simulate_chunks(robot, trajectory, setpoint_period_s):
+            for name, watch in watches.items():
+                watch.add(motion, motion.axes.index(name))
     except PlantError as error:
-        return Prediction({}, _violations(watched), str(error))
-    errors = {name: watch.error.tracking() for name, watch in watched.items()}
-    return Prediction(errors, _violations(watched))
+        return MotionPrediction({}, _collect_violations(watches), str(error))
+    errors = {name: watch.error.make_tracking_error() for name, watch in watches.items()}
+    return MotionPrediction(errors, _collect_violations(watches))
 
 
-def _violations(watched: Mapping[str, "_Watch"]) -> tuple[Violation, ...]:
-    found = [watch.violation() for watch in watched.values()]
-    return tuple(violation for violation in found if violation is not None)
+def _collect_violations(watches: Mapping[str, "_AxisWatch"]) -> tuple[LimitViolation, ...]:
+    violations = [watch.make_violation() for watch in watches.values()]
+    return tuple(violation for violation in violations if violation is not None)
 
 
-class _Motion(NamedTuple):
-    """Instants (n,), commands and positions (n, axes), and which instants count as rows (n,)."""
+class _MotionChunk(NamedTuple):
+    """Instants (n,), commands and positions (n, axes), and whether an instant is a row (n,)."""
 
     axes: tuple[str, ...]
     time_s: FloatArray
@@ -78,67 +80,72 @@ class _Motion(NamedTuple):
     on_row: BoolArray
 
 
-def _motions(robot: Robot, trajectory: Record, period_s: float) -> Iterator[_Motion]:
+def _simulate_chunks(robot: Robot, trajectory: Record, period_s: float) -> Iterator[_MotionChunk]:
     plant = Plant.of(robot, closed_loop=True, only=trajectory.axes)
-    looped = any(plant.loops)
-    tick_s = period_s if looped else period_s / _LOOKS
-    schedule = Schedule(trajectory, plant.axes, tick_s, on_ticks=looped)
-    held = np.array([axis.range[0] for axis in plant.robot.axes.values()], dtype=np.float64)
-    state = plant.at_rest(0.0, schedule.commands(np.zeros(1, dtype=np.int64), held)[0])
-    begin, size, since_s = 0, _CHUNK, 0.0
+    has_loop = any(plant.loops)
+    tick_s = period_s if has_loop else period_s / _SAMPLES_PER_PERIOD
+    schedule = PlaybackSchedule(trajectory, plant.axes, tick_s, on_ticks=has_loop)
+    home_position = np.array(
+        [axis.range[0] for axis in plant.robot.axes.values()], dtype=np.float64
+    )
+    state = plant.find_rest_state(
+        0.0, schedule.commands(np.zeros(1, dtype=np.int64), home_position)[0]
+    )
+    first_instant, chunk_size, chunk_start_s = 0, _CHUNK_INSTANTS, 0.0
     command = np.empty((0, len(plant.axes)))
-    while begin < schedule.count:
-        instants = schedule.instants(begin, begin + size)
-        command = schedule.commands(instants.row, held)
-        elapsed_s = schedule.elapsed(since_s, instants.time_s)
+    while first_instant < schedule.count:
+        instants = schedule.instants(first_instant, first_instant + chunk_size)
+        command = schedule.commands(instants.row, home_position)
+        elapsed_s = schedule.compute_elapsed(chunk_start_s, instants.time_s)
         try:
-            motion, after = plant.advance(state, elapsed_s, command)
+            motion, end_state = plant.advance(state, elapsed_s, command)
         except PlantError:
-            if size == 1:
+            if chunk_size == 1:
                 raise
-            size = max(size // 8, 1)  # to see what came before the number overflowed
+            # With smaller chunks, the motion before the overflow is still predicted.
+            chunk_size = max(chunk_size // 8, 1)
             continue
-        state = replace(after, time_s=after.time_s - after.time_s[-1])
-        begin, since_s = begin + size, float(instants.time_s[-1])
+        state = replace(end_state, time_s=end_state.time_s - end_state.time_s[-1])
+        first_instant, chunk_start_s = first_instant + chunk_size, float(instants.time_s[-1])
         time_s = trajectory.time_s[0] + instants.time_s
-        yield _Motion(plant.axes, time_s, command, motion.position, instants.on_row)
-    after_s = (np.arange(1, round(_AFTER_S / tick_s) + 1) * tick_s).astype(np.float64)
-    command = np.repeat(command[-1:], len(after_s), axis=0)
-    motion, _ = plant.advance(state, after_s, command)
-    none = np.zeros(len(after_s), dtype=np.bool_)
-    yield _Motion(plant.axes, trajectory.time_s[-1] + after_s, command, motion.position, none)
+        yield _MotionChunk(plant.axes, time_s, command, motion.position, instants.on_row)
+    halt_s = (np.arange(1, round(_HALT_DURATION_S / tick_s) + 1) * tick_s).astype(np.float64)
+    command = np.repeat(command[-1:], len(halt_s), axis=0)
+    motion, _ = plant.advance(state, halt_s, command)
+    no_rows = np.zeros(len(halt_s), dtype=np.bool_)
+    yield _MotionChunk(
+        plant.axes, trajectory.time_s[-1] + halt_s, command, motion.position, no_rows
+    )
 
 
-class _Watch:
-    """What of one axis is remembered while its motion passes by."""
-
+class _AxisWatch:
     def __init__(self, robot: Robot, name: str) -> None:
         self.error = _ErrorSum()
         self._name = name
         self._axis = robot.axes[name]
         self._unit = robot.unit(name) or ""
-        self._worst = OVERSHOOT_SHARE * self._axis.span
-        self._at: tuple[float, float] | None = None
+        self._worst_overshoot = MAX_OVERSHOOT_RATIO * self._axis.span
+        self._worst_instant: tuple[float, float] | None = None
 
-    def see(self, motion: _Motion, column: int) -> None:
+    def add(self, motion: _MotionChunk, column: int) -> None:
         position = motion.position[:, column]
         self.error.add((position - motion.command[:, column])[motion.on_row])
         low, high = self._axis.range
-        outside = np.maximum(low - position, position - high)
-        row = int(np.argmax(outside))
-        if outside[row] > self._worst:
-            self._worst = float(outside[row])
-            self._at = float(motion.time_s[row]), float(position[row])
+        overshoot = np.maximum(low - position, position - high)
+        row = int(np.argmax(overshoot))
+        if overshoot[row] > self._worst_overshoot:
+            self._worst_overshoot = float(overshoot[row])
+            self._worst_instant = float(motion.time_s[row]), float(position[row])
 
-    def violation(self) -> Violation | None:
-        if self._at is None:
+    def make_violation(self) -> LimitViolation | None:
+        if self._worst_instant is None:
             return None
-        time_s, position = self._at
+        time_s, position = self._worst_instant
         low, high = self._axis.range
-        margin = exact(OVERSHOOT_SHARE * self._axis.span, self._unit)
-        return Violation(
+        margin = format_exact(MAX_OVERSHOOT_RATIO * self._axis.span, self._unit)
+        return LimitViolation(
             self._name,
-            Quantity.MOTION,
+            LimitedQuantity.MOTION,
             time_s,
             position,
             low if position < low else high,
@@ -153,21 +160,20 @@ class _Watch:
 
 
 class _ErrorSum:
-    """Peak and rms of errors that come piece by piece, however large."""
-
     def __init__(self) -> None:
         self._peak = 0.0
-        self._squares = 0.0  # of errors over the peak: those of an unstable loop have no square
+        # The errors are divided by the peak, because the squares of an unstable loop may overflow.
+        self._scaled_square_sum = 0.0
         self._count = 0
 
     def add(self, error: FloatArray) -> None:
         peak = max(self._peak, float(np.abs(error).max(initial=0.0)))
         if peak > 0.0:
-            self._squares *= (self._peak / peak) ** 2
-            self._squares += float(np.sum((error / peak) ** 2))
+            self._scaled_square_sum *= (self._peak / peak) ** 2
+            self._scaled_square_sum += float(np.sum((error / peak) ** 2))
         self._peak = peak
         self._count += len(error)
 
-    def tracking(self) -> TrackingError:
-        mean = self._squares / max(self._count, 1)
-        return TrackingError(self._peak * float(np.sqrt(mean)), self._peak)
+    def make_tracking_error(self) -> TrackingError:
+        scaled_mean_square = self._scaled_square_sum / max(self._count, 1)
+        return TrackingError(self._peak * float(np.sqrt(scaled_mean_square)), self._peak)

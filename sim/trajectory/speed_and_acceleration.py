@@ -1,13 +1,14 @@
 """Speed and acceleration of sampled commands, as a device plays them.
 
-A device holds each row until the next one is due: between rows farther apart than its set-point
-period it stands, and then jumps within one period. So an interval of a trajectory counts as
-``min(interval, period)``, and where rows are held the command is a staircase, no polyline.
+A device holds each row until the next one is due. If two rows are farther apart than its set-point
+period, it stands still in between and then jumps within one period. So the duration of a motion
+from row to row is ``min(interval, period)``, and a command with held rows is a staircase rather
+than a polyline.
 
-Commands come rounded, by a file's digits or to a device's microsteps. A second difference divides
-that rounding by the square of the interval: at 1 kHz, 0.1 µm poses as 0.4 m/s². Acceleration is
-therefore taken over a window in which one resolution of rounding weighs at most
-``ROUNDING_SHARE`` of the bound.
+Commands are rounded, to the digits of a file or to the microsteps of a device. A second difference
+divides this rounding by the square of the interval: at 1 kHz, 0.1 µm looks like 0.4 m/s². Therefore
+the acceleration is computed over a window in which rounding by one resolution contributes at most
+``MAX_ROUNDING_RATIO`` of the bound.
 """
 
 from collections.abc import Iterator
@@ -18,22 +19,23 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.sim.arrays import BoolArray, FloatArray
-from rotemina.sim.trajectory.schedule import ON_TIME
+from rotemina.sim.trajectory.schedule import TICK_TOLERANCE_RATIO
 
-ROUNDING_SHARE = 0.05
-# What the limits take a device's set-point period to be where it does not tell its own.
-SETPOINT_PERIOD_S = 1e-3
-_BLOCK = 500_000  # points judged at once, where every row is held for long: bounds memory
-# Intervals: a bound that asks for a longer window lets an axis hardly start, and it sees no more
-# than a window over the whole command.
-_MAX_WINDOW = 100_000
+MAX_ROUNDING_RATIO = 0.05
+# Set-point period that the checks assume for a device that does not state its own.
+DEFAULT_SETPOINT_PERIOD_S = 1e-3
+# Points that are processed at once if every row is held for long. This bounds the memory.
+_BLOCK_POINTS = 500_000
+# Longest window, in intervals, unless the command has more rows. A bound that needs a longer window
+# hardly lets an axis start, and a window longer than the command shows nothing more.
+_MAX_WINDOW_INTERVALS = 100_000
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Accelerations:
-    """Accelerations ``value`` (m,) about the times ``time_s`` (m,), each over a window (m,) s.
+class AccelerationSamples:
+    """Accelerations ``value`` (m,) at times ``time_s`` (m,), each over a window ``window_s`` (m,).
 
-    ``window_s`` is the length of the shorter of the two intervals whose speeds are compared.
+    The window is the shorter one of the two intervals whose speeds are compared, s.
     """
 
     time_s: FloatArray
@@ -41,87 +43,101 @@ class Accelerations:
     window_s: FloatArray
 
 
-class _Path(NamedTuple):
-    """Points (n,) that straight lines join."""
+class _CommandPath(NamedTuple):
+    """Commands over time, (n,) each, joined by straight lines."""
 
     time_s: FloatArray
     command: FloatArray
 
 
-def held_rows(time_s: FloatArray, period_s: float) -> BoolArray:
-    """Return for each of the (n - 1,) intervals whether a device rests in it, then jumps."""
-    return np.asarray(np.diff(time_s) > period_s * (1.0 + ON_TIME))
+def find_held_intervals(time_s: FloatArray, period_s: float) -> BoolArray:
+    """Return whether a device holds the row and then jumps, for each interval (n - 1,)."""
+    return np.asarray(np.diff(time_s) > period_s * (1.0 + TICK_TOLERANCE_RATIO))
 
 
-def jump_times(time_s: FloatArray, period_s: float) -> FloatArray:
-    """Return the (n - 1,) times that a device takes from each row to the next, s."""
+def compute_jump_times(time_s: FloatArray, period_s: float) -> FloatArray:
+    """Return the times (n - 1,) that a device takes to move from each row to the next, s."""
     return np.minimum(np.diff(time_s), period_s)
 
 
-def jump_speeds(time_s: FloatArray, command: FloatArray, period_s: float) -> FloatArray:
-    """Return the (n - 1,) speeds with which a device goes from row to row, m/s or rad/s."""
-    return np.asarray(np.diff(command) / jump_times(time_s, period_s))
+def compute_jump_speeds(time_s: FloatArray, command: FloatArray, period_s: float) -> FloatArray:
+    """Return the speeds (n - 1,) at which a device moves from row to row, m/s or rad/s."""
+    return np.asarray(np.diff(command) / compute_jump_times(time_s, period_s))
 
 
-def window_rows(interval_s: float, resolution: float, bound: float) -> int:
-    """Return over how many intervals a speed is taken, so that rounding weighs little.
+def count_window_intervals(interval_s: float, resolution: float, bound: float) -> int:
+    """Return the number of intervals over which a speed is computed, so that rounding is small.
 
-    ``w = sqrt(4·resolution/(0.05·bound))``, in intervals, at least 1.
+    The window is ``w = sqrt(4·resolution/(0.05·bound))``, converted to intervals, at least 1.
     """
-    return max(1, ceil(sqrt(4.0 * resolution / (ROUNDING_SHARE * bound)) / interval_s - 1e-9))
+    return max(1, ceil(sqrt(4.0 * resolution / (MAX_ROUNDING_RATIO * bound)) / interval_s - 1e-9))
 
 
-def accelerations(
+def compute_accelerations(
     time_s: FloatArray,
     command: FloatArray,
     resolution: float,
     bound: float | None,
     period_s: float,
-) -> Iterator[Accelerations]:
-    """Yield the acceleration of a command (n,), n > 1, held before its first and after last row.
+) -> Iterator[AccelerationSamples]:
+    """Yield the acceleration of a command (n,), n > 1, in consecutive pieces that overlap.
 
-    ``resolution`` (m or rad) is what commands are rounded to, ``bound`` the greatest acceleration
-    allowed; without one, speeds are taken from set-point to set-point. The pieces follow one
-    another and overlap.
+    The command is held before its first and after its last row. ``resolution`` (m or rad) is the
+    step to which commands are rounded, ``bound`` is the acceleration limit. Without a limit, the
+    speeds are computed from set-point to set-point.
     """
-    interval = min(float(np.median(np.diff(time_s))), period_s)
-    rows = len(time_s)
-    n = 1
+    interval_s = min(float(np.median(np.diff(time_s))), period_s)
+    row_count = len(time_s)
+    window_rows = 1
     if bound is not None:
-        n = min(window_rows(interval, resolution, bound), max(rows, _MAX_WINDOW))
-    block = max(2 * n, _BLOCK // (4 * n))
-    for begin in range(0, rows - 1, block):
-        first, last = max(begin - 2 * n, 0), min(begin + block + 2 * n, rows)
-        path = _staircase(time_s[first:last], command[first:last], period_s, 2 * n)
-        before = 2 * n if first == 0 else 0
-        after = 2 * n if last == rows else 0
-        yield second_differences(*_at_rest(path, before, after, interval), n)
+        window_rows = min(
+            count_window_intervals(interval_s, resolution, bound),
+            max(row_count, _MAX_WINDOW_INTERVALS),
+        )
+    block_rows = max(2 * window_rows, _BLOCK_POINTS // (4 * window_rows))
+    for begin in range(0, row_count - 1, block_rows):
+        first, last = (
+            max(begin - 2 * window_rows, 0),
+            min(begin + block_rows + 2 * window_rows, row_count),
+        )
+        path = _insert_holds(time_s[first:last], command[first:last], period_s, 2 * window_rows)
+        holds_before = 2 * window_rows if first == 0 else 0
+        holds_after = 2 * window_rows if last == row_count else 0
+        yield compute_second_differences(
+            *_pad_with_rest(path, holds_before, holds_after, interval_s), window_rows
+        )
 
 
-def _staircase(time_s: FloatArray, command: FloatArray, period_s: float, keep: int) -> _Path:
-    """Add the points at which a device stands between rows, about a period apart.
+def _insert_holds(
+    time_s: FloatArray, command: FloatArray, period_s: float, kept_per_side: int
+) -> _CommandPath:
+    """Add points where a device stands still between rows, about a period apart.
 
-    Less than half a period more than one is no stand but a row that comes late. Of a long stand
-    the ``keep`` first and last are enough: what spans the rest sees no motion.
+    If an interval exceeds a period by less than half a period, the row is only delayed and nothing
+    is added. Of a long hold, the first and the last ``kept_per_side`` points are enough, because
+    windows over the other points contain no motion.
     """
     interval = np.diff(time_s)
-    stands = np.maximum(np.rint(interval / period_s) - 1.0, 0.0)
-    if not stands.any():
-        return _Path(time_s, command)
-    spacing = np.append((interval - period_s) / np.maximum(stands, 1.0), 0.0)
-    stands = np.append(stands, 0.0)
-    kept = np.minimum(stands, 2 * keep).astype(np.int64)
-    row = np.repeat(np.arange(len(time_s)), kept + 1)
-    number = np.arange(len(row)) - np.repeat(np.cumsum(kept + 1) - (kept + 1), kept + 1)
-    late = number > keep
-    number = np.where(late, stands[row] - kept[row] + number, number)
-    return _Path(time_s[row] + number * spacing[row], command[row])
+    hold_count = np.maximum(np.rint(interval / period_s) - 1.0, 0.0)
+    if not hold_count.any():
+        return _CommandPath(time_s, command)
+    spacing = np.append((interval - period_s) / np.maximum(hold_count, 1.0), 0.0)
+    hold_count = np.append(hold_count, 0.0)
+    kept_count = np.minimum(hold_count, 2 * kept_per_side).astype(np.int64)
+    row = np.repeat(np.arange(len(time_s)), kept_count + 1)
+    hold_number = np.arange(len(row)) - np.repeat(
+        np.cumsum(kept_count + 1) - (kept_count + 1), kept_count + 1
+    )
+    is_in_second_half = hold_number > kept_per_side
+    hold_number = np.where(
+        is_in_second_half, hold_count[row] - kept_count[row] + hold_number, hold_number
+    )
+    return _CommandPath(time_s[row] + hold_number * spacing[row], command[row])
 
 
-def _at_rest(path: _Path, before: int, after: int, interval_s: float) -> _Path:
-    """Hold the first command for so many intervals before it, and the last one after it."""
+def _pad_with_rest(path: _CommandPath, before: int, after: int, interval_s: float) -> _CommandPath:
     time_s, command = path
-    return _Path(
+    return _CommandPath(
         np.concatenate(
             [
                 time_s[0] - np.arange(before, 0, -1) * interval_s,
@@ -133,9 +149,11 @@ def _at_rest(path: _Path, before: int, after: int, interval_s: float) -> _Path:
     )
 
 
-def second_differences(time_s: FloatArray, command: FloatArray, n: int) -> Accelerations:
-    """Return the accelerations of positions (m,), from speeds that are taken over ``n`` rows."""
-    width = time_s[n:] - time_s[:-n]
-    speed = (command[n:] - command[:-n]) / width
-    value = (speed[n:] - speed[:-n]) / (0.5 * (width[n:] + width[:-n]))
-    return Accelerations(time_s[n:-n], value, np.minimum(width[n:], width[:-n]))
+def compute_second_differences(
+    time_s: FloatArray, command: FloatArray, n: int
+) -> AccelerationSamples:
+    """Return the accelerations of positions (m,) from speeds that are computed over ``n`` rows."""
+    window_s = time_s[n:] - time_s[:-n]
+    speed = (command[n:] - command[:-n]) / window_s
+    value = (speed[n:] - speed[:-n]) / (0.5 * (window_s[n:] + window_s[:-n]))
+    return AccelerationSamples(time_s[n:-n], value, np.minimum(window_s[n:], window_s[:-n]))

@@ -1,4 +1,9 @@
-"""Gains by a Pareto search.
+"""Tuning of a loop: a Pareto search for gains on the simulated axis.
 
-The search runs on the simulated axis, which also tries any point of the front.
+``search`` looks for gains, ``pareto_front`` recommends one set, and ``tuning_result`` stores it.
+``rotemina tune`` and the Compensation panel use it. The loops themselves are in ``sim/feedback``.
 """
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -1,8 +1,8 @@
-"""The search: NSGA-II over the gains of one axis.
+"""The search for the gains of one axis by the genetic algorithm NSGA-II.
 
-Individuals are ranked by fronts that none dominates, those on one front by how alone they stand
-(Deb, Pratap, Agarwal and Meyarivan, IEEE Transactions on Evolutionary Computation 6 (2002)
-182–197); those that break a constraint come behind all that break none.
+Individuals are ranked by non-dominated fronts, and within a front by their crowding distance (Deb,
+Pratap, Agarwal and Meyarivan, IEEE Transactions on Evolutionary Computation 6 (2002) 182–197).
+Individuals that violate a constraint rank behind all that violate none.
 """
 
 from collections.abc import Callable, Iterable, Iterator
@@ -11,28 +11,31 @@ from dataclasses import dataclass
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.feedback.gains import Gains
-from rotemina.sim.messages import message
-from rotemina.sim.tuning.errors import TuningError
-from rotemina.sim.tuning.objectives import SecondObjective
-from rotemina.sim.tuning.pareto_front import Point
-from rotemina.sim.tuning.performance_figures import Figures
+from rotemina.sim.errors import TuningError
+from rotemina.sim.feedback import ControllerGains
+from rotemina.sim.tuning.pareto_front import FrontPoint, SecondObjective
+from rotemina.sim.tuning.performance_figures import TuningFigures
 from rotemina.sim.tuning.search_problem import VARIABLES, TuningProblem
 
-_NEVER = 1e6  # an objective, and a broken constraint, of what cannot be simulated
-# A search of the most generations and individuals takes days; one of more fills the memory.
-_BOUNDS = {"generations": (1, 10_000), "population": (4, 10_000), "seed": (0, 2**32 - 1)}
-Mapper = Callable[[Callable[[Gains], Figures], Iterable[Gains]], Iterable[Figures]]
+# Objectives and excesses over constraints are limited to this value, which also stands for gains
+# that cannot be simulated.
+_MAX_OBJECTIVE = 1e6
+# A search with the largest number of generations and the largest population takes days. A larger
+# one would exhaust the memory.
+_SETTING_BOUNDS = {"generations": (1, 10_000), "population": (4, 10_000), "seed": (0, 2**32 - 1)}
+EvaluationMap = Callable[
+    [Callable[[ControllerGains], TuningFigures], Iterable[ControllerGains]], Iterable[TuningFigures]
+]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SearchSettings:
-    """How long and for what is searched.
+    """Extent and second objective of a search.
 
     Attributes
     ----------
     generations, population, seed : int
-    against : Against
+    against : SecondObjective
     """
 
     generations: int = 50
@@ -41,42 +44,45 @@ class SearchSettings:
     against: SecondObjective = SecondObjective.EFFORT
 
     def __post_init__(self) -> None:
-        for name, (least, most) in _BOUNDS.items():
-            if not least <= getattr(self, name) <= most:
+        for name, (low, high) in _SETTING_BOUNDS.items():
+            if not low <= getattr(self, name) <= high:
                 raise TuningError(
-                    message("engine", "{name} {value}: must be {least} to {most}").fill(
-                        name=name, value=getattr(self, name), least=least, most=most
-                    )
+                    "{name} {value}: must be {least} to {most}",
+                    name=name,
+                    value=getattr(self, name),
+                    least=low,
+                    most=high,
                 )
 
 
 @dataclass(frozen=True, slots=True)
-class Generation:
-    """The state after ``done`` of ``total`` generations.
+class SearchGeneration:
+    """State of a search after ``done`` of ``total`` generations.
 
-    ``front`` holds the best points that break no constraint, by rising tracking error; empty where
-    there is none yet.
+    ``front`` contains the best points that violate no constraint, in order of rising tracking
+    error. It is empty if there is no such point yet.
     """
 
     done: int
     total: int
-    front: tuple[Point, ...]
+    front: tuple[FrontPoint, ...]
 
     @property
-    def share(self) -> float:
-        """Of the whole that is done."""
+    def completed_share(self) -> float:
+        """Completed share of all generations."""
         return self.done / self.total
 
 
-def generations(
-    problem: TuningProblem, settings: SearchSettings, evaluate_all: Mapper = map
-) -> Iterator[Generation]:
-    """Search, and yield the state after each generation; ending the iteration ends the search.
+def run_search(
+    problem: TuningProblem, settings: SearchSettings, evaluate_all: EvaluationMap = map
+) -> Iterator[SearchGeneration]:
+    """Search for gains and yield the state after each generation.
 
-    ``evaluate_all`` is ``map``, or one that works on several cores: figures depend on gains alone,
-    so the search is the same.
+    The search stops when the caller stops iterating. ``evaluate_all`` is ``map`` or a parallel map.
+    Figures depend only on the gains, so both give the same result.
     """
-    # The library takes tenths of a second to load, for which no start of the window waits.
+    # Imported here, because the library takes tenths of a second to load and would delay every
+    # start of the program.
     from pymoo.algorithms.moo.nsga2 import NSGA2
     from pymoo.core.evaluator import Evaluator
     from pymoo.core.problem import Problem
@@ -85,46 +91,55 @@ def generations(
     space = Problem(n_var=len(VARIABLES), n_obj=2, n_ieq_constr=3, xl=0.0, xu=1.0)
     algorithm = NSGA2(pop_size=settings.population)
     algorithm.setup(space, termination=("n_gen", settings.generations), seed=settings.seed)
-    known: dict[bytes, Point] = {}
+    evaluated_points: dict[bytes, FrontPoint] = {}
     for done in range(1, settings.generations + 1):
-        asked = algorithm.ask()
-        shares = np.ascontiguousarray(asked.get("X"), dtype=np.float64)
+        individuals = algorithm.ask()
+        shares = np.ascontiguousarray(individuals.get("X"), dtype=np.float64)
         gains = [problem.gains_of(row) for row in shares]
         figures = list(evaluate_all(problem.evaluate, gains))
-        known |= {
-            row.tobytes(): Point(gains=own, figures=found)
-            for row, own, found in zip(shares, gains, figures, strict=True)
+        evaluated_points |= {
+            row.tobytes(): FrontPoint(gains=row_gains, figures=row_figures)
+            for row, row_gains, row_figures in zip(shares, gains, figures, strict=True)
         }
         scored = StaticProblem(
             space,
-            F=np.array([objectives_of(one, settings.against) for one in figures]),
-            G=np.array([_broken(one, problem) for one in figures]),
+            F=np.array([compute_objectives(candidate, settings.against) for candidate in figures]),
+            G=np.array([_compute_constraint_excess(candidate, problem) for candidate in figures]),
         )
-        Evaluator().eval(scored, asked)
-        algorithm.tell(infills=asked)
-        yield Generation(done, settings.generations, _front(algorithm.opt, known, problem))
+        Evaluator().eval(scored, individuals)
+        algorithm.tell(infills=individuals)
+        yield SearchGeneration(
+            done,
+            settings.generations,
+            _make_admissible_front(algorithm.opt, evaluated_points, problem),
+        )
 
 
-def objectives_of(figures: Figures, against: SecondObjective) -> tuple[float, float]:
-    """Return the objectives to minimise."""
+def compute_objectives(figures: TuningFigures, against: SecondObjective) -> tuple[float, float]:
+    """Return the two objectives, which are to be minimised."""
     second = figures.settling_s if against is SecondObjective.SETTLING else figures.effort
-    return min(figures.tracking_rms, _NEVER), min(second, _NEVER)
+    return min(figures.tracking_rms, _MAX_OBJECTIVE), min(second, _MAX_OBJECTIVE)
 
 
-def _broken(figures: Figures, problem: TuningProblem) -> FloatArray:
-    """Return by how much each constraint is broken; none above zero is kept."""
-    bounds = problem.constraints
+def _compute_constraint_excess(figures: TuningFigures, problem: TuningProblem) -> FloatArray:
+    """Return the excess (3,) of each constraint, which is violated above zero."""
+    constraints = problem.constraints
     excess = (
-        figures.peak_sensitivity / bounds.peak_sensitivity - 1.0,
-        figures.overshoot - bounds.overshoot,
+        figures.peak_sensitivity / constraints.peak_sensitivity - 1.0,
+        figures.overshoot - constraints.overshoot,
         figures.limited,
     )
-    return np.minimum(np.array(excess, dtype=np.float64), _NEVER)
+    return np.minimum(np.array(excess, dtype=np.float64), _MAX_OBJECTIVE)
 
 
-def _front(best: object, known: dict[bytes, Point], problem: TuningProblem) -> tuple[Point, ...]:
-    """Return the points of the first front that break no constraint, without copies."""
-    rows = np.ascontiguousarray(best.get("X"), dtype=np.float64)  # type: ignore[attr-defined]
-    points = {row.tobytes(): known[row.tobytes()] for row in rows}.values()
-    kept = [point for point in points if (_broken(point.figures, problem) <= 0.0).all()]
-    return tuple(sorted(kept, key=lambda point: point.figures.tracking_rms))
+def _make_admissible_front(
+    best_individuals: object, evaluated_points: dict[bytes, FrontPoint], problem: TuningProblem
+) -> tuple[FrontPoint, ...]:
+    rows = np.ascontiguousarray(best_individuals.get("X"), dtype=np.float64)  # type: ignore[attr-defined]
+    points = {row.tobytes(): evaluated_points[row.tobytes()] for row in rows}.values()
+    admissible = [
+        point
+        for point in points
+        if (_compute_constraint_excess(point.figures, problem) <= 0.0).all()
+    ]
+    return tuple(sorted(admissible, key=lambda point: point.figures.tracking_rms))

@@ -1,4 +1,4 @@
-"""The result of a tuning, and its file: a small TOML that says how it came about."""
+"""The result of a tuning and its TOML file, which records how the result was obtained."""
 
 from collections.abc import Mapping
 from dataclasses import asdict, replace
@@ -11,36 +11,32 @@ import tomli_w
 from pydantic import TypeAdapter, ValidationError
 from pydantic.dataclasses import dataclass
 
-from rotemina.sim.errors import reason_of
-from rotemina.sim.input_files import parse_toml, read_text
-from rotemina.sim.messages import message
-from rotemina.sim.robot.numbers import FORBID_UNKNOWN
-from rotemina.sim.tuning.errors import TuningError
-from rotemina.sim.tuning.objectives import SecondObjective
-from rotemina.sim.tuning.pareto_front import Point, knee_of
-from rotemina.sim.tuning.search import Generation, SearchSettings, objectives_of
+from rotemina.sim.errors import TuningError, describe_exception
+from rotemina.sim.files import parse_toml, read_text, replace_file
+from rotemina.sim.robot import FORBID_UNKNOWN
+from rotemina.sim.tuning.pareto_front import FrontPoint, SecondObjective, find_knee
+from rotemina.sim.tuning.search import SearchGeneration, SearchSettings, compute_objectives
 from rotemina.sim.tuning.search_problem import TuningProblem
-from rotemina.sim.whole_files import replaced
 
-_MOST_BYTES = 4_000_000
+_MAX_FILE_BYTES = 4_000_000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
-class Provenance:
-    """How a tuning came about.
+class TuningProvenance:
+    """Program, robot and settings of a tuning.
 
     Attributes
     ----------
     program, robot : str
     effects : tuple of str
-        Those that acted on the simulated axis.
+        Effects of the simulated axis.
     inverse : str
-        Of the feed-forward; empty without.
+        Inverse in the feed-forward; empty if there is none.
     generations, done, population, seed : int
-        How many were requested, and done.
-    against : Against
+        Requested and completed generations, size of the population, and seed.
+    against : SecondObjective
     peak_sensitivity, overshoot, spread : float
-        Constraints, and by how much gain and resonance were off.
+        Constraints, and the relative deviation of gain and resonance.
     """
 
     program: str
@@ -57,13 +53,13 @@ class Provenance:
     spread: float
 
     @property
-    def whole(self) -> bool:
-        """Whether the search was not stopped before its end."""
+    def is_complete(self) -> bool:
+        """Whether the search ran to its end."""
         return self.done == self.generations
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
-class Tuning:
+class TuningResult:
     """A front of gains for one axis.
 
     Attributes
@@ -72,10 +68,10 @@ class Tuning:
     rate_hz : float
     delay : int
     recommended, chosen : int
-        Numbers of points, from 0.
-    points : tuple of Point
-        By rising tracking error.
-    provenance : Provenance
+        Indices of points, from 0.
+    points : tuple of FrontPoint
+        In order of rising tracking error.
+    provenance : TuningProvenance
     """
 
     format: Literal["rotemina-tuning 1"] = "rotemina-tuning 1"
@@ -84,16 +80,16 @@ class Tuning:
     delay: int
     recommended: int
     chosen: int
-    provenance: Provenance
-    points: tuple[Point, ...]
+    provenance: TuningProvenance
+    points: tuple[FrontPoint, ...]
 
     @property
-    def best(self) -> Point:
+    def chosen_point(self) -> FrontPoint:
         """The chosen point."""
         return self.points[self.chosen]
 
-    def choosing(self, number: int) -> "Tuning":
-        """Return it with another point chosen.
+    def with_choice(self, number: int) -> "TuningResult":
+        """Return the tuning with another point chosen.
 
         Raises
         ------
@@ -102,44 +98,44 @@ class Tuning:
         """
         if not 0 <= number < len(self.points):
             raise TuningError(
-                message(
-                    "engine", "point {number}: the front has points 0 to {count}; choose one"
-                ).fill(number=number, count=len(self.points) - 1)
+                "point {number}: the front has points 0 to {count}; choose one",
+                number=number,
+                count=len(self.points) - 1,
             )
         return replace(self, chosen=number)
 
 
-def tuning_of(
-    problem: TuningProblem, settings: SearchSettings, last: Generation, *, inverse: str = ""
-) -> Tuning:
-    """Return the result of a search that came as far as ``last``; the knee is recommended.
+def make_tuning(
+    problem: TuningProblem, settings: SearchSettings, last: SearchGeneration, *, inverse: str = ""
+) -> TuningResult:
+    """Return the result of a search that ended with the generation ``last``.
+
+    The knee of the front is recommended and chosen.
 
     Raises
     ------
     TuningError
-        If no point keeps the constraints.
+        If no point meets the constraints.
     """
     if not last.front:
-        bounds = problem.constraints
+        constraints = problem.constraints
         raise TuningError(
-            message(
-                "engine",
-                "axis {axis}: after {done} generations no gains keep Ms ≤ {peak_sensitivity} "
-                "and overshoot ≤ {overshoot} %; search longer, use a faster loop, or permit "
-                "more",
-            ).fill(
-                axis=problem.axis,
-                done=last.done,
-                peak_sensitivity=bounds.peak_sensitivity,
-                overshoot=100.0 * bounds.overshoot,
-            )
+            "axis {axis}: after {done} generations no gains meet Ms ≤ {peak_sensitivity} "
+            "and overshoot ≤ {overshoot} %; search longer, use a faster loop, or relax the "
+            "limits",
+            axis=problem.axis,
+            done=last.done,
+            peak_sensitivity=constraints.peak_sensitivity,
+            overshoot=100.0 * constraints.overshoot,
         )
-    objectives = np.array([objectives_of(one.figures, settings.against) for one in last.front])
-    knee = knee_of(objectives)
-    provenance = Provenance(
+    objectives = np.array(
+        [compute_objectives(point.figures, settings.against) for point in last.front]
+    )
+    knee = find_knee(objectives)
+    provenance = TuningProvenance(
         program=f"rotemina {version('rotemina')}",
         robot=problem.robot.name,
-        effects=tuple(str(one) for one in problem.loop.plant.effects),
+        effects=tuple(str(effect) for effect in problem.loop.plant.effects),
         inverse=inverse,
         generations=settings.generations,
         done=last.done,
@@ -150,7 +146,7 @@ def tuning_of(
         overshoot=problem.constraints.overshoot,
         spread=problem.spread,
     )
-    return Tuning(
+    return TuningResult(
         axis=problem.axis,
         rate_hz=problem.rate_hz,
         delay=problem.delay,
@@ -161,62 +157,65 @@ def tuning_of(
     )
 
 
-def document_of(tuning: Tuning) -> dict[str, Any]:
-    """Return a tuning as plain tables, those that say nothing left out."""
-    found: dict[str, Any] = _without_none(asdict(tuning))
-    return found
+def to_document(tuning: TuningResult) -> dict[str, Any]:
+    """Return a tuning as plain tables without empty entries."""
+    document: dict[str, Any] = _drop_none(asdict(tuning))
+    return document
 
 
-def save_tuning(tuning: Tuning, path: str | PathLike[str]) -> None:
+def save_tuning(tuning: TuningResult, path: str | PathLike[str]) -> None:
     """Write a tuning as TOML, completely or not at all.
 
     Raises
     ------
     FileWriteError
-        If nothing can be written there.
+        If the file cannot be written.
     """
-    with replaced(path) as file:
-        file.write(tomli_w.dumps(document_of(tuning)).encode("utf-8"))
+    with replace_file(path) as file:
+        file.write(tomli_w.dumps(to_document(tuning)).encode("utf-8"))
 
 
-def load_tuning(path: str | PathLike[str]) -> Tuning:
-    """Read a tuning.
+def load_tuning(path: str | PathLike[str]) -> TuningResult:
+    """Read a tuning from a file.
 
     Raises
     ------
     TuningError
-        With file, key, value and bound.
+        If the file is not valid. The message names file, key, value and bound.
     """
     name = fspath(path)
-    table = parse_toml(read_text(path, TuningError, _MOST_BYTES), name, TuningError)
+    table = parse_toml(read_text(path, TuningError, _MAX_FILE_BYTES), name, TuningError)
     try:
-        found = TypeAdapter(Tuning).validate_python(table)
+        tuning = TypeAdapter(TuningResult).validate_python(table)
     except ValidationError as error:
-        first = error.errors()[0]
-        key = ".".join(str(part) for part in first["loc"])
+        first_error = error.errors()[0]
+        key = ".".join(str(part) for part in first_error["loc"])
         raise TuningError(
-            message("engine", "{name}: {key} = {value}: {reason}").fill(
-                name=name, key=key, value=repr(first["input"]), reason=first["msg"]
-            )
+            "{name}: {key} = {value}: {reason}",
+            name=name,
+            key=key,
+            value=repr(first_error["input"]),
+            reason=first_error["msg"],
         ) from error
-    except ValueError as error:  # of the gains' own checks
-        raise TuningError(
-            message("engine", "{name}: {error}").fill(name=name, error=reason_of(error))
-        ) from error
-    last = len(found.points) - 1
+    except ValueError as error:
+        # The gains check their own values.
+        raise TuningError("{name}: {error}", name=name, error=describe_exception(error)) from error
+    last_index = len(tuning.points) - 1
     for key in ("recommended", "chosen"):
-        if not 0 <= getattr(found, key) <= last:
+        if not 0 <= getattr(tuning, key) <= last_index:
             raise TuningError(
-                message("engine", "{name}: {key} = {value}: the file has points 0 to {last}").fill(
-                    name=name, key=key, value=getattr(found, key), last=last
-                )
+                "{name}: {key} = {value}: the file has points 0 to {last}",
+                name=name,
+                key=key,
+                value=getattr(tuning, key),
+                last=last_index,
             )
-    return found
+    return tuning
 
 
-def _without_none(value: Any) -> Any:
+def _drop_none(value: Any) -> Any:
     if isinstance(value, Mapping):
-        return {key: _without_none(own) for key, own in value.items() if own is not None}
+        return {key: _drop_none(item) for key, item in value.items() if item is not None}
     if isinstance(value, list | tuple):
-        return [_without_none(own) for own in value]
+        return [_drop_none(item) for item in value]
     return str(value) if isinstance(value, SecondObjective) else value

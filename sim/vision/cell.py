@@ -1,8 +1,9 @@
-"""The outline of a cell, and how a tip stands to it.
+"""The outline of a cell, and the distance of a tip from its membrane.
 
-From a place inside, rays look for the dark line of the membrane; the closed path around that is
-darkest on the whole is found by dynamic programming (A. Amini et al., PAMI 12 (1990)), and an
-ellipse fitted to it by robust least squares. Its covariance follows from the residuals.
+The image is sampled along rays from a point inside the cell, where the membrane is a dark line.
+Dynamic programming finds the closed path that is darkest in total (A. Amini et al., PAMI 12
+(1990)). An ellipse is fitted to the path by robust least squares, and its covariance follows from
+the residuals.
 """
 
 from dataclasses import dataclass
@@ -12,59 +13,66 @@ import numpy as np
 import scipy
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.messages import message
-from rotemina.sim.quantities import fixed, rounded
-from rotemina.sim.vision.errors import VisionError
+from rotemina.sim.errors import VisionError
+from rotemina.sim.messages import format_fixed, format_rounded
 from rotemina.sim.vision.image import Image
-from rotemina.sim.vision.registration import flattened
+from rotemina.sim.vision.registration import flatten_brightness
 
 _RAYS = 120
-_STEEPEST = 2  # px by which the radius may change from ray to ray
-_LEAST_DARKER = 0.02  # share of the light that the membrane takes, on average of the rays
-_LINE_PX = 2.0  # half width of what is taken for a line
-_FAR = 3.0  # px off the ellipse that counts less
-_MOST_RMS = 0.08  # of the mean radius, between path and ellipse
-_RIM_PX = 0.7  # by which a bright rim moves the darkest line, as seen on simulated cells
-_STEP = 1e-4
+# Largest change of the radius from ray to ray.
+_MAX_RADIUS_CHANGE_PX = 2
+# Smallest share of the light that the membrane absorbs, as a mean over the rays.
+_MIN_ABSORPTION_RATIO = 0.02
+# Half width of a line.
+_LINE_HALF_WIDTH_PX = 2.0
+# Distance from the ellipse beyond which a point has less weight.
+_OUTLIER_PX = 3.0
+# Largest rms distance between path and ellipse, as a share of the mean radius.
+_MAX_RMS_RATIO = 0.08
+# Shift of the darkest line by a bright rim, from simulated cells.
+_RIM_DEVIATION_PX = 0.7
+# Step of the numerical derivatives, px or rad.
+_DIFFERENCE_STEP = 1e-4
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CellOutline:
-    """An ellipse in the picture.
+    """Outline of a cell as an ellipse in the picture.
 
     Attributes
     ----------
-    figures : (5,)
-        Column and row of the centre, half axes, px, and where the first one points, rad.
+    parameters : (5,)
+        Column and row of the centre and the two half axes, px, and the direction of the first half
+        axis, rad.
     covariance : (5, 5)
-        Of those.
+        Covariance of the parameters.
     path : (rays, 2)
-        Where the membrane was seen, px.
-    darker : float
-        Share of the light that it takes.
+        Detected points of the membrane, px.
+    absorption : float
+        Share of the light that the membrane absorbs.
     """
 
-    figures: FloatArray
+    parameters: FloatArray
     covariance: FloatArray
     path: FloatArray
-    darker: float
+    absorption: float
 
     @property
     def centre(self) -> FloatArray:
-        """Column and row (2,), px."""
-        return self.figures[:2]
+        """Column and row (2,), px, of the centre."""
+        return self.parameters[:2]
 
 
 @dataclass(frozen=True, slots=True)
 class MembraneAhead:
-    """The membrane in a tip's path; each with its standard deviation.
+    """Distance and angle at which the path of a tip meets the membrane.
 
     Attributes
     ----------
     distance, distance_uncertainty : float
-        Along the way, px; negative where the tip is inside.
+        Distance along the path and its standard deviation, px; negative if the tip is inside.
     angle, angle_uncertainty : float
-        Between the way and the membrane's normal, rad, 0 to π/2; 0 is head on.
+        Angle between path and normal of the membrane and its standard deviation, rad, 0 to π/2.
     """
 
     distance: float
@@ -74,197 +82,222 @@ class MembraneAhead:
 
 
 def find_cell(image: Image, near: FloatArray, radii: tuple[float, float]) -> CellOutline:
-    """Find the outline of the cell about ``near`` (2,), px, a place inside it.
+    """Find the outline of the cell around a point.
 
     Parameters
     ----------
     image : image
     near : (2,)
+        A point inside the cell, px.
     radii : (float, float)
-        Between which distances from there the membrane is, px.
+        Smallest and largest distance of the membrane from this point, px.
 
     Raises
     ------
     VisionError
-        If no line closes about the place, or it is no ellipse.
+        If no dark line surrounds the point, or the line is not an ellipse.
     """
     low, high = radii
     if not 2.0 < low < high:
         raise VisionError(
-            message(
-                "engine", "cell: radii {low} to {high} px; must be more than 2 and increasing"
-            ).fill(low=low, high=high)
+            "cell: radii {low} to {high} px; must be more than 2 and increasing", low=low, high=high
         )
     centre = np.asarray(near, dtype=float)
-    soft = np.asarray(cv2.GaussianBlur(flattened(image), (0, 0), 1.0), dtype=np.float32)
-    for _ in range(2):  # the second time from its own middle
-        path, darker = _path(soft, centre, low, high)
-        if darker < _LEAST_DARKER:
+    smoothed = np.asarray(
+        cv2.GaussianBlur(flatten_brightness(image), (0, 0), 1.0), dtype=np.float32
+    )
+    # The second search starts from the centre of the first ellipse.
+    for _ in range(2):
+        path, absorption = _find_path(smoothed, centre, low, high)
+        if absorption < _MIN_ABSORPTION_RATIO:
             raise VisionError(
-                message(
-                    "engine",
-                    "cell: the line around {column}, {row} px absorbs {darker} % of the "
-                    "light, must be at least {least} %; focus on the membrane, or click into "
-                    "the cell",
-                ).fill(
-                    column=fixed(centre[0], 0),
-                    row=fixed(centre[1], 0),
-                    darker=fixed(100.0 * darker, 1),
-                    least=rounded(100.0 * _LEAST_DARKER, 6),
-                )
+                "cell: the line around {column}, {row} px absorbs {darker} % of the "
+                "light, must be at least {least} %; focus on the membrane, or click into "
+                "the cell",
+                column=format_fixed(centre[0], 0),
+                row=format_fixed(centre[1], 0),
+                darker=format_fixed(100.0 * absorption, 1),
+                least=format_rounded(100.0 * _MIN_ABSORPTION_RATIO, 6),
             )
-        found, spread, rms = _ellipse(path, centre)
-        centre = found[:2]
-    if rms > _MOST_RMS * float(found[2:4].mean()):
+        parameters, covariance, rms = _fit_ellipse(path, centre)
+        centre = parameters[:2]
+    if rms > _MAX_RMS_RATIO * float(parameters[2:4].mean()):
         raise VisionError(
-            message(
-                "engine",
-                "cell: the outline deviates from an ellipse by {rms} px rms, must be at most "
-                "{most} % of its radius; click into the middle of one cell",
-            ).fill(rms=fixed(rms, 1), most=rounded(100.0 * _MOST_RMS, 6))
+            "cell: the outline deviates from an ellipse by {rms} px rms, must be at most "
+            "{most} % of its radius; click into the middle of one cell",
+            rms=format_fixed(rms, 1),
+            most=format_rounded(100.0 * _MAX_RMS_RATIO, 6),
         )
-    return CellOutline(found, spread, path, darker)
+    return CellOutline(parameters, covariance, path, absorption)
 
 
-def membrane_ahead(
+def find_membrane_ahead(
     cell: CellOutline, tip: FloatArray, tip_covariance: FloatArray, direction: float
 ) -> MembraneAhead | None:
-    """Return how far the membrane is from ``tip`` (2,), px, that goes in ``direction``, rad.
+    """Return where a tip that moves from ``tip`` (2,), px, in ``direction``, rad, meets the cell.
 
-    None where that way misses the cell, or leads away from it. Uncertainties are of first order.
+    Return None if the path misses the cell or leads away from it. Uncertainties are propagated to
+    first order.
     """
-    values = np.concatenate([cell.figures, tip])
-    found = _ahead(values, direction)
-    if found is None:
+    values = np.concatenate([cell.parameters, tip])
+    nominal = _intersect_ellipse(values, direction)
+    if nominal is None:
         return None
-    spread = np.zeros((7, 7))
-    spread[:5, :5], spread[5:, 5:] = cell.covariance, tip_covariance
-    rows = []
+    covariance = np.zeros((7, 7))
+    covariance[:5, :5], covariance[5:, 5:] = cell.covariance, tip_covariance
+    gradient_rows = []
     for index in range(7):
         step = np.zeros(7)
-        step[index] = _STEP
-        more, less = _ahead(values + step, direction), _ahead(values - step, direction)
-        if more is None or less is None:  # it only just grazes the cell
-            return MembraneAhead(found[0], float("inf"), found[1], float("inf"))
-        rows.append((np.array(more) - np.array(less)) / (2.0 * _STEP))
-    gradients = np.array(rows).T
-    doubts = np.sqrt(np.diag(gradients @ spread @ gradients.T))
-    return MembraneAhead(found[0], float(doubts[0]), found[1], float(doubts[1]))
+        step[index] = _DIFFERENCE_STEP
+        upper, lower = (
+            _intersect_ellipse(values + step, direction),
+            _intersect_ellipse(values - step, direction),
+        )
+        if upper is None or lower is None:
+            # The path nearly misses the cell, so the derivatives do not exist.
+            return MembraneAhead(nominal[0], float("inf"), nominal[1], float("inf"))
+        gradient_rows.append((np.array(upper) - np.array(lower)) / (2.0 * _DIFFERENCE_STEP))
+    gradients = np.array(gradient_rows).T
+    deviations = np.sqrt(np.diag(gradients @ covariance @ gradients.T))
+    return MembraneAhead(nominal[0], float(deviations[0]), nominal[1], float(deviations[1]))
 
 
-def _ahead(values: FloatArray, direction: float) -> tuple[float, float] | None:
+def _intersect_ellipse(values: FloatArray, direction: float) -> tuple[float, float] | None:
     """Return distance and angle for the ellipse and tip in ``values`` (7,)."""
-    centre, axes, turn, tip = values[:2], values[2:4], values[4], values[5:]
-    c, s = np.cos(turn), np.sin(turn)
-    own = np.array([[c, s], [-s, c]])  # into the ellipse's axes
-    begin = own @ (tip - centre) / axes
-    aim = np.array([np.cos(direction), np.sin(direction)])
-    way = own @ aim / axes
-    a, b, k = way @ way, begin @ way, begin @ begin - 1.0
-    under = b * b - a * k
-    if under <= 0.0:
+    centre, axes, tilt, tip = values[:2], values[2:4], values[4], values[5:]
+    c, s = np.cos(tilt), np.sin(tilt)
+    # Rotation into the axes of the ellipse.
+    rotation = np.array([[c, s], [-s, c]])
+    relative_tip = rotation @ (tip - centre) / axes
+    unit_direction = np.array([np.cos(direction), np.sin(direction)])
+    relative_direction = rotation @ unit_direction / axes
+    a, b, k = (
+        relative_direction @ relative_direction,
+        relative_tip @ relative_direction,
+        relative_tip @ relative_tip - 1.0,
+    )
+    discriminant = b * b - a * k
+    if discriminant <= 0.0:
         return None
-    distance = float((-b - np.sqrt(under)) / a)
+    distance = float((-b - np.sqrt(discriminant)) / a)
     if k > 0.0 and distance < 0.0:
-        return None  # it is behind
-    normal = own.T @ ((begin + distance * way) / axes)
-    cosine = abs(float(aim @ normal)) / float(np.linalg.norm(normal))
+        # The tip is outside, and the cell is behind it.
+        return None
+    normal = rotation.T @ ((relative_tip + distance * relative_direction) / axes)
+    cosine = abs(float(unit_direction @ normal)) / float(np.linalg.norm(normal))
     return distance, float(np.arccos(min(cosine, 1.0)))
 
 
-def _path(soft: Image, centre: FloatArray, low: float, high: float) -> tuple[FloatArray, float]:
-    """Return the darkest closed line (rays, 2), px, and how much darker it is than beside it."""
+def _find_path(
+    smoothed: Image, centre: FloatArray, low: float, high: float
+) -> tuple[FloatArray, float]:
+    """Return the darkest closed line (rays, 2), px, and its absorption.
+
+    The absorption is the mean difference between the surroundings and the line.
+    """
     angles = np.linspace(0.0, 2.0 * np.pi, _RAYS, endpoint=False)
     radius = np.arange(low, high + 0.5)
-    away = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
-    points = (centre + radius[None, :, None] * away[:, None]).astype(np.float32)
-    seen = cv2.remap(
-        soft, points[..., 0], points[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE
+    directions = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+    points = (centre + radius[None, :, None] * directions[:, None]).astype(np.float32)
+    samples = cv2.remap(
+        smoothed, points[..., 0], points[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE
     )
-    beside = cv2.GaussianBlur(seen, (0, 0), sigmaX=3.0 * _LINE_PX, sigmaY=0.5)
-    line = cv2.GaussianBlur(seen, (0, 0), sigmaX=0.5 * _LINE_PX, sigmaY=0.5)
-    darker = np.asarray(beside - line, dtype=np.float64)
-    chosen = _closed(darker)
+    surroundings = cv2.GaussianBlur(samples, (0, 0), sigmaX=3.0 * _LINE_HALF_WIDTH_PX, sigmaY=0.5)
+    line = cv2.GaussianBlur(samples, (0, 0), sigmaX=0.5 * _LINE_HALF_WIDTH_PX, sigmaY=0.5)
+    line_contrast = np.asarray(surroundings - line, dtype=np.float64)
+    columns = _find_closed_path(line_contrast)
     rows = np.arange(_RAYS)
-    inner = np.clip(chosen, 1, len(radius) - 2)
-    left, mid, right = (darker[rows, inner + k] for k in (-1, 0, 1))
-    bend = left - 2.0 * mid + right
-    part = np.where(bend < 0.0, 0.5 * (left - right) / np.where(bend < 0.0, bend, -1.0), 0.0)
-    exact = radius[inner] + np.clip(part, -0.5, 0.5)
-    return centre + exact[:, None] * away, float(darker[rows, chosen].mean())
+    inner_columns = np.clip(columns, 1, len(radius) - 2)
+    left, middle, right = (line_contrast[rows, inner_columns + k] for k in (-1, 0, 1))
+    curvature = left - 2.0 * middle + right
+    fraction = np.where(
+        curvature < 0.0, 0.5 * (left - right) / np.where(curvature < 0.0, curvature, -1.0), 0.0
+    )
+    exact_radius = radius[inner_columns] + np.clip(fraction, -0.5, 0.5)
+    return centre + exact_radius[:, None] * directions, float(line_contrast[rows, columns].mean())
 
 
-def _closed(gain: FloatArray) -> np.ndarray:
-    """Return the column (rays,) of the path of most gain that comes back to where it began."""
-    start = _best(gain, None)[len(gain) // 2]
-    # Begun where the open path is surest, in its middle, it is closed there.
-    turned = np.roll(gain, -(len(gain) // 2), axis=0)
-    return np.roll(_best(turned, int(start)), len(gain) // 2)
+def _find_closed_path(gain: FloatArray) -> np.ndarray:
+    """Return the columns (rays,) of the closed path with the largest total gain."""
+    start = _find_best_path(gain, None)[len(gain) // 2]
+    # The middle of the open path is most reliable, so the closed path begins and ends there.
+    rolled = np.roll(gain, -(len(gain) // 2), axis=0)
+    return np.roll(_find_best_path(rolled, int(start)), len(gain) // 2)
 
 
-def _best(gain: FloatArray, ends: int | None) -> np.ndarray:
+def _find_best_path(gain: FloatArray, ends: int | None) -> np.ndarray:
+    """Return the columns (rays,) of the path with the largest total gain.
+
+    If ``ends`` is given, the path begins in this column and ends next to it.
+    """
     rays, columns = gain.shape
     total = gain[0].copy()
     if ends is not None:
         total[np.abs(np.arange(columns) - ends) > 0] = -np.inf
-    came = np.zeros((rays, columns), dtype=int)
-    moves = range(-_STEEPEST, _STEEPEST + 1)
+    previous_columns = np.zeros((rays, columns), dtype=int)
+    moves = range(-_MAX_RADIUS_CHANGE_PX, _MAX_RADIUS_CHANGE_PX + 1)
     for ray in range(1, rays):
-        padded = np.pad(total, _STEEPEST, constant_values=-np.inf)
-        options = np.stack([padded[_STEEPEST + m : _STEEPEST + m + columns] for m in moves])
-        pick = options.argmax(axis=0)
-        came[ray] = np.clip(np.arange(columns) + pick - _STEEPEST, 0, columns - 1)
+        padded = np.pad(total, _MAX_RADIUS_CHANGE_PX, constant_values=-np.inf)
+        options = np.stack(
+            [padded[_MAX_RADIUS_CHANGE_PX + m : _MAX_RADIUS_CHANGE_PX + m + columns] for m in moves]
+        )
+        best_move = options.argmax(axis=0)
+        previous_columns[ray] = np.clip(
+            np.arange(columns) + best_move - _MAX_RADIUS_CHANGE_PX, 0, columns - 1
+        )
         total = options.max(axis=0) + gain[ray]
     if ends is not None:
-        total[np.abs(np.arange(columns) - ends) > _STEEPEST] = -np.inf
+        total[np.abs(np.arange(columns) - ends) > _MAX_RADIUS_CHANGE_PX] = -np.inf
     path = np.empty(rays, dtype=int)
     path[-1] = int(np.argmax(total))
     for ray in range(rays - 1, 0, -1):
-        path[ray - 1] = came[ray, path[ray]]
+        path[ray - 1] = previous_columns[ray, path[ray]]
     return path
 
 
-def _ellipse(path: FloatArray, centre: FloatArray) -> tuple[FloatArray, FloatArray, float]:
+def _fit_ellipse(path: FloatArray, centre: FloatArray) -> tuple[FloatArray, FloatArray, float]:
     """Return the ellipse (5,), its covariance (5, 5) and the rms distance of the path from it."""
     radius = float(np.linalg.norm(path - centre, axis=1).mean())
 
-    def off(values: FloatArray) -> FloatArray:
+    def compute_distances(values: FloatArray) -> FloatArray:
         c, s = np.cos(values[4]), np.sin(values[4])
         x, y = (path - values[:2]).T
-        own = np.stack([c * x + s * y, c * y - s * x])
-        level = np.linalg.norm(own / values[2:4, None], axis=0)
-        # Sampson's distance: the level over its gradient.
-        slope = np.linalg.norm(own / values[2:4, None] ** 2, axis=0) / np.maximum(level, 1e-9)
-        return np.asarray((level - 1.0) / np.maximum(slope, 1e-9))
+        rotated = np.stack([c * x + s * y, c * y - s * x])
+        radius_ratio = np.linalg.norm(rotated / values[2:4, None], axis=0)
+        # Sampson's distance: the difference of the ratio from 1, divided by its gradient.
+        slope = np.linalg.norm(rotated / values[2:4, None] ** 2, axis=0) / np.maximum(
+            radius_ratio, 1e-9
+        )
+        return np.asarray((radius_ratio - 1.0) / np.maximum(slope, 1e-9))
 
     start = np.array([*centre, 1.05 * radius, 0.95 * radius, 0.0])
-    best = min(
+    best_fit = min(
         (
             scipy.optimize.least_squares(
-                off, np.array([*start[:4], turn]), loss="soft_l1", f_scale=_FAR
+                compute_distances, np.array([*start[:4], tilt]), loss="soft_l1", f_scale=_OUTLIER_PX
             )
-            for turn in (0.0, np.pi / 2)
+            for tilt in (0.0, np.pi / 2)
         ),
         key=lambda fit: float(fit.cost),
     )
-    found = _ordered(np.asarray(best.x, dtype=np.float64))
-    residual = off(np.asarray(best.x))
+    parameters = _order_half_axes(np.asarray(best_fit.x, dtype=np.float64))
+    residual = compute_distances(np.asarray(best_fit.x))
     scale = 1.4826 * float(np.median(np.abs(residual)))
-    jacobian = np.asarray(best.jac)
-    # Neighbouring rays see the same pixels: about every third says something of its own.
-    spread = 3.0 * scale**2 * np.linalg.pinv(jacobian.T @ jacobian)
-    spread[[2, 3], [2, 3]] += _RIM_PX**2
-    if found[2] != best.x[2]:
+    jacobian = np.asarray(best_fit.jac)
+    # Neighbouring rays sample the same pixels: only about every third one is independent.
+    covariance = 3.0 * scale**2 * np.linalg.pinv(jacobian.T @ jacobian)
+    covariance[[2, 3], [2, 3]] += _RIM_DEVIATION_PX**2
+    if parameters[2] != best_fit.x[2]:
         swap = [0, 1, 3, 2, 4]
-        spread = spread[np.ix_(swap, swap)]
-    return found, spread, float(np.sqrt((residual**2).mean()))
+        covariance = covariance[np.ix_(swap, swap)]
+    return parameters, covariance, float(np.sqrt((residual**2).mean()))
 
 
-def _ordered(values: FloatArray) -> FloatArray:
-    """Return an ellipse with its long half axis first, which points to the right."""
-    column, row, first, second, turn = values
+def _order_half_axes(values: FloatArray) -> FloatArray:
+    """Return the parameters with the long half axis first, pointing to the right."""
+    column, row, first, second, tilt = values
     first, second = abs(first), abs(second)
     if first < second:
-        first, second, turn = second, first, turn + np.pi / 2
-    turn = (turn + np.pi / 2) % np.pi - np.pi / 2
-    return np.array([column, row, first, second, turn])
+        first, second, tilt = second, first, tilt + np.pi / 2
+    tilt = (tilt + np.pi / 2) % np.pi - np.pi / 2
+    return np.array([column, row, first, second, tilt])

@@ -1,4 +1,4 @@
-"""Images as the computations take them: one plane of single precision."""
+"""Images for the computations: one plane of single precision."""
 
 from typing import Any
 
@@ -6,57 +6,54 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from rotemina.sim.messages import message
-from rotemina.sim.vision.errors import VisionError
+from rotemina.sim.errors import VisionError
 
 Image = NDArray[np.float32]
 
-LEAST_SIDE = 16  # px
-_LUMA = np.array([0.299, 0.587, 0.114], dtype=np.float32)  # ITU-R BT.601, of red, green, blue
+MIN_SIDE_PX = 16
+# Weights of red, green and blue according to ITU-R BT.601.
+_LUMA_WEIGHTS = np.array([0.299, 0.587, 0.114], dtype=np.float32)
 
 
-def grey(image: NDArray[Any]) -> Image:
-    """Return an image (rows, columns) or (rows, columns, 3: red, green, blue) as one plane.
+def to_grey(image: NDArray[Any]) -> Image:
+    """Return an image as one plane (rows, columns).
+
+    The image has the shape (rows, columns) or (rows, columns, 3), with red, green and blue.
 
     Raises
     ------
     VisionError
-        If it is no image, too small, not finite, or one brightness throughout (black or saturated).
+        If the shape is not that of an image, it is too small or not finite, or all pixels have the
+        same value (black or saturated).
     """
     array = np.asarray(image)
     if array.ndim == 3 and array.shape[2] == 3:
-        array = array.astype(np.float32) @ _LUMA
-    if array.ndim != 2 or min(array.shape) < LEAST_SIDE:
+        array = array.astype(np.float32) @ _LUMA_WEIGHTS
+    if array.ndim != 2 or min(array.shape) < MIN_SIDE_PX:
         raise VisionError(
-            message(
-                "engine",
-                "image: its shape is {shape}; must be (rows, columns) or (rows, columns, 3), at "
-                "least {least_side} px each way",
-            ).fill(shape=str(array.shape), least_side=LEAST_SIDE)
+            "image: its shape is {shape}; must be (rows, columns) or (rows, columns, 3), at "
+            "least {least_side} px each way",
+            shape=str(array.shape),
+            least_side=MIN_SIDE_PX,
         )
     plane = np.ascontiguousarray(array, dtype=np.float32)
     low, high = float(plane.min()), float(plane.max())
     if not np.isfinite([low, high]).all():
-        raise VisionError(
-            message(
-                "engine", "image: a pixel is not a finite number; the camera's data are damaged"
-            )
-        )
+        raise VisionError("image: a pixel is not a finite number; the camera's data are damaged")
     if low == high:
         raise VisionError(
-            message(
-                "engine",
-                "image: every pixel is {low}; the camera is dark, saturated or covered: "
-                "check lamp, shutter and exposure",
-            ).fill(low=low)
+            "image: every pixel is {low}; the camera is dark, saturated or covered: "
+            "check lamp, shutter and exposure",
+            low=low,
         )
     return plane
 
 
-def relative_to(image: Image, background: Image) -> Image:
-    """Return an image as a share of one that was taken without what is looked for.
+def divide_by_background(image: Image, background: Image) -> Image:
+    """Return an image divided by a background image, which does not contain the object.
 
-    Whatever stays, such as vignetting, dust and a cell at rest, goes out.
+    The result is free of everything that both images show, such as vignetting, dust and a cell at
+    rest.
 
     Raises
     ------
@@ -65,28 +62,24 @@ def relative_to(image: Image, background: Image) -> Image:
     """
     if image.shape != background.shape:
         raise VisionError(
-            message(
-                "engine",
-                "background: {columns} × {rows} px against an image of {image_columns} × "
-                "{image_rows} px; "
-                "take it again with this camera setting",
-            ).fill(
-                columns=background.shape[1],
-                rows=background.shape[0],
-                image_columns=image.shape[1],
-                image_rows=image.shape[0],
-            )
+            "background: {columns} × {rows} px against an image of {image_columns} × "
+            "{image_rows} px; take it again with this camera setting",
+            columns=background.shape[1],
+            rows=background.shape[0],
+            image_columns=image.shape[1],
+            image_rows=image.shape[0],
         )
-    least = 1e-3 * float(np.abs(background).max())
-    return np.asarray(image / np.maximum(background, least), dtype=np.float32)
+    min_brightness = 1e-3 * float(np.abs(background).max())
+    return np.asarray(image / np.maximum(background, min_brightness), dtype=np.float32)
 
 
-def noise_rms(image: Image) -> float:
-    """Return the noise of single pixels, as the median of second differences sees it.
+def estimate_noise_rms(image: Image) -> float:
+    """Estimate the rms noise of single pixels from the median of second differences.
 
-    Their kernel ``[1 -2 1; -2 4 -2; 1 -2 1]`` is blind to planes and edges along rows or columns;
-    white noise of rms σ comes out as 6σ, and edges are too few to move the median.
-    Source: J. Immerkær, "Fast noise variance estimation", CVIU 64 (1996), made robust.
+    Their kernel ``[1 -2 1; -2 4 -2; 1 -2 1]`` does not respond to planes or to edges along rows or
+    columns. White noise of rms σ gives differences of rms 6σ. Other edges are too few to influence
+    the median. Source: J. Immerkær, "Fast noise variance estimation", CVIU 64 (1996), here with the
+    median to make it robust.
     """
     kernel = np.array([[1, -2, 1], [-2, 4, -2], [1, -2, 1]], dtype=np.float32)
     differences = np.abs(cv2.filter2D(image, cv2.CV_32F, kernel)[1:-1, 1:-1])

@@ -1,15 +1,16 @@
-"""What a tapering pipette looks like near its tip: the model that the tip is found by.
+"""Image model of a tapering pipette near its tip, which is fitted to find the tip.
 
-With l along the body from the tip and n across it (px), a half width ``h = r + t l`` and the blur
-of a body that climbs out of focus::
+Let l be the distance along the body from the tip and n the distance across it (px). With the half
+width ``h = r + t l`` and the blur σ of a body that leaves the focal plane::
 
     σ(l)² = σ₀² + β² (z + c l)²
     body(l, n) = ½ [erf((n + h)/√2σ) − erf((n − h)/√2σ)] · ½ [1 + erf((l − e)/√2σ)]
 
-with l no less than 0 in h and σ. z is the tip's distance from the focal plane (m; positive where
-the body leads away from focus), c what the body climbs per px of the image, β the blur of a defocus
-(px/m). Through the bore, a body of ``bore · h``, comes back the share ``lumen`` of the light. e
-(px) makes the square end of this model stand where a rounded end of the same light does.
+where l is replaced by 0 in h and σ if it is negative. z is the distance of the tip from the focal
+plane (m; positive if the body leads away from focus), c is the change of the body's depth per px of
+the image, and β is the blur per distance from focus (px/m). The bore is a body of half width
+``bore · h``, through which the share ``lumen`` of the absorbed light returns. e (px) shifts the
+square end of this model so that it absorbs as much light as the true, rounded end.
 """
 
 from dataclasses import dataclass
@@ -20,65 +21,63 @@ import numba
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.messages import message
-from rotemina.sim.quantities import fixed
-from rotemina.sim.vision.errors import VisionError
+from rotemina.sim.errors import VisionError
+from rotemina.sim.messages import format_fixed
 
-_STEEPEST = np.radians(80.0)
-_ROOT_PI = 1.0 / sqrt(pi)
+_MAX_APPROACH_RAD = np.radians(80.0)
+_INVERSE_ROOT_PI = 1.0 / sqrt(pi)
 
 
 @dataclass(frozen=True, slots=True)
 class Pipette:
-    """A pipette as the camera sees it.
+    """A pipette in the image of the camera.
 
     Attributes
     ----------
     direction : float
-        Where the body leads in the image, seen from the tip, rad, from columns towards rows.
+        Direction of the body from the tip in the image, rad, from columns towards rows.
     radius : float
-        At the tip, px.
+        Half width at the tip, px.
     taper : float
-        By which the half width grows per px of the image along the body.
+        Growth of the half width per px of the image along the body.
     climb : float
-        By how much the body's depth changes per px of the image, m.
+        Change of the body's depth per px of the image, m.
     sharpest : float
         Blur (σ) in focus, px.
     defocus : float
-        What a distance from focus adds, far from it, px/m.
+        Growth of the blur with the distance from focus, far from focus, px/m.
     bore : float
-        Radius of the bore, over that of the tube.
+        Ratio of the radius of the bore to that of the tube.
     lumen : float
-        What comes back through it, as a share of the light that the tube takes; 0 for a solid pin.
+        Light that returns through the bore, as a share of the light that the tube absorbs; 0 for a
+        solid pin.
     end : float
-        Where a square end would stand, px from the tip, for the light of the true one.
-    yielding : float
-        How far about the tip a cell that it presses on gives way, px.
+        Distance from the tip, px, of a square end that absorbs as much light as the true end.
+    indentation_radius : float
+        Distance from the tip within which a cell yields to its pressure, px.
     """
 
     direction: float
     radius: float
     taper: float
-    climb: float
+    depth_per_px: float
     sharpest: float = 1.0
     defocus: float = 0.0
     bore: float = 0.6
     lumen: float = 0.5
     end: float = 0.0
-    yielding: float = 45.0
+    indentation_radius: float = 45.0
 
     def __post_init__(self) -> None:
-        least = {"radius": self.radius, "sharpest": self.sharpest}
-        for name, value in least.items():
+        positive_values = {"radius": self.radius, "sharpest": self.sharpest}
+        for name, value in positive_values.items():
             if not 0.0 < value < float("inf"):
                 raise VisionError(
-                    message("engine", "pipette: {name} = {value} px: must be more than 0").fill(
-                        name=name, value=value
-                    )
+                    "pipette: {name} = {value} px: must be more than 0", name=name, value=value
                 )
 
     @classmethod
-    def seen(
+    def from_optics(
         cls,
         direction: float,
         pixel_m: float,
@@ -90,68 +89,65 @@ class Pipette:
         wavelength_m: float = 550e-9,
         bore: float = 0.6,
         lumen: float = 0.5,
-        yielding_m: float = 15e-6,
+        indentation_radius_m: float = 15e-6,
     ) -> Self:
-        """Return how a pipette of this make is seen.
+        """Return the image of a pipette from its dimensions and the optics.
 
         Parameters
         ----------
         direction : float
-            rad in the image.
+            Direction of the body in the image, rad.
         pixel_m : float
-            m/px.
+            Size of a pixel in the plane of the specimen, m/px.
         approach : float
             Angle between the body and the focal plane, rad.
         aperture : float
-            Numerical aperture: blur far from focus is 0.45 NA z, in focus 0.225 λ/NA (B. Zhang,
-            J. Zerubia, J.-C. Olivo-Marin, Appl. Opt. 46 (2007)) and a pixel's own √(1/12).
+            Numerical aperture. The blur is 0.45 NA z far from focus. In focus it is 0.225 λ/NA
+            (B. Zhang, J. Zerubia, J.-C. Olivo-Marin, Appl. Opt. 46 (2007)), combined with √(1/12)
+            for the pixel.
         tip_radius_m, taper : float
             Radius at the tip, and its growth per length of the body.
         wavelength_m, bore, lumen : float
-        yielding_m : float
-            How far about the tip a cell gives way.
+        indentation_radius_m : float
+            Distance from the tip within which a cell yields.
 
         Raises
         ------
         VisionError
-            If it is seen so much from its end that no body shows.
+            If the pipette is seen from its end, so that its body is not visible.
         """
-        if not abs(approach) <= _STEEPEST:
+        if not abs(approach) <= _MAX_APPROACH_RAD:
             raise VisionError(
-                message(
-                    "engine",
-                    "pipette: its angle to the focal plane is {angle}°, must be at most "
-                    "{most}°; seen from its end it has no recognisable shape: tilt the view",
-                ).fill(
-                    angle=fixed(np.degrees(approach), 0),
-                    most=fixed(np.degrees(_STEEPEST), 0),
-                )
+                "pipette: its angle to the focal plane is {angle}°, must be at most "
+                "{most}°; seen from its end it has no recognisable shape: tilt the view",
+                angle=format_fixed(np.degrees(approach), 0),
+                most=format_fixed(np.degrees(_MAX_APPROACH_RAD), 0),
             )
         radius = tip_radius_m / pixel_m
         return cls(
             direction=direction,
             radius=radius,
             taper=taper / cos(approach),
-            climb=pixel_m * tan(approach),
+            depth_per_px=pixel_m * tan(approach),
             sharpest=sqrt((0.225 * wavelength_m / aperture / pixel_m) ** 2 + 1.0 / 12.0),
             defocus=0.45 * aperture / pixel_m,
             bore=bore,
             lumen=lumen,
-            yielding=yielding_m / pixel_m,
+            indentation_radius=indentation_radius_m / pixel_m,
         )
 
-    def blur(self, depth: FloatArray | float) -> FloatArray:
+    def blur_at(self, depth: FloatArray | float) -> FloatArray:
         """Return the blur (...), px, at distances from focus (...), m."""
         return np.asarray(np.hypot(self.sharpest, self.defocus * np.asarray(depth)))
 
     def depth_of(self, blur: float) -> float:
-        """Return the distance from focus, m and never negative, that blurs so much (px)."""
+        """Return the distance from focus, m and never negative, that causes a blur, px."""
         return sqrt(max(blur**2 - self.sharpest**2, 0.0)) / self.defocus if self.defocus else 0.0
 
-    def drawn(
+    def draw(
         self, place: FloatArray, depth: float, shape: tuple[int, int], stride: int = 1
     ) -> FloatArray:
-        """Return the pipette and how it changes, (6, rows, columns).
+        """Return the image of the pipette and its derivatives.
 
         Parameters
         ----------
@@ -160,23 +156,24 @@ class Pipette:
         depth : float
             z of the tip, m.
         shape : (int, int)
-            Rows and columns.
+            Number of rows and columns.
         stride : int
-            Distance between them, px.
+            Distance between rows and between columns, px.
 
         Returns
         -------
         (6, rows, columns)
-            Body less what its bore lets through; the bore; the first one's derivatives by column
-            and row of the tip (1/px), by the depth (1/m) and by the direction (1/rad).
+            The body minus the light that returns through its bore; the bore; the derivatives of the
+            first with respect to column and row of the tip (1/px), depth (1/m) and direction
+            (1/rad).
         """
-        figures = np.array(
+        parameters = np.array(
             [
                 cos(self.direction),
                 sin(self.direction),
                 self.radius,
                 self.taper,
-                self.climb,
+                self.depth_per_px,
                 self.sharpest,
                 self.defocus,
                 self.bore,
@@ -185,57 +182,67 @@ class Pipette:
             ]
         )
         out = np.empty((6, *shape))
-        _draw(out, float(place[0]), float(place[1]), depth, figures, float(stride))
+        _draw_pipette(out, float(place[0]), float(place[1]), depth, parameters, float(stride))
         return out
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy", fastmath=True)
-def _strip(across: float, half: float, share: float) -> tuple[float, float, float, float]:
-    """Return a strip −half…half seen at ``across`` and its derivatives by all three."""
-    upper, lower = (across + half) * share, (across - half) * share
-    rise, fall = _ROOT_PI * exp(-upper * upper), _ROOT_PI * exp(-lower * lower)
+def _evaluate_strip(
+    across: float, half_width: float, scale: float
+) -> tuple[float, float, float, float]:
+    """Return the coverage by a blurred strip ±half_width and its derivatives by all arguments."""
+    upper, lower = (across + half_width) * scale, (across - half_width) * scale
+    upper_slope, lower_slope = (
+        _INVERSE_ROOT_PI * exp(-upper * upper),
+        _INVERSE_ROOT_PI * exp(-lower * lower),
+    )
     return (
         0.5 * (erf(upper) - erf(lower)),
-        share * (rise - fall),
-        share * (rise + fall),
-        (across + half) * rise - (across - half) * fall,
+        scale * (upper_slope - lower_slope),
+        scale * (upper_slope + lower_slope),
+        (across + half_width) * upper_slope - (across - half_width) * lower_slope,
     )
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy", fastmath=True)
-def _draw(
-    out: FloatArray, column: float, row: float, depth: float, figures: FloatArray, stride: float
+def _draw_pipette(
+    out: FloatArray, column: float, row: float, depth: float, parameters: FloatArray, stride: float
 ) -> None:
-    cosine, sine, radius, taper, climb, sharpest, defocus, bore, lumen, end = figures
+    cosine, sine, radius, taper, climb, sharpest, defocus, bore, lumen, end = parameters
     for i in range(out.shape[1]):
         down = i * stride - row
         for j in range(out.shape[2]):
             right = j * stride - column
             along = cosine * right + sine * down
             across = cosine * down - sine * right
-            inside = max(along, 0.0)
-            growth = 1.0 if along > 0.0 else 0.0
-            half = radius + taper * inside
-            away = depth + climb * inside
-            variance = sharpest * sharpest + defocus * defocus * away * away
-            share = 1.0 / sqrt(2.0 * variance)
-            by_depth = -share * defocus * defocus * away / variance  # of share
-            wall, wall_n, wall_h, wall_s = _strip(across, half, share)
-            hole, hole_n, hole_h, hole_s = _strip(across, bore * half, share)
+            distance = max(along, 0.0)
+            is_on_body = 1.0 if along > 0.0 else 0.0
+            half_width = radius + taper * distance
+            z = depth + climb * distance
+            variance = sharpest * sharpest + defocus * defocus * z * z
+            scale = 1.0 / sqrt(2.0 * variance)
+            # Derivative of ``scale``, the reciprocal of √2 times the blur. The suffixes _n, _h and
+            # _s mark derivatives by ``across``, half width and scale.
+            scale_by_depth = -scale * defocus * defocus * z / variance
+            wall, wall_n, wall_h, wall_s = _evaluate_strip(across, half_width, scale)
+            hole, hole_n, hole_h, hole_s = _evaluate_strip(across, bore * half_width, scale)
             body, body_n = wall - lumen * hole, wall_n - lumen * hole_n
             body_h, body_s = wall_h - lumen * bore * hole_h, wall_s - lumen * hole_s
-            ahead = (along - end) * share
-            begun, edge = 0.5 + 0.5 * erf(ahead), _ROOT_PI * exp(-ahead * ahead)
-            by_share = begun * body_s + body * (along - end) * edge
-            by_along = (
-                body * share * edge
-                + growth * begun * body_h * taper
-                + growth * by_share * by_depth * climb
+            end_argument = (along - end) * scale
+            end_coverage, end_slope = (
+                0.5 + 0.5 * erf(end_argument),
+                _INVERSE_ROOT_PI * exp(-end_argument * end_argument),
             )
-            by_across = begun * body_n
-            out[0, i, j] = begun * body
-            out[1, i, j] = begun * hole
+            by_scale = end_coverage * body_s + body * (along - end) * end_slope
+            by_along = (
+                body * scale * end_slope
+                + is_on_body * end_coverage * body_h * taper
+                + is_on_body * by_scale * scale_by_depth * climb
+            )
+            by_across = end_coverage * body_n
+            out[0, i, j] = end_coverage * body
+            out[1, i, j] = end_coverage * hole
             out[2, i, j] = sine * by_across - cosine * by_along
             out[3, i, j] = -cosine * by_across - sine * by_along
-            out[4, i, j] = by_share * by_depth
+            out[4, i, j] = by_scale * scale_by_depth
             out[5, i, j] = across * by_along - along * by_across

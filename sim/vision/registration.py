@@ -1,14 +1,15 @@
-"""By how much one whole image is shifted against another, and whether that can be told at all.
+"""Registration of whole images: their shift, and checks whether it can be determined.
 
-Phase correlation gives the whole pixels: with the spectra F of the reference and G of the image,
+Phase correlation gives the whole pixels. With the spectra F of the reference and G of the image,
 each flattened and tapered::
 
     r = ℱ⁻¹{ F* G / |F G| · exp(−2π² σ² f²) }
 
-is a peak of width σ at the shift. Its height over the scatter of everything else (the
-*peak-to-sidelobe ratio*) says whether there are features, the second highest peak whether they
-repeat. The part that both images show is then aligned by least squares.
-Sources: C. Kuglin, D. Hines, IEEE Cybernetics and Society 1975; D. Bolme et al., CVPR 2010 (ratio).
+is a peak of width σ at the shift. The ratio of its height to the standard deviation of everything
+else (the *peak-to-sidelobe ratio*) shows whether there are features. The height of the second
+highest peak shows whether they repeat. The part that both images show is then aligned by least
+squares. Sources: C. Kuglin, D. Hines, IEEE Cybernetics and Society 1975; D. Bolme et al., CVPR 2010
+(ratio).
 """
 
 from dataclasses import dataclass
@@ -19,38 +20,43 @@ import numpy as np
 import scipy
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.messages import message
-from rotemina.sim.quantities import fixed
-from rotemina.sim.vision.alignment import align
-from rotemina.sim.vision.errors import RegistrationError
+from rotemina.sim.errors import RegistrationError
+from rotemina.sim.messages import format_fixed
+from rotemina.sim.vision.alignment import align_template
 from rotemina.sim.vision.image import Image
 
-LEAST_PEAK_TO_SIDELOBE = 9.0  # noise alone reaches 5 to 6
-MOST_SECOND_PEAK = 0.75  # of the highest; what repeats comes to 1
-LEAST_OVERLAP = 0.2  # of each side
-_PEAK_WIDTH = 1.2  # px, σ
-_ABOUT_PEAK = 8  # px that belong to a peak
-_COARSE = 16  # flattening looks at every so many pixels
-_MOST_CORRECTION_PX = 2.0
-_ENOUGH_PIXELS = 60_000
+# Noise alone reaches a peak-to-sidelobe ratio of 5 to 6.
+MIN_PEAK_TO_SIDELOBE_RATIO = 9.0
+# Largest ratio of the second peak to the first. A repeating pattern reaches 1.
+MAX_SECOND_PEAK_RATIO = 0.75
+# Smallest overlap of the two images, as a share of each side.
+MIN_OVERLAP_RATIO = 0.2
+_PEAK_SIGMA_PX = 1.2
+# Half the side of the square around a peak that belongs to it.
+_PEAK_HALF_WIDTH_PX = 8
+# Reduction of the image from which the brightness is flattened.
+_COARSE_STRIDE_PX = 16
+_MAX_CORRECTION_PX = 2.0
+# Larger images are subsampled to about this number of pixels for the alignment.
+_MAX_ALIGNED_PIXELS = 60_000
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Registration:
-    """A shift and how far it can be trusted.
+class ImageRegistration:
+    """Shift between two images and the figures of its reliability.
 
     Attributes
     ----------
     shift : (2,)
-        By how many columns and rows what is in the reference has moved in the image, px.
+        Columns and rows by which the image has moved relative to the reference, px.
     covariance : (2, 2)
-        px².
+        Covariance of ``shift``, px².
     peak_to_sidelobe : float
-        See the module; at least :data:`LEAST_PEAK_TO_SIDELOBE`.
+        See the module; at least :data:`MIN_PEAK_TO_SIDELOBE_RATIO`.
     second_peak : float
-        Height of the second peak, of the first; at most :data:`MOST_SECOND_PEAK`.
+        Ratio of the height of the second peak to the first; at most :data:`MAX_SECOND_PEAK_RATIO`.
     correlation : float
-        Of what both images show, after the shift.
+        Correlation of the common part of both images after the shift.
     """
 
     shift: FloatArray
@@ -60,22 +66,22 @@ class Registration:
     correlation: float
 
 
-def flattened(image: Image) -> Image:
-    """Return an image over its own slow course of brightness: lamp and vignetting go out."""
+def flatten_brightness(image: Image) -> Image:
+    """Return an image divided by its smoothed brightness, which removes uneven lighting."""
     rows, columns = image.shape
-    size = (max(2, columns // _COARSE), max(2, rows // _COARSE))
+    size = (max(2, columns // _COARSE_STRIDE_PX), max(2, rows // _COARSE_STRIDE_PX))
     small = cv2.resize(image, size, interpolation=cv2.INTER_AREA)
-    slow = cv2.GaussianBlur(small, (0, 0), max(1.0, min(size) / 10.0))
-    course = cv2.resize(slow, (columns, rows), interpolation=cv2.INTER_LINEAR)
-    least = 1e-3 * max(float(np.abs(course).max()), 1e-12)
-    return np.asarray(image / np.maximum(course, least), dtype=np.float32)
+    smoothed = cv2.GaussianBlur(small, (0, 0), max(1.0, min(size) / 10.0))
+    brightness = cv2.resize(smoothed, (columns, rows), interpolation=cv2.INTER_LINEAR)
+    min_brightness = 1e-3 * max(float(np.abs(brightness).max()), 1e-12)
+    return np.asarray(image / np.maximum(brightness, min_brightness), dtype=np.float32)
 
 
-def register(reference: Image, image: Image) -> Registration:
-    """Return by how much ``image`` is shifted against ``reference``, both (rows, columns).
+def register_images(reference: Image, image: Image) -> ImageRegistration:
+    """Return the shift of ``image`` relative to ``reference``, both (rows, columns).
 
-    The whole scene must move as one; where only a part does, look at parts
-    (:mod:`rotemina.sim.vision.background_drift`) or at the tip (:mod:`rotemina.sim.vision.tip`).
+    The whole scene must move together. If only a part of it moves, register parts
+    (:mod:`rotemina.sim.vision.background_drift`) or find the tip (:mod:`rotemina.sim.vision.tip`).
 
     Raises
     ------
@@ -84,108 +90,107 @@ def register(reference: Image, image: Image) -> Registration:
     """
     if reference.shape != image.shape:
         raise RegistrationError(
-            message(
-                "engine",
-                "registration: an image of {columns} × {rows} px against a reference of "
-                "{other_columns} "
-                "× {other_rows} px; use one camera setting for both",
-            ).fill(
-                columns=image.shape[1],
-                rows=image.shape[0],
-                other_columns=reference.shape[1],
-                other_rows=reference.shape[0],
-            )
+            "registration: an image of {columns} × {rows} px against a reference of "
+            "{other_columns} × {other_rows} px; use one camera setting for both",
+            columns=image.shape[1],
+            rows=image.shape[0],
+            other_columns=reference.shape[1],
+            other_rows=reference.shape[0],
         )
-    first, second = flattened(reference), flattened(image)
-    whole, ratio, rival = _peak(_phase_correlation(first, second))
-    if ratio < LEAST_PEAK_TO_SIDELOBE:
+    flat_reference, flat_image = flatten_brightness(reference), flatten_brightness(image)
+    pixel_shift, ratio, second_peak = _find_peak(
+        _compute_phase_correlation(flat_reference, flat_image)
+    )
+    if ratio < MIN_PEAK_TO_SIDELOBE_RATIO:
         raise RegistrationError(
-            message(
-                "engine",
-                "registration: peak-to-sidelobe ratio {ratio}, must be at least "
-                "{least_peak_to_sidelobe}; the images share too little detail, or repeating "
-                "detail: focus, increase the light, make the move smaller, or bring another "
-                "object into view",
-            ).fill(ratio=fixed(ratio, 1), least_peak_to_sidelobe=LEAST_PEAK_TO_SIDELOBE)
+            "registration: peak-to-sidelobe ratio {ratio}, must be at least "
+            "{least_peak_to_sidelobe}; the images share too little detail, or repeating "
+            "detail: focus, increase the light, make the move smaller, or bring another "
+            "object into view",
+            ratio=format_fixed(ratio, 1),
+            least_peak_to_sidelobe=MIN_PEAK_TO_SIDELOBE_RATIO,
         )
-    if rival > MOST_SECOND_PEAK:
+    if second_peak > MAX_SECOND_PEAK_RATIO:
         raise RegistrationError(
-            message(
-                "engine",
-                "registration: a second shift fits {rival} % as well, must be at most "
-                "{most_second_peak} %; the picture repeats itself (a grating?): use another object "
-                "or smaller moves",
-            ).fill(
-                rival=fixed(100.0 * rival, 0), most_second_peak=fixed(100.0 * MOST_SECOND_PEAK, 0)
-            )
+            "registration: a second shift fits {rival} % as well, must be at most "
+            "{most_second_peak} %; the picture repeats itself (a grating?): use another object "
+            "or smaller moves",
+            rival=format_fixed(100.0 * second_peak, 0),
+            most_second_peak=format_fixed(100.0 * MAX_SECOND_PEAK_RATIO, 0),
         )
-    return _refined(first, second, whole, ratio, rival)
+    return _refine_shift(flat_reference, flat_image, pixel_shift, ratio, second_peak)
 
 
-def _refined(
-    first: Image, second: Image, whole: FloatArray, ratio: float, rival: float
-) -> Registration:
-    """Align what both images show."""
+def _refine_shift(
+    first: Image, second: Image, pixel_shift: FloatArray, ratio: float, second_peak: float
+) -> ImageRegistration:
     margin = 4
     sizes = np.array(first.shape[::-1])
-    begin = np.maximum(-whole, 0).astype(int) + margin
-    end = sizes - np.maximum(whole, 0).astype(int) - margin
-    if ((end - begin) < LEAST_OVERLAP * sizes).any():
+    begin = np.maximum(-pixel_shift, 0).astype(int) + margin
+    end = sizes - np.maximum(pixel_shift, 0).astype(int) - margin
+    if ((end - begin) < MIN_OVERLAP_RATIO * sizes).any():
         raise RegistrationError(
-            message(
-                "engine",
-                "registration: the picture moved by {right}, {down} px and hardly "
-                "overlaps the one before; make the move smaller",
-            ).fill(right=fixed(whole[0], 0), down=fixed(whole[1], 0))
+            "registration: the picture moved by {right}, {down} px and hardly overlaps the "
+            "previous one; make the move smaller",
+            right=format_fixed(pixel_shift[0], 0),
+            down=format_fixed(pixel_shift[1], 0),
         )
     template = first[begin[1] : end[1], begin[0] : end[0]]
-    # Light noise reduction: what is sampled between pixels then loses no contrast.
-    smooth = cv2.GaussianBlur(template, (0, 0), 1.0)
-    found = align(
-        np.asarray(smooth, dtype=np.float32),
+    # Both images are smoothed slightly, so that interpolation between pixels loses no contrast.
+    smoothed_template = cv2.GaussianBlur(template, (0, 0), 1.0)
+    alignment = align_template(
+        np.asarray(smoothed_template, dtype=np.float32),
         np.asarray(cv2.GaussianBlur(second, (0, 0), 1.0), dtype=np.float32),
-        begin + whole,
-        stride=max(1, round((template.size / _ENOUGH_PIXELS) ** 0.5)),
-        most_px=_MOST_CORRECTION_PX,
+        begin + pixel_shift,
+        stride=max(1, round((template.size / _MAX_ALIGNED_PIXELS) ** 0.5)),
+        max_shift_px=_MAX_CORRECTION_PX,
     )
-    if found is None or not found.settled:
+    if alignment is None or not alignment.settled:
         raise RegistrationError(
-            message(
-                "engine",
-                "registration: the images cannot be aligned; they differ by more than a "
-                "shift (rotation, another focus, or motion of only a part of the scene)",
-            )
+            "registration: the images cannot be aligned; they differ by more than a "
+            "shift (rotation, another focus, or motion of only a part of the scene)"
         )
-    return Registration(found.corner - begin, found.covariance, ratio, rival, found.correlation)
+    return ImageRegistration(
+        alignment.corner - begin, alignment.covariance, ratio, second_peak, alignment.correlation
+    )
 
 
-def _phase_correlation(first: Image, second: Image) -> Image:
+def _compute_phase_correlation(first: Image, second: Image) -> Image:
     window = cv2.createHanningWindow((first.shape[1], first.shape[0]), cv2.CV_32F)
-    one, two = (scipy.fft.rfft2((image - image.mean()) * window) for image in (first, second))
-    cross = np.conj(one) * two
-    size = np.abs(cross)
-    across = scipy.fft.rfftfreq(first.shape[1])
-    down = scipy.fft.fftfreq(first.shape[0])[:, None]
-    low_pass = np.exp(-2.0 * np.pi**2 * _PEAK_WIDTH**2 * (across**2 + down**2))
-    cross *= low_pass / np.maximum(size, 1e-9 * float(size.max()))
-    return cast(Image, np.asarray(scipy.fft.irfft2(cross, s=first.shape), dtype=np.float32))
+    first_spectrum, second_spectrum = (
+        scipy.fft.rfft2((image - image.mean()) * window) for image in (first, second)
+    )
+    cross_spectrum = np.conj(first_spectrum) * second_spectrum
+    magnitude = np.abs(cross_spectrum)
+    column_frequency = scipy.fft.rfftfreq(first.shape[1])
+    row_frequency = scipy.fft.fftfreq(first.shape[0])[:, None]
+    low_pass = np.exp(
+        -2.0 * np.pi**2 * _PEAK_SIGMA_PX**2 * (column_frequency**2 + row_frequency**2)
+    )
+    cross_spectrum *= low_pass / np.maximum(magnitude, 1e-9 * float(magnitude.max()))
+    return cast(
+        Image, np.asarray(scipy.fft.irfft2(cross_spectrum, s=first.shape), dtype=np.float32)
+    )
 
 
-def _peak(surface: Image) -> tuple[FloatArray, float, float]:
-    """Return the highest peak's shift (2,), its ratio to sidelobes, and its highest rival."""
+def _find_peak(surface: Image) -> tuple[FloatArray, float, float]:
+    """Return the shift (2,) of the highest peak, its ratio to the sidelobes, and the second peak.
+
+    The second peak is given by its height relative to the first.
+    """
     rows, columns = surface.shape
     row, column = np.unravel_index(int(np.argmax(surface)), surface.shape)
-    # The peak in the middle, so that its neighbourhood is one rectangle.
+    # Roll the peak to the middle, so that its neighbourhood is one rectangle.
     centred = np.roll(surface, (rows // 2 - int(row), columns // 2 - int(column)), axis=(0, 1))
-    top = float(centred[rows // 2, columns // 2])
-    others = np.ones(surface.shape, dtype=bool)
-    half = _ABOUT_PEAK
-    others[
-        max(0, rows // 2 - half) : rows // 2 + half + 1,
-        max(0, columns // 2 - half) : columns // 2 + half + 1,
+    peak_height = float(centred[rows // 2, columns // 2])
+    is_sidelobe = np.ones(surface.shape, dtype=bool)
+    half_width = _PEAK_HALF_WIDTH_PX
+    is_sidelobe[
+        max(0, rows // 2 - half_width) : rows // 2 + half_width + 1,
+        max(0, columns // 2 - half_width) : columns // 2 + half_width + 1,
     ] = False
-    sidelobes = centred[others]
-    ratio = (top - float(sidelobes.mean())) / max(float(sidelobes.std()), 1e-12)
+    sidelobes = centred[is_sidelobe]
+    ratio = (peak_height - float(sidelobes.mean())) / max(float(sidelobes.std()), 1e-12)
     shift = np.array(
         [
             int(column) - columns if column > columns // 2 else int(column),
@@ -193,4 +198,4 @@ def _peak(surface: Image) -> tuple[FloatArray, float, float]:
         ],
         dtype=np.float64,
     )
-    return shift, ratio, float(sidelobes.max()) / top if top > 0.0 else 1.0
+    return shift, ratio, float(sidelobes.max()) / peak_height if peak_height > 0.0 else 1.0

@@ -1,12 +1,13 @@
-"""The tip of a pipette found in a whole image, and on which side of focus it is.
+"""Search for the tip of a pipette in a whole image, including the sign of its depth.
 
-A template of the pipette (:mod:`rotemina.sim.vision.pipette`) is laid over the image at a few
-depths; the likeliest places are fitted (:mod:`rotemina.sim.vision.tip_fit`), and the most certain
-fit that may be a tip at all is kept.
+A template of the pipette (:mod:`rotemina.sim.vision.pipette`) is correlated with the image at a few
+depths. The tip is fitted at the likeliest positions (:mod:`rotemina.sim.vision.tip_fit`), and the
+most certain plausible fit is the result.
 
-Depth comes from blur, which is the same on both sides of focus. A body that climbs tells them
-apart: before focus its sharpest place is the tip, behind it a place farther up. Both signs are
-fitted, and where neither fits clearly better the estimate says so.
+The depth follows from the blur, which is the same on both sides of focus. A body that is inclined
+to the focal plane shows the side: if it leads away from focus, it is sharpest at the tip, and if it
+leads through focus, it is sharpest farther up. Both signs are fitted. If neither fits clearly
+better, the result says that the sign is unknown.
 """
 
 from collections.abc import Iterable
@@ -17,172 +18,199 @@ import cv2
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.messages import message
-from rotemina.sim.quantities import fixed
-from rotemina.sim.vision.errors import VisionError
+from rotemina.sim.errors import VisionError
+from rotemina.sim.messages import format_fixed
 from rotemina.sim.vision.image import Image
 from rotemina.sim.vision.pipette import Pipette
-from rotemina.sim.vision.registration import flattened
+from rotemina.sim.vision.registration import flatten_brightness
 from rotemina.sim.vision.tip_fit import TipFit, fit_tip, half_width
 
-LEAST_SCORE = 0.45  # of the correlation with the template
-LEAST_CONTRAST, MOST_CONTRAST = 0.1, 1.1  # share of the light that the body takes
-LEAST_USED = 0.45  # share of the pixels that look as they should
-MOST_DOUBT_PX = 3.0
-_LEAST_CLEARER = 30.0  # of squares over noise, by which one sign must fit better
-_FINDING_PX = 96  # of the template that a whole image is searched with
-_FINDING_DEPTHS = (0.0, 8e-6, -8e-6, 20e-6, -20e-6)
-_DIRECTIONS = 30  # that a body may lead in, if nobody knows: each is found within half of a step
-_TRIED = 4  # of the likeliest of them
+# Smallest correlation with the template.
+MIN_SCORE = 0.45
+# Limits of the share of the light that the body absorbs.
+MIN_CONTRAST, MAX_CONTRAST = 0.1, 1.1
+# Smallest share of the pixels that match the model.
+MIN_USED_RATIO = 0.45
+MAX_DEVIATION_PX = 3.0
+# Smallest difference of the sums of squares, relative to the noise variance, at which the sign is
+# known.
+_MIN_SIGN_ADVANTAGE = 30.0
+# Side of the template with which a whole image is searched.
+_TEMPLATE_PX = 96
+_SEARCH_DEPTHS_M = (0.0, 8e-6, -8e-6, 20e-6, -20e-6)
+# Number of directions that are tried if the direction is unknown. The search tolerates an error of
+# half a step.
+_DIRECTION_COUNT = 30
+# Number of the likeliest directions in which a tip is fitted.
+_FITTED_DIRECTION_COUNT = 4
 
 
-def fit_depths(
+def fit_from_depths(
     image: Image,
     pipette: Pipette,
     start: FloatArray,
     depths: tuple[float, ...],
     *,
-    turning: bool = True,
+    fit_direction: bool = True,
 ) -> TipFit | None:
-    """Fit from several depths, m, and from the mirror image of the best.
+    """Fit the tip from several start depths, m, and from the opposite of the best depth.
 
-    This is what finds the sign of the depth; a tracker then keeps it.
+    This determines the sign of the depth, which a tracker then keeps.
     """
-    half = max(half_width(pipette, at) for at in depths)  # the same pixels for all, to be compared
-    tries = (fit_tip(image, pipette, start, at, turning=turning, half=half) for at in depths)
-    fits = [fit for fit in tries if fit is not None]
+    # All fits use the same pixels, so that their residuals can be compared.
+    half_size = max(half_width(pipette, depth) for depth in depths)
+    attempts = (
+        fit_tip(image, pipette, start, depth, turning=fit_direction, half=half_size)
+        for depth in depths
+    )
+    fits = [fit for fit in attempts if fit is not None]
     if not fits:
         return None
     best = min(fits, key=lambda fit: fit.noise / max(fit.used, 1e-3))
-    away = best.depth.distance
-    if pipette.climb == 0.0 or pipette.defocus == 0.0:
-        return replace(best, depth=replace(best.depth, distance=abs(away), sign_known=False))
-    other = fit_tip(image, pipette, best.pixel, -away, turning=turning, half=half)
-    # The other start may lead back to the same place: then there is no rival.
-    rivals = other is not None and other.depth.distance * away < 0.0
-    clear = True
-    if rivals and other is not None:
-        if other.noise < best.noise:
-            best, other = other, best
-        excess = (other.noise / best.noise) ** 2 - 1.0
-        clear = excess * best.squares > _LEAST_CLEARER
-    known = clear and abs(best.depth.distance) > 2.0 * best.depth.uncertainty
-    return replace(best, depth=replace(best.depth, sign_known=known))
+    distance = best.depth.distance
+    if pipette.depth_per_px == 0.0 or pipette.defocus == 0.0:
+        return replace(best, depth=replace(best.depth, distance=abs(distance), sign_known=False))
+    opposite = fit_tip(image, pipette, best.pixel, -distance, turning=fit_direction, half=half_size)
+    # The opposite start may converge to the same depth. Then there is no rival.
+    has_rival = opposite is not None and opposite.depth.distance * distance < 0.0
+    is_clear = True
+    if has_rival and opposite is not None:
+        if opposite.noise < best.noise:
+            best, opposite = opposite, best
+        excess = (opposite.noise / best.noise) ** 2 - 1.0
+        is_clear = excess * best.squares > _MIN_SIGN_ADVANTAGE
+    sign_known = is_clear and abs(best.depth.distance) > 2.0 * best.depth.uncertainty
+    return replace(best, depth=replace(best.depth, sign_known=sign_known))
 
 
 def find_tip(image: Image, pipette: Pipette, *, turning: bool = True) -> TipFit:
-    """Find the tip in a whole image, by the shape of a body that leads in its known direction.
+    """Find the tip of a pipette of known direction in a whole image.
 
-    With ``turning`` the direction is known roughly and found too: best where nothing lies beneath.
+    With ``turning`` the direction needs to be known only roughly and is fitted too. This works best
+    if no other object lies beneath the pipette.
 
     Raises
     ------
     VisionError
-        If nothing looks like it.
+        If no tip is found.
     """
-    factor = 4 if min(image.shape) >= 3 * _FINDING_PX else 2
-    flat, best, likeness = flattened(image), None, 0.0
-    for depth in _FINDING_DEPTHS:
-        score, place = likeliest(flat, pipette, (depth,), factor)
-        likeness = max(likeness, score)
-        fit = fit_tip(image, pipette, place, depth) if score >= LEAST_SCORE else None
+    factor = 4 if min(image.shape) >= 3 * _TEMPLATE_PX else 2
+    flattened_image, best, best_score = flatten_brightness(image), None, 0.0
+    for depth in _SEARCH_DEPTHS_M:
+        score, place = find_likeliest_place(flattened_image, pipette, (depth,), factor)
+        best_score = max(best_score, score)
+        fit = fit_tip(image, pipette, place, depth) if score >= MIN_SCORE else None
         if (
             fit is not None
-            and plausible(fit)
+            and is_plausible(fit)
             and (best is None or fit.uncertainty_px < best.uncertainty_px)
         ):
             best = fit
     if best is not None:
-        away = best.depth.distance
-        best = fit_depths(image, pipette, best.pixel, (away, 0.0), turning=turning)
-    if best is None or not plausible(best):
+        distance = best.depth.distance
+        best = fit_from_depths(image, pipette, best.pixel, (distance, 0.0), fit_direction=turning)
+    if best is None or not is_plausible(best):
         raise VisionError(
-            message(
-                "engine",
-                "tip: nothing in the picture matches it (best match {likeness}); bring the "
-                "tip into view and near focus, or correct its direction in the image",
-            ).fill(likeness=fixed(likeness, 2))
+            "tip: nothing in the picture matches it (best match {likeness}); bring the "
+            "tip into view and near focus, or correct its direction in the image",
+            likeness=format_fixed(best_score, 2),
         )
     return best
 
 
-def find_body(image: Image, pipette: Pipette) -> TipFit:
-    """Find the tip in a whole image, whatever direction its body leads in.
+def find_tip_in_any_direction(image: Image, pipette: Pipette) -> TipFit:
+    """Find the tip of a pipette of unknown direction in a whole image.
 
-    It takes some ten times as long as :func:`find_tip`.
+    It takes about ten times as long as :func:`find_tip`.
 
     Raises
     ------
     VisionError
-        If nothing looks like it.
+        If no tip is found.
     """
-    # A longer part of the body than shows the tip: that is what tells the direction.
-    long = 2 * _FINDING_PX if min(image.shape) >= 4 * _FINDING_PX else _FINDING_PX
-    flat = flattened(image)
+    # The template is larger than for a known direction, because a long body shows the direction.
+    size = 2 * _TEMPLATE_PX if min(image.shape) >= 4 * _TEMPLATE_PX else _TEMPLATE_PX
+    flattened_image = flatten_brightness(image)
     scores = []
-    for turn in np.linspace(-np.pi, np.pi, _DIRECTIONS, endpoint=False):
-        aimed = replace(pipette, direction=float(turn))
-        scores.append((likeliest(flat, aimed, _FINDING_DEPTHS, long // 24, long)[0], aimed))
-    scores.sort(key=lambda one: -one[0])
-    fits, refusal = [], VisionError("")
-    for _, aimed in scores[:_TRIED]:
+    for direction in np.linspace(-np.pi, np.pi, _DIRECTION_COUNT, endpoint=False):
+        candidate = replace(pipette, direction=float(direction))
+        scores.append(
+            (
+                find_likeliest_place(
+                    flattened_image, candidate, _SEARCH_DEPTHS_M, size // 24, size
+                )[0],
+                candidate,
+            )
+        )
+    scores.sort(key=lambda item: -item[0])
+    fits, last_error = [], VisionError("")
+    for _, candidate in scores[:_FITTED_DIRECTION_COUNT]:
         try:
-            fits.append(find_tip(image, aimed))
+            fits.append(find_tip(image, candidate))
         except VisionError as error:
-            refusal = error
+            last_error = error
     if not fits:
         raise VisionError(
-            message(
-                "engine",
-                "tip: nothing in the picture looks like a pipette in any direction; bring "
-                "the tip into view and near focus",
-            )
-        ) from refusal
+            "tip: nothing in the picture looks like a pipette in any direction; bring "
+            "the tip into view and near focus"
+        ) from last_error
     return min(fits, key=lambda fit: fit.uncertainty_px)
 
 
-def plausible(fit: TipFit) -> bool:
-    """Return whether a fit may be a tip at all."""
+def is_plausible(fit: TipFit) -> bool:
+    """Return whether contrast, matching pixels and uncertainty of a fit are those of a tip."""
     return (
-        -MOST_CONTRAST <= fit.contrast <= -LEAST_CONTRAST
-        and fit.used >= LEAST_USED
-        and fit.uncertainty_px <= MOST_DOUBT_PX
+        -MAX_CONTRAST <= fit.contrast <= -MIN_CONTRAST
+        and fit.used >= MIN_USED_RATIO
+        and fit.uncertainty_px <= MAX_DEVIATION_PX
     )
 
 
-def likeliest(
+def find_likeliest_place(
     image: Image,
     pipette: Pipette,
     depths: Iterable[float],
     factor: int,
-    size: int = _FINDING_PX,
+    size: int = _TEMPLATE_PX,
 ) -> tuple[float, FloatArray]:
-    """Return the greatest likeness to the pipette at one of ``depths``, m, and where, px (2,).
+    """Return the largest correlation with the pipette and its position (2,), px.
 
-    Every ``factor`` pixels are made one first; the likeness (correlation) is that of ``size`` px
-    about the tip.
+    Parameters
+    ----------
+    image : image
+    pipette : Pipette
+    depths : iterable of float
+        Depths of the template, m.
+    factor : int
+        Factor by which the image is reduced first.
+    size : int
+        Side of the template around the tip, px of the original image.
     """
-    small = np.asarray(
+    reduced = np.asarray(
         cv2.resize(image, None, fx=1.0 / factor, fy=1.0 / factor, interpolation=cv2.INTER_AREA),
         dtype=np.float32,
     )
-    half, brightness = size // factor // 2, abs(float(np.median(small)))
+    half_size, brightness = size // factor // 2, abs(float(np.median(reduced)))
     best, place = -1.0, np.zeros(2)
-    broad = replace(pipette, sharpest=hypot(pipette.sharpest, 0.3 * factor))  # of a small pixel
-    middle = np.full(2, float(half * factor))
-    if min(small.shape) < 2 * half + 1:
+    # The reduction blurs the image; 0.3 is about √(1/12), the standard deviation of a pixel.
+    blurred = replace(pipette, sharpest=hypot(pipette.sharpest, 0.3 * factor))
+    tip_position = np.full(2, float(half_size * factor))
+    if min(reduced.shape) < 2 * half_size + 1:
         return best, place
     for depth in depths:
-        drawn = broad.drawn(middle, depth, (2 * half + 1, 2 * half + 1), factor)[0]
-        template = np.asarray(-drawn, dtype=np.float32)  # it takes light away
-        likeness = cv2.matchTemplate(small, template, cv2.TM_CCOEFF_NORMED)
-        # A slope of the light may be alike, but is faint.
-        amplitude = cv2.matchTemplate(small, template, cv2.TM_CCOEFF)
+        body_image = blurred.draw(
+            tip_position, depth, (2 * half_size + 1, 2 * half_size + 1), factor
+        )[0]
+        # The template is negative, because the pipette absorbs light.
+        template = np.asarray(-body_image, dtype=np.float32)
+        correlation = cv2.matchTemplate(reduced, template, cv2.TM_CCOEFF_NORMED)
+        # A gradient of the light may correlate too, but its amplitude is small.
+        amplitude = cv2.matchTemplate(reduced, template, cv2.TM_CCOEFF)
         energy = float(((template - template.mean()) ** 2).sum())
-        likeness[amplitude < LEAST_CONTRAST * brightness * energy] = 0.0
-        row, column = np.unravel_index(int(np.argmax(likeness)), likeness.shape)
-        if likeness[row, column] > best:
-            best = float(likeness[row, column])
-            found = np.array([column + half, row + half], dtype=np.float64)
-            place = factor * found + 0.5 * (factor - 1)
+        correlation[amplitude < MIN_CONTRAST * brightness * energy] = 0.0
+        row, column = np.unravel_index(int(np.argmax(correlation)), correlation.shape)
+        if correlation[row, column] > best:
+            best = float(correlation[row, column])
+            reduced_place = np.array([column + half_size, row + half_size], dtype=np.float64)
+            place = factor * reduced_place + 0.5 * (factor - 1)
     return best, place

@@ -1,10 +1,10 @@
-"""A tip fitted to the pixels about it: place, depth, and how far they can be trusted.
+"""Fit of a tip to the pixels around it: position, depth and their uncertainties.
 
-The model of :mod:`rotemina.sim.vision.pipette` is fitted by least squares: place and depth by
-linearisation, background (of second order) and what body and bore do to the light along with them.
-Tukey's weights leave out what the model does not know, such as a membrane or a nucleus that
-crosses. The covariance is σ² (JᵀJ)⁻¹ of the pixels that count, and what a background that is not
-even leaves.
+The model of :mod:`rotemina.sim.vision.pipette` is fitted by least squares. Position and depth are
+found by repeated linearisation, together with the contrasts of body and bore and a background of
+second order. Tukey's weights leave out objects that the model does not contain, such as a membrane
+or a nucleus that crosses the pipette. The covariance is σ² (JᵀJ)⁻¹ of the weighted pixels plus a
+contribution of an uneven background.
 """
 
 from dataclasses import dataclass, replace
@@ -17,39 +17,53 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.vision.image import Image
 from rotemina.sim.vision.pipette import Pipette
 
-LEAST_HALF_PX = 26  # of the part that is fitted, in focus
-_BLURS = 3.0  # by which it grows with the blur
-_MOST_HALF_PX = 90
-_TUKEY = 4.685
-_TURNS = 12
+# Half width, in focus, of the part of the image that is fitted.
+MIN_HALF_WIDTH_PX = 26
+# Growth of this half width per growth of the blur.
+_HALF_WIDTH_BLUR_RATIO = 3.0
+_MAX_HALF_WIDTH_PX = 90
+# Ratio of the cut-off of Tukey's weights to the scale of the residuals; 95 % efficient for normal
+# noise.
+_TUKEY_CUTOFF = 4.685
+_MAX_ITERATIONS = 12
+# The fit has converged if its last step is smaller than this.
 _SETTLED_PX = 0.02
-_UNSETTLED_PX = 0.2
-_MOST_STEP_PX = 4.0
-_MOST_TURN = 0.1  # rad
-_MOST_BLUR = 0.5
-_BORE, _PLACE, _DEPTH = 1, 2, 4  # where they stand among the coefficients, after the body
-_CONTRAST_DOUBT = 0.1  # of a contrast that was seen before
-_DIMPLE_PX = 15.0
-_BORE_DOUBT = 0.15  # by how much its light may differ, of the tube's
-# What dust and lamp of 1 % leave, however little noise there is: 1/px times the blur squared, as
-# measured on simulated frames, and a share of the distance from focus.
-FLOOR = 0.01
-DEPTH_FLOOR = 0.03
+# A fit is rejected if its last step is larger than this.
+_MAX_FINAL_STEP_PX = 0.2
+_MAX_STEP_PX = 4.0
+_MAX_TURN_RAD = 0.1
+# Largest relative change of the blur in one step.
+_MAX_BLUR_CHANGE_RATIO = 0.5
+# Rows of a drawn pipette that are its derivatives by depth and by direction.
+_DEPTH_ROW, _DIRECTION_ROW = 4, 5
+# Indices of the coefficients, counted from that of the body.
+_BORE_OFFSET, _POSITION_OFFSET, _DEPTH_OFFSET = 1, 2, 4
+# Standard deviation of the change of the contrast from its previous value, relative to that value.
+_CONTRAST_DEVIATION_RATIO = 0.1
+# Standard deviation of the shade that a dimple causes.
+_DIMPLE_SIGMA_PX = 15.0
+# Standard deviation of the contrast of the bore, relative to that of the body.
+_BORE_DEVIATION_RATIO = 0.15
+# Uncertainties that dust and uneven light of 1 % cause even without noise. That of the position,
+# 1/px, is multiplied by the square of the blur; it was measured on simulated frames. That of the
+# depth is a share of the distance from focus.
+MIN_PLACE_DEVIATION = 0.01
+MIN_DEPTH_DEVIATION_RATIO = 0.03
 
 
-#: A coefficient's index, with what weight it is held, and to which value.
-Tie = tuple[int, float, float]
+#: Prior of a coefficient: its index, its weight and its expected value.
+CoefficientPrior = tuple[int, float, float]
 
 
 @dataclass(frozen=True, slots=True)
-class Depth:
-    """How far the tip is from focus.
+class TipDepth:
+    """Distance of the tip from focus.
 
     Attributes
     ----------
     distance : float
-        m; positive where the body leads away from focus. Where ``sign_known`` is False it may as
-        well be the negative of this.
+        Distance, m; positive if the body leads away from focus. If ``sign_known`` is False, the
+        sign may equally well be the opposite.
     uncertainty : float
         Standard deviation, m.
     sign_known : bool
@@ -62,32 +76,33 @@ class Depth:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TipFit:
-    """A tip in an image.
+    """A fitted tip.
 
     Attributes
     ----------
     pixel : (2,)
-        Column and row.
+        Column and row, px.
     covariance : (2, 2)
-        px².
-    depth : Depth
+        Covariance of ``pixel``, px².
+    depth : TipDepth
     direction : float
-        Of the body, rad.
+        Direction of the body, rad.
     contrast : float
-        What the wall does to the light, as a share of the background; negative: darker.
+        Change of the light by the wall, as a share of the background; negative if darker.
     significance : float
-        That, over its standard deviation.
+        Ratio of the contrast to its standard deviation.
     used : float
-        Share of the pixels that count.
+        Share of the pixels with weight.
     noise : float
-        rms residual of those, in the image's units.
+        RMS residual of the weighted pixels, in the units of the image.
     squares : float
-        Sum of weighted squares over the noise's variance: to compare fits to the same pixels.
+        Sum of weighted squares relative to the variance of the noise, to compare fits to the same
+        pixels.
     """
 
     pixel: FloatArray
     covariance: FloatArray
-    depth: Depth
+    depth: TipDepth
     direction: float
     contrast: float
     significance: float
@@ -97,7 +112,7 @@ class TipFit:
 
     @property
     def uncertainty_px(self) -> float:
-        """Standard deviation along the worst direction."""
+        """Standard deviation along the least certain direction."""
         return float(np.sqrt(np.linalg.eigvalsh(self.covariance)[-1]))
 
 
@@ -108,20 +123,33 @@ def fit_tip(
     depth: float = 0.0,
     *,
     turning: bool = False,
-    placed: int = 2,
+    position_iterations: int = 2,
     half: int | None = None,
     dimple: bool = False,
     contrast: float | None = None,
 ) -> TipFit | None:
-    """Fit the tip within a px or two of ``start`` (2,), and near ``depth``, m; None if none fits.
+    """Fit the tip near a start position and depth; return None if no tip fits.
 
-    Only the part of the image about the start is examined, more of it the more it is blurred.
-    With ``turning`` the direction is fitted too. In the first ``placed`` turns only the place is:
-    a tip out of place looks like a blurred one. ``half`` is how far about the start it is looked
-    at, px, where that shall not follow from the blur. ``contrast`` is what it had before, a
-    share of the light; it is not let far from that. With ``dimple`` a shade about the tip is
-    fitted too, as a pressed-in membrane makes one; without such, that costs precision far from
-    focus.
+    Parameters
+    ----------
+    image : image
+    pipette : Pipette
+    start : (2,)
+        Estimate of the position, within one or two px.
+    depth : float
+        Estimate of the depth, m.
+    turning : bool
+        Whether to fit the direction too.
+    placed : int
+        Number of first iterations that fit only the position, because a misplaced tip looks like
+        a blurred one.
+    half : int, optional
+        Half width of the examined part of the image, px. By default it follows from the blur.
+    dimple : bool
+        Whether to fit a shade around the tip, as a pressed-in membrane causes. If there is no such
+        shade, this costs precision far from focus.
+    contrast : float, optional
+        Previous contrast, a share of the light. The fitted one stays close to it.
     """
     half = half_width(pipette, depth) if half is None else half
     corner = np.rint(start).astype(int) - half
@@ -129,23 +157,23 @@ def fit_tip(
     if (high - low < half).any():
         return None
     part = image[low[1] : high[1], low[0] : high[0]]
-    stride = max(1, half // LEAST_HALF_PX)
-    fitting = _Fitting(part, stride, pipette, turning, placed, dimple, contrast)
+    stride = max(1, half // MIN_HALF_WIDTH_PX)
+    fitting = _TipFitting(part, stride, pipette, turning, position_iterations, dimple, contrast)
     return fitting.run(start - low, depth, low.astype(float))
 
 
 def half_width(pipette: Pipette, depth: float) -> int:
-    """Return how far about a tip at a depth, m, it is examined, px."""
-    wider = _BLURS * float(pipette.blur(depth) - pipette.sharpest)
-    return min(round(LEAST_HALF_PX + wider), _MOST_HALF_PX)
+    """Return the half width, px, of the examined part around a tip at a depth, m."""
+    wider = _HALF_WIDTH_BLUR_RATIO * float(pipette.blur_at(depth) - pipette.sharpest)
+    return min(round(MIN_HALF_WIDTH_PX + wider), _MAX_HALF_WIDTH_PX)
 
 
-class _Fitting:
-    """One fit: the pixels, and what may change.
+class _TipFitting:
+    """One fit: its pixels and its free coefficients.
 
-    The coefficients are six of the background's surface (of second order), the shade of a dimple
-    where there may be one, the contrast, what the bore deviates by, and the changes of column, row,
-    depth and direction, in that order, as far as they are free.
+    The coefficients are, in this order: six of the background (of second order), the shade of the
+    dimple if it is fitted, the contrast of the body, the deviation of the bore, and the changes of
+    column, row, depth and direction. Depth and direction are left out if they are fixed.
     """
 
     def __init__(
@@ -154,187 +182,241 @@ class _Fitting:
         stride: int,
         pipette: Pipette,
         turning: bool,
-        placed: int,
+        position_iterations: int,
         dimple: bool,
         contrast: float | None,
     ) -> None:
-        # Where the blur is wide, averages of pixels say as much as all of them.
-        self.seen = averaged(part, stride)
-        self.stride, self.pipette, self.placed = stride, pipette, placed
+        # In a strongly blurred image, averages contain as much information as single pixels.
+        self.pixels = average_squares(part, stride)
+        self.stride, self.pipette, self.position_iterations = stride, pipette, position_iterations
         self.dimple, self.contrast = dimple, contrast
-        self.reach = 0.5 * max(part.shape)
-        y, x = np.meshgrid(*(np.linspace(-1.0, 1.0, n) for n in self.seen.shape), indexing="ij")
-        self.ground = surface(x.ravel(), y.ravel())
-        self.body = len(self.ground) + dimple  # where its coefficients begin
-        free = [2, 3]
+        self.max_shift_px = 0.5 * max(part.shape)
+        y, x = np.meshgrid(*(np.linspace(-1.0, 1.0, n) for n in self.pixels.shape), indexing="ij")
+        self.background = background_terms(x.ravel(), y.ravel())
+        # Index of the first coefficient of the body.
+        self.body_index = len(self.background) + dimple
+        # Rows of the drawn pipette that are its derivatives by the free parameters: column and row
+        # of the tip, then depth and direction.
+        free_rows = [2, 3]
         if pipette.defocus > 0.0:
-            free.append(4)
+            free_rows.append(_DEPTH_ROW)
         if turning:
-            free.append(5)
-        self.free = free
+            free_rows.append(_DIRECTION_ROW)
+        self.free_rows = free_rows
 
     def run(self, start: FloatArray, depth: float, low: FloatArray) -> TipFit | None:
-        """Iterate from ``start`` (2,), px of the part, whose first pixel is ``low``."""
-        middle = 0.5 * (self.stride - 1)  # of the pixels that were averaged
-        place, pipette, aim = start - middle, self.pipette, self.seen.ravel()
-        weights, variance, contrast, level = np.ones(aim.size), 0.0, 0.0, 0.0
-        settled, turn, deeper = False, 0, 0.0
-        while turn < _TURNS and not settled:
-            ground = self.ground
+        """Iterate from ``start`` (2,), px, in the part of the image that begins at ``low``."""
+        # Offset from the first of the averaged pixels to their centre.
+        centre_offset = 0.5 * (self.stride - 1)
+        position, pipette, target = start - centre_offset, self.pipette, self.pixels.ravel()
+        weights, variance, contrast, brightness = np.ones(target.size), 0.0, 0.0, 0.0
+        is_settled, iteration, depth_step = False, 0, 0.0
+        while iteration < _MAX_ITERATIONS and not is_settled:
+            background = self.background
             if self.dimple:
-                ground = np.vstack([ground, self._shade(place)])
-            drawn = pipette.drawn(place, depth, self.seen.shape, self.stride)
-            drawn = drawn.reshape(6, -1)
-            if turn == 0:
-                light = least_squares(np.vstack([ground, drawn[:1]]), aim, weights)
-                if light is None:
+                background = np.vstack([background, self._make_dimple_shade(position)])
+            pipette_rows = pipette.draw(position, depth, self.pixels.shape, self.stride)
+            pipette_rows = pipette_rows.reshape(6, -1)
+            if iteration == 0:
+                start_coefficients = least_squares(
+                    np.vstack([background, pipette_rows[:1]]), target, weights
+                )
+                if start_coefficients is None:
                     return None
-                contrast, level = float(light[self.body]), float(light[0])
-            free = self.free if turn >= self.placed else self.free[:2]
-            rows = np.vstack([ground, drawn[:2], contrast * drawn[free]])
-            ties = self._ties(contrast, level, variance)
-            solved = least_squares(rows, aim, weights, ties)
-            if solved is None:
-                return None
-            found = solved
-            change = dict(zip(free, found[self.body + _PLACE :], strict=True))
-            step = np.clip(
-                found[self.body + _PLACE : self.body + _DEPTH], -_MOST_STEP_PX, _MOST_STEP_PX
+                contrast, brightness = (
+                    float(start_coefficients[self.body_index]),
+                    float(start_coefficients[0]),
+                )
+            free_rows = (
+                self.free_rows if iteration >= self.position_iterations else self.free_rows[:2]
             )
-            place, contrast, level = place + step, float(found[self.body]), float(found[0])
-            if turn >= self.placed:
-                deeper = self._bounded(change.get(4, 0.0), depth)
-                depth += deeper
-            turned = float(np.clip(change.get(5, 0.0), -_MOST_TURN, _MOST_TURN))
-            pipette = replace(pipette, direction=pipette.direction + turned)
-            if np.abs(place - start).max() > self.reach:
+            rows = np.vstack([background, pipette_rows[:2], contrast * pipette_rows[free_rows]])
+            ties = self._make_ties(contrast, brightness, variance)
+            solution = least_squares(rows, target, weights, ties)
+            if solution is None:
                 return None
-            residual = aim - found @ rows
-            if turn >= self.placed:
-                weights = tukey(residual)
+            coefficients = solution
+            changes = dict(
+                zip(free_rows, coefficients[self.body_index + _POSITION_OFFSET :], strict=True)
+            )
+            step = np.clip(
+                coefficients[self.body_index + _POSITION_OFFSET : self.body_index + _DEPTH_OFFSET],
+                -_MAX_STEP_PX,
+                _MAX_STEP_PX,
+            )
+            position, contrast, brightness = (
+                position + step,
+                float(coefficients[self.body_index]),
+                float(coefficients[0]),
+            )
+            if iteration >= self.position_iterations:
+                depth_step = self._limit_depth_step(changes.get(_DEPTH_ROW, 0.0), depth)
+                depth += depth_step
+            turn_step = float(
+                np.clip(changes.get(_DIRECTION_ROW, 0.0), -_MAX_TURN_RAD, _MAX_TURN_RAD)
+            )
+            pipette = replace(pipette, direction=pipette.direction + turn_step)
+            if np.abs(position - start).max() > self.max_shift_px:
+                return None
+            residual = target - coefficients @ rows
+            if iteration >= self.position_iterations:
+                weights = tukey_weights(residual)
             variance = float((weights * residual**2).sum()) / float(weights.sum())
-            turn += 1
-            last = max(float(np.abs(step).max()), abs(deeper) * self.pipette.defocus)
-            settled = last < _SETTLED_PX and turn > self.placed + 1
-        if not settled and float(np.abs(step).max()) > _UNSETTLED_PX:
+            iteration += 1
+            last_step_px = max(float(np.abs(step).max()), abs(depth_step) * self.pipette.defocus)
+            is_settled = last_step_px < _SETTLED_PX and iteration > self.position_iterations + 1
+        if not is_settled and float(np.abs(step).max()) > _MAX_FINAL_STEP_PX:
             return None
-        return self._told(rows, residual, weights, found, place + low + middle, depth, pipette)
+        return self._make_fit(
+            rows, residual, weights, coefficients, position + low + centre_offset, depth, pipette
+        )
 
-    def _shade(self, place: FloatArray) -> FloatArray:
-        """Return the shade of what the tip presses in, (pixels,)."""
-        rows, columns = self.seen.shape
-        width = np.sqrt(0.5) * _DIMPLE_PX / self.stride
-        across = np.exp(-(((np.arange(columns) - place[0] / self.stride) / width / 2.0) ** 2))
-        down = np.exp(-(((np.arange(rows) - place[1] / self.stride) / width / 2.0) ** 2))
-        return np.asarray(np.outer(down, across).ravel())
+    def _make_dimple_shade(self, position: FloatArray) -> FloatArray:
+        rows, columns = self.pixels.shape
+        width = np.sqrt(0.5) * _DIMPLE_SIGMA_PX / self.stride
+        column_profile = np.exp(
+            -(((np.arange(columns) - position[0] / self.stride) / width / 2.0) ** 2)
+        )
+        row_profile = np.exp(-(((np.arange(rows) - position[1] / self.stride) / width / 2.0) ** 2))
+        return np.asarray(np.outer(row_profile, column_profile).ravel())
 
-    def _ties(self, contrast: float, level: float, variance: float) -> tuple[Tie, ...]:
-        """Return what is known beforehand: the bore's light, and the contrast if it was seen."""
+    def _make_ties(
+        self, contrast: float, brightness: float, variance: float
+    ) -> tuple[CoefficientPrior, ...]:
         ties = []
         if contrast:
-            ties.append((self.body + _BORE, variance / (_BORE_DOUBT * contrast) ** 2, 0.0))
-        if self.contrast is not None and level:
-            aim = self.contrast * level
-            ties.append((self.body, variance / (_CONTRAST_DOUBT * aim) ** 2, aim))
+            ties.append(
+                (
+                    self.body_index + _BORE_OFFSET,
+                    variance / (_BORE_DEVIATION_RATIO * contrast) ** 2,
+                    0.0,
+                )
+            )
+        if self.contrast is not None and brightness:
+            expected = self.contrast * brightness
+            ties.append(
+                (self.body_index, variance / (_CONTRAST_DEVIATION_RATIO * expected) ** 2, expected)
+            )
         return tuple(ties)
 
-    def _bounded(self, change: float, depth: float) -> float:
-        """Return a step of the depth that changes the blur by a part of itself at most."""
-        most = _MOST_BLUR * float(self.pipette.blur(depth)) / max(self.pipette.defocus, 1e-300)
-        return float(np.clip(change, -most, most))
+    def _limit_depth_step(self, change: float, depth: float) -> float:
+        """Limit a step of the depth, so that the blur changes by at most a given share."""
+        limit = (
+            _MAX_BLUR_CHANGE_RATIO
+            * float(self.pipette.blur_at(depth))
+            / max(self.pipette.defocus, 1e-300)
+        )
+        return float(np.clip(change, -limit, limit))
 
-    def _told(
+    def _make_fit(
         self,
         rows: FloatArray,
         residual: FloatArray,
         weights: FloatArray,
-        found: FloatArray,
+        coefficients: FloatArray,
         pixel: FloatArray,
         depth: float,
         pipette: Pipette,
     ) -> TipFit | None:
-        total = float(weights.sum())
-        variance = float((weights * residual**2).sum()) / max(total - len(rows), 1.0)
-        normal, at = np.empty((len(rows), len(rows))), self.body
-        _sum_up(np.ascontiguousarray(rows), residual, weights, normal, np.empty(len(rows)))
-        for index, weight, _ in self._ties(float(found[at]), float(found[0]), variance):
-            normal[index, index] += weight
+        weight_sum = float(weights.sum())
+        variance = float((weights * residual**2).sum()) / max(weight_sum - len(rows), 1.0)
+        normal_matrix, body = np.empty((len(rows), len(rows))), self.body_index
+        _fill_normal_equations(
+            np.ascontiguousarray(rows), residual, weights, normal_matrix, np.empty(len(rows))
+        )
+        for index, weight, _ in self._make_ties(
+            float(coefficients[body]), float(coefficients[0]), variance
+        ):
+            normal_matrix[index, index] += weight
         try:
-            spread = variance * np.linalg.inv(normal)
+            covariance = variance * np.linalg.inv(normal_matrix)
         except np.linalg.LinAlgError:
             return None
-        floor = FLOOR * float(pipette.blur(depth)) ** 2
-        doubt = float("inf")
-        if 4 in self.free:
-            doubt = hypot(float(np.sqrt(spread[at + _DEPTH, at + _DEPTH])), DEPTH_FLOOR * depth)
+        min_deviation = MIN_PLACE_DEVIATION * float(pipette.blur_at(depth)) ** 2
+        depth_deviation = float("inf")
+        if _DEPTH_ROW in self.free_rows:
+            depth_deviation = hypot(
+                float(np.sqrt(covariance[body + _DEPTH_OFFSET, body + _DEPTH_OFFSET])),
+                MIN_DEPTH_DEVIATION_RATIO * depth,
+            )
         return TipFit(
             pixel=pixel,
-            covariance=spread[at + _PLACE : at + _DEPTH, at + _PLACE : at + _DEPTH]
-            + 0.5 * floor**2 * np.eye(2),
-            depth=Depth(depth, doubt, sign_known=False),
+            covariance=covariance[
+                body + _POSITION_OFFSET : body + _DEPTH_OFFSET,
+                body + _POSITION_OFFSET : body + _DEPTH_OFFSET,
+            ]
+            + 0.5 * min_deviation**2 * np.eye(2),
+            depth=TipDepth(depth, depth_deviation, sign_known=False),
             direction=pipette.direction,
-            contrast=float(found[self.body] / max(abs(found[0]), 1e-12)),
-            significance=float(abs(found[self.body]) / np.sqrt(spread[at, at])),
-            used=total / weights.size,
+            contrast=float(coefficients[self.body_index] / max(abs(coefficients[0]), 1e-12)),
+            significance=float(
+                abs(coefficients[self.body_index]) / np.sqrt(covariance[body, body])
+            ),
+            used=weight_sum / weights.size,
             noise=float(np.sqrt(variance)),
-            squares=total,
+            squares=weight_sum,
         )
 
 
-def averaged(part: Image, stride: int) -> FloatArray:
-    """Return the means of whole squares of ``stride`` pixels along each side, (rows, columns)."""
+def average_squares(part: Image, stride: int) -> FloatArray:
+    """Return the means (rows, columns) of squares with ``stride`` pixels along each side."""
     rows, columns = part.shape[0] // stride, part.shape[1] // stride
     cells = part[: rows * stride, : columns * stride].reshape(rows, stride, columns, stride)
     return np.asarray(cells.mean(axis=(1, 3), dtype=np.float64))
 
 
-def surface(x: FloatArray, y: FloatArray) -> FloatArray:
-    """Return the terms (6, pixels) of a background of second order at places (pixels,)."""
+def background_terms(x: FloatArray, y: FloatArray) -> FloatArray:
+    """Return the terms (6, pixels) of a second-order background at coordinates (pixels,)."""
     return np.stack([np.ones_like(x), x, y, x * x, x * y, y * y])
 
 
 def least_squares(
-    rows: FloatArray, aim: FloatArray, weights: FloatArray, ties: tuple[Tie, ...] = ()
+    rows: FloatArray,
+    target: FloatArray,
+    weights: FloatArray,
+    ties: tuple[CoefficientPrior, ...] = (),
 ) -> FloatArray | None:
-    """Return the coefficients (k,) of functions (k, pixels) that come nearest to ``aim``."""
-    normal, right = np.empty((len(rows), len(rows))), np.empty(len(rows))
-    _sum_up(np.ascontiguousarray(rows), aim, weights, normal, right)
+    """Return the coefficients (k,) of functions (k, pixels) that fit ``target`` best."""
+    normal_matrix, right_side = np.empty((len(rows), len(rows))), np.empty(len(rows))
+    _fill_normal_equations(np.ascontiguousarray(rows), target, weights, normal_matrix, right_side)
     for index, weight, value in ties:
-        normal[index, index] += weight
-        right[index] += weight * value
+        normal_matrix[index, index] += weight
+        right_side[index] += weight * value
     try:
-        return np.asarray(np.linalg.solve(normal, right))
+        return np.asarray(np.linalg.solve(normal_matrix, right_side))
     except np.linalg.LinAlgError:
         return None
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy", fastmath=True)
-def _sum_up(
-    rows: FloatArray, aim: FloatArray, weights: FloatArray, normal: FloatArray, right: FloatArray
+def _fill_normal_equations(
+    rows: FloatArray, target: FloatArray, weights: FloatArray, normal: FloatArray, right: FloatArray
 ) -> None:
-    """Fill in the normal equations; compiled, as a product this flat keeps BLAS' threads waiting.
+    """Fill in the normal equations.
+
+    It is compiled, because for so few rows the threads of BLAS would mostly wait.
 
     Parameters
     ----------
     rows : (k, pixels)
-    aim, weights : (pixels,)
+    target, weights : (pixels,)
     normal, right : (k, k), (k,)
-        What is filled in.
+        The output arrays.
     """
     for i in range(len(rows)):
-        weighed = weights * rows[i]
+        weighted_row = weights * rows[i]
         total = 0.0
-        for n in range(len(aim)):
-            total += weighed[n] * aim[n]
+        for n in range(len(target)):
+            total += weighted_row[n] * target[n]
         right[i] = total
         for j in range(i + 1):
             total = 0.0
-            for n in range(len(aim)):
-                total += weighed[n] * rows[j, n]
+            for n in range(len(target)):
+                total += weighted_row[n] * rows[j, n]
             normal[i, j] = normal[j, i] = total
 
 
-def tukey(residual: FloatArray) -> FloatArray:
-    """Return the weights (pixels,) of residuals: none for what is far off the others."""
-    scale = max(1.4826 * float(np.median(np.abs(residual))), 1e-9) * _TUKEY
+def tukey_weights(residual: FloatArray) -> FloatArray:
+    """Return Tukey's weights (pixels,) of residuals, which are 0 for outliers."""
+    scale = max(1.4826 * float(np.median(np.abs(residual))), 1e-9) * _TUKEY_CUTOFF
     return np.asarray(np.clip(1.0 - (residual / scale) ** 2, 0.0, None) ** 2)

@@ -1,10 +1,15 @@
-"""Settings of drivers as people write them."""
+"""Driver settings as written by users."""
 
 import pytest
 
-from rotemina.app.driver_settings import assigned, keep, kept, typed
-from rotemina.drivers.settings import SettingError
-from rotemina.drivers.simulator.driver import Simulator
+from rotemina.app.settings import (
+    load_settings,
+    parse_assignments,
+    parse_setting,
+    store_settings,
+)
+from rotemina.drivers.contract import DriverSettingError
+from rotemina.drivers.simulator import Simulator
 
 
 @pytest.mark.parametrize(
@@ -19,27 +24,27 @@ from rotemina.drivers.simulator.driver import Simulator
     ],
 )
 def test_a_text_is_read_in_the_type_of_the_default(default, text, value):
-    told = typed("name", default, text)
-    assert told == value
-    assert type(told) is type(default)
+    parsed = parse_setting("name", default, text)
+    assert parsed == value
+    assert type(parsed) is type(default)
 
 
 @pytest.mark.parametrize(
     ("default", "text"),
     [(0, "1.5"), (0, "1_0"), (0, ""), (0.5, "0,5"), (0.5, "nan"), (0.5, "٢"), (True, "perhaps")],
 )
-def test_what_is_of_another_type_is_refused_with_the_text(default, text):
-    with pytest.raises(SettingError, match="setting name"):
-        typed("name", default, text)
+def test_a_text_of_another_type_is_refused(default, text):
+    with pytest.raises(DriverSettingError, match="setting name"):
+        parse_setting("name", default, text)
 
 
-def test_assignments():
-    given = assigned(Simulator, ["seed=3", "start_homed = false", "settle_s=0.1"])
-    assert given == {"seed": 3, "start_homed": False, "settle_s": 0.1}
+def test_assignments_are_parsed():
+    settings = parse_assignments(Simulator, ["seed=3", "start_homed = false", "settle_s=0.1"])
+    assert settings == {"seed": 3, "start_homed": False, "settle_s": 0.1}
 
 
 @pytest.mark.parametrize(
-    ("text", "told"),
+    ("text", "error_text"),
     [
         ("seed", "name=value"),
         ("=3", "name=value"),
@@ -47,15 +52,15 @@ def test_assignments():
         ("seed=many", "not an integer"),
     ],
 )
-def test_a_bad_assignment_says_what_is_wrong(text, told):
-    with pytest.raises(SettingError, match=told):
-        assigned(Simulator, [text])
+def test_an_invalid_assignment_is_explained(text, error_text):
+    with pytest.raises(DriverSettingError, match=error_text):
+        parse_assignments(Simulator, [text])
 
 
-def test_settings_are_kept_by_driver(settings):
-    assert kept(settings, Simulator) == dict(Simulator.default_settings)
-    keep(settings, Simulator, {"seed": 9, "start_homed": False})
-    assert kept(settings, Simulator)["seed"] == 9
-    assert kept(settings, Simulator)["start_homed"] is False
+def test_settings_are_stored_per_driver(settings):
+    assert load_settings(settings, Simulator) == dict(Simulator.default_settings)
+    store_settings(settings, Simulator, {"seed": 9, "start_homed": False})
+    assert load_settings(settings, Simulator)["seed"] == 9
+    assert load_settings(settings, Simulator)["start_homed"] is False
     settings.set("driver.simulator.seed", "spoilt")
-    assert kept(settings, Simulator)["seed"] == 0
+    assert load_settings(settings, Simulator)["seed"] == 0

@@ -1,4 +1,4 @@
-"""The system check names what is missing, in one line, and installs only where it may."""
+"""The system check names missing packages in one line and installs only where permitted."""
 
 import ast
 import os
@@ -10,11 +10,11 @@ from pathlib import Path
 
 import pytest
 
-from rotemina.app import system_check
-from rotemina.app.system_check import FONT, LIBRARIES, Package
+from rotemina.app.system import system_check
+from rotemina.app.system.system_check import FONT_PACKAGE, LIBRARY_PACKAGES, DebianPackage
 
-EGL = Package("libegl1", "libEGL.so.1")
-CURSOR = Package("libxcb-cursor0", "libxcb-cursor.so.0")
+EGL = DebianPackage("libegl1", "libEGL.so.1")
+CURSOR = DebianPackage("libxcb-cursor0", "libxcb-cursor.so.0")
 
 linux_only = pytest.mark.skipif(
     not sys.platform.startswith("linux"), reason="only Linux keeps Qt's libraries outside the wheel"
@@ -22,8 +22,8 @@ linux_only = pytest.mark.skipif(
 
 
 @pytest.fixture
-def absent(monkeypatch):
-    """Libraries that cannot be loaded; every other one can."""
+def missing_libraries(monkeypatch):
+    """Names of libraries that cannot be loaded; all others can."""
     names = set()
 
     def load(name):
@@ -38,7 +38,7 @@ def absent(monkeypatch):
 
 @pytest.fixture
 def machine(tmp_path, monkeypatch):
-    """Debian in a folder: ``apt-get`` writes down how it was called; the user is not root."""
+    """A Debian system in a folder: ``apt-get`` logs its calls, and the user is not root."""
     for tool in ("env", "sh"):
         (tmp_path / tool).symlink_to(shutil.which(tool))
     monkeypatch.setenv("PATH", str(tmp_path))
@@ -54,9 +54,9 @@ def add_tool(folder: Path, name: str, script: str) -> None:
     tool.chmod(0o755)
 
 
-def calls(folder: Path) -> list[str]:
-    written = folder / "called"
-    return written.read_text().splitlines() if written.exists() else []
+def read_calls(folder: Path) -> list[str]:
+    call_log = folder / "called"
+    return call_log.read_text().splitlines() if call_log.exists() else []
 
 
 def become_root(monkeypatch):
@@ -74,32 +74,32 @@ def become_root(monkeypatch):
         ({"QT_QPA_PLATFORM": "vnc:size=800x600"}, "vnc"),
     ],
 )
-def test_platform_is_what_was_asked_for_else_the_display(environment, platform):
-    assert system_check.platform_in_use(environment) == platform
+def test_the_platform_is_the_requested_one_or_that_of_the_display(environment, platform):
+    assert system_check.find_platform(environment) == platform
 
 
-def test_nothing_is_missing_when_every_library_loads(absent):
-    assert system_check.missing_libraries("xcb") == []
-    assert system_check.complaint([]) == ""
+def test_nothing_is_missing_when_every_library_loads(missing_libraries):
+    assert system_check.find_missing_libraries("xcb") == []
+    assert system_check.describe_missing([]) == ""
 
 
-def test_only_the_libraries_of_the_platform_are_missed(absent):
-    absent.update({EGL.provides, CURSOR.provides})
-    assert system_check.missing_libraries("offscreen") == [EGL]
-    assert system_check.missing_libraries("vnc") == [EGL]
-    assert system_check.missing_libraries("xcb") == [EGL, CURSOR]
+def test_only_libraries_of_the_platform_are_reported_missing(missing_libraries):
+    missing_libraries.update({EGL.provides, CURSOR.provides})
+    assert system_check.find_missing_libraries("offscreen") == [EGL]
+    assert system_check.find_missing_libraries("vnc") == [EGL]
+    assert system_check.find_missing_libraries("xcb") == [EGL, CURSOR]
 
 
-def test_a_font_is_missed(absent, monkeypatch):
+def test_missing_fonts_are_reported(missing_libraries, monkeypatch):
     monkeypatch.setattr(system_check, "_has_font", lambda: False)
-    assert system_check.missing_libraries("offscreen") == [FONT]
+    assert system_check.find_missing_libraries("offscreen") == [FONT_PACKAGE]
 
 
-def test_other_systems_bring_qt_complete(absent, monkeypatch):
-    absent.add(EGL.provides)
+def test_other_systems_need_no_packages(missing_libraries, monkeypatch):
+    missing_libraries.add(EGL.provides)
     monkeypatch.setattr(system_check.sys, "platform", "win32")
-    assert system_check.missing_libraries("windows") == []
-    assert system_check.missing_python_parts() == []
+    assert system_check.find_missing_libraries("windows") == []
+    assert system_check.find_missing_python_parts() == []
 
 
 @linux_only
@@ -111,7 +111,7 @@ def test_fontconfig_counts_the_fonts(tmp_path, monkeypatch):
     command = [
         sys.executable,
         "-c",
-        "from rotemina.app.system_check import _has_font; print(_has_font())",
+        "from rotemina.app.system.system_check import _has_font; print(_has_font())",
     ]
     without_fonts = {**os.environ, "FONTCONFIG_FILE": str(settings)}
     assert subprocess.check_output(command, text=True).strip() == "True"
@@ -120,33 +120,33 @@ def test_fontconfig_counts_the_fonts(tmp_path, monkeypatch):
 
 @linux_only
 @pytest.mark.parametrize("modules", [{"venv"}, {"ensurepip"}])
-def test_a_python_without_environments_is_missed(modules, monkeypatch):
+def test_a_python_without_venv_is_reported(modules, monkeypatch):
     monkeypatch.setattr(system_check, "find_spec", lambda name: None if name in modules else name)
-    (package,) = system_check.missing_python_parts()
+    (package,) = system_check.find_missing_python_parts()
     assert package.name.startswith("python3")
     assert package.name.endswith("-venv")
 
 
 @linux_only
-def test_the_command_fits_who_types_it(machine, monkeypatch):
+def test_the_install_command_fits_the_user(machine, monkeypatch):
     install = "apt-get install -y --no-install-recommends libegl1 libxcb-cursor0"
-    command = system_check.install_command([EGL, CURSOR])
+    command = system_check.make_install_command([EGL, CURSOR])
     assert command == f"su -c 'apt-get update && {install}'"
     add_tool(machine, "sudo", "exit 1")
-    command = system_check.install_command([EGL, CURSOR])
+    command = system_check.make_install_command([EGL, CURSOR])
     assert command == f"sudo apt-get update && sudo {install}"
     become_root(monkeypatch)
-    assert system_check.install_command([EGL, CURSOR]) == f"apt-get update && {install}"
+    assert system_check.make_install_command([EGL, CURSOR]) == f"apt-get update && {install}"
 
 
 @linux_only
-def test_the_complaint_is_one_line(machine):
-    line = system_check.complaint([EGL, CURSOR])
+def test_missing_libraries_are_described_in_one_line(machine):
+    line = system_check.describe_missing([EGL, CURSOR])
     assert line.startswith("Missing: libEGL.so.1, libxcb-cursor.so.0. Install with: su -c")
     assert "\n" not in line
     (machine / "apt-get").unlink()
-    assert system_check.complaint([EGL]) == (
-        "Missing: libEGL.so.1. Install what provides them with your package manager."
+    assert system_check.describe_missing([EGL]) == (
+        "Missing: libEGL.so.1. Install packages that provide them with your package manager."
     )
 
 
@@ -154,7 +154,7 @@ def test_the_complaint_is_one_line(machine):
 def test_root_installs_without_a_question(machine, monkeypatch):
     become_root(monkeypatch)
     assert system_check.install([EGL, CURSOR])
-    update, install = calls(machine)
+    update, install = read_calls(machine)
     assert update.startswith("noninteractive ")
     assert update.endswith(" update")
     assert install.startswith("noninteractive ")
@@ -165,23 +165,23 @@ def test_root_installs_without_a_question(machine, monkeypatch):
 def test_sudo_installs_when_it_asks_no_password(machine):
     add_tool(machine, "sudo", '[ "$1" = -n ] && shift && { [ "$1" = true ] || exec "$@"; }')
     assert system_check.install([EGL])
-    assert calls(machine)[-1].endswith("install -y --no-install-recommends libegl1")
+    assert read_calls(machine)[-1].endswith("install -y --no-install-recommends libegl1")
 
 
 @linux_only
 @pytest.mark.parametrize("sudo", [None, "exit 1"])
-def test_nothing_is_tried_where_a_password_is_needed(machine, sudo):
+def test_nothing_is_installed_if_a_password_is_needed(machine, sudo):
     if sudo:
         add_tool(machine, "sudo", sudo)
     assert not system_check.install([EGL])
-    assert calls(machine) == []
+    assert read_calls(machine) == []
 
 
 @linux_only
-def test_an_installation_that_fails_is_told(machine, absent, monkeypatch, capfd):
+def test_a_failed_installation_is_reported(machine, missing_libraries, monkeypatch, capfd):
     become_root(monkeypatch)
     add_tool(machine, "apt-get", "exit 100")
-    absent.add(EGL.provides)
+    missing_libraries.add(EGL.provides)
     assert system_check.main(["--install", "offscreen"]) == 1
     errors = capfd.readouterr().err
     assert errors.count("\n") == 1
@@ -189,16 +189,16 @@ def test_an_installation_that_fails_is_told(machine, absent, monkeypatch, capfd)
 
 
 @linux_only
-def test_what_was_installed_is_looked_for_again(absent, monkeypatch, capfd):
-    absent.update({EGL.provides, CURSOR.provides})
-    monkeypatch.setattr(system_check, "install", lambda packages: absent.clear() or True)
+def test_libraries_are_checked_again_after_the_installation(missing_libraries, monkeypatch, capfd):
+    missing_libraries.update({EGL.provides, CURSOR.provides})
+    monkeypatch.setattr(system_check, "install", lambda packages: missing_libraries.clear() or True)
     assert system_check.main(["--install", "xcb"]) == 0
     assert capfd.readouterr().err == ""
 
 
 @linux_only
-def test_the_display_s_libraries_hold_up_only_who_has_a_display(machine, absent, capfd):
-    absent.add(CURSOR.provides)
+def test_display_libraries_are_required_only_with_a_display(machine, missing_libraries, capfd):
+    missing_libraries.add(CURSOR.provides)
     assert system_check.main(["--install", "offscreen"]) == 0
     assert capfd.readouterr().err == ""
     assert system_check.main(["--install", "xcb"]) == 1
@@ -251,18 +251,20 @@ def test_an_old_python_can_read_the_script():
         ),
     ],
 )
-def test_the_table_knows_every_library_that_this_qt_asks_for(platform, files):
+def test_the_table_has_every_library_that_this_qt_needs(platform, files):
     import PySide6
 
     site = Path(PySide6.__file__).parents[1]
-    roots = [path for pattern in files for path in site.glob(pattern) if used(path)]
+    roots = [path for pattern in files for path in site.glob(pattern) if is_used(path)]
     assert roots
-    known = {package.provides for name in ("offscreen", platform) for package in LIBRARIES[name]}
-    assert outside(roots, site) - known - OF_PYTHON_OR_APT == set()
+    known = {
+        package.provides for name in ("offscreen", platform) for package in LIBRARY_PACKAGES[name]
+    }
+    assert find_external_libraries(roots, site) - known - ALWAYS_PRESENT == set()
 
 
-# What no Debian with Python and apt can lack; glib's two libraries come in one package.
-OF_PYTHON_OR_APT = {
+# Present in every Debian with Python and apt; one package provides both glib libraries.
+ALWAYS_PRESENT = {
     *("ld-linux-x86-64.so.2", "ld-linux-aarch64.so.1", "libc.so.6", "libdl.so.2", "libm.so.6"),
     *("libgcc_s.so.1", "libpthread.so.0", "librt.so.1", "libstdc++.so.6", "libz.so.1"),
     *("libzstd.so.1", "libglib-2.0.so.0"),
@@ -270,59 +272,59 @@ OF_PYTHON_OR_APT = {
 MODULES_IN_USE = {"Core", "Gui", "OpenGL", "OpenGLWidgets", "Svg", "SvgWidgets", "Test", "Widgets"}
 
 
-def used(path: Path) -> bool:
+def is_used(path: Path) -> bool:
     module = path.name.removeprefix("Qt").removesuffix(".abi3.so")
     return module in MODULES_IN_USE or path.parts[-3] == "plugins"
 
 
-def outside(roots: list[Path], site: Path) -> set[str]:
-    """Libraries outside the wheels that the roots and what they load from the wheels ask for."""
-    inside = {path.name: path for path in site.glob("*/**/*.so*")}
-    found, open_files, seen = set(), list(roots), set()
+def find_external_libraries(roots: list[Path], site: Path) -> set[str]:
+    """Return libraries outside the wheels that the roots need, directly or via the wheels."""
+    bundled = {path.name: path for path in site.glob("*/**/*.so*")}
+    external, open_files, visited = set(), list(roots), set()
     while open_files:
         path = open_files.pop()
-        if path in seen:
+        if path in visited:
             continue
-        seen.add(path)
-        for name in needed(path):
-            if name in inside:
-                open_files.append(inside[name])
+        visited.add(path)
+        for name in read_needed_libraries(path):
+            if name in bundled:
+                open_files.append(bundled[name])
             else:
-                found.add(name)
-    return found
+                external.add(name)
+    return external
 
 
-def needed(path: Path) -> list[str]:
-    """``DT_NEEDED`` entries of a 64-bit little-endian ELF file (System V ABI, chapter 5)."""
+def read_needed_libraries(path: Path) -> list[str]:
+    """Return the ``DT_NEEDED`` entries of a 64-bit little-endian ELF file (System V ABI, ch. 5)."""
     content = path.read_bytes()
     assert content[:6] == b"\x7fELF\x02\x01"
     (table,) = struct.unpack_from("<Q", content, 32)
     size, count = struct.unpack_from("<HH", content, 54)
     headers = [struct.unpack_from("<IIQQQQ", content, table + i * size) for i in range(count)]
 
-    def offset_of(address: int) -> int:
+    def find_offset(address: int) -> int:
         return next(
             address - start + offset
-            for kind, _, offset, start, _, length in headers
-            if kind == 1 and start <= address < start + length
+            for segment_type, _, offset, start, _, length in headers
+            if segment_type == 1 and start <= address < start + length
         )
 
     _, _, start, _, _, length = next(header for header in headers if header[0] == 2)
     dynamic = list(struct.iter_unpack("<qQ", content[start : start + length]))
-    strings = offset_of(next(value for tag, value in dynamic if tag == 5))
+    strings = find_offset(next(value for tag, value in dynamic if tag == 5))
     names = (strings + value for tag, value in dynamic if tag == 1)
     return [content[name : content.index(b"\0", name)].decode() for name in names]
 
 
-def test_programs_of_tests_are_asked_for_and_nobody_is_held_up_without(monkeypatch):
-    asked = []
+def test_test_programs_are_installed_but_not_required(monkeypatch):
+    installed = []
     monkeypatch.setattr(system_check.shutil, "which", lambda _: None)
-    monkeypatch.setattr(system_check, "missing_libraries", lambda _: [])
-    monkeypatch.setattr(system_check, "missing_python_parts", list)
-    monkeypatch.setattr(system_check, "install", lambda packages: asked.append(packages))
+    monkeypatch.setattr(system_check, "find_missing_libraries", lambda _: [])
+    monkeypatch.setattr(system_check, "find_missing_python_parts", list)
+    monkeypatch.setattr(system_check, "install", lambda packages: installed.append(packages))
     assert system_check.main(["--install", "--screen", "offscreen"]) == 0
-    assert [package.name for package in asked[0]] == ["xvfb", "xdotool"]
+    assert [package.name for package in installed[0]] == ["xvfb", "xdotool"]
     assert system_check.main(["--install", "--assembler", "offscreen"]) == 0
-    assert [package.name for package in asked[1]] == ["binutils-m68hc1x"]
+    assert [package.name for package in installed[1]] == ["binutils-m68hc1x"]
     assert system_check.main(["--install", "offscreen"]) == 0
-    assert len(asked) == 2
+    assert len(installed) == 2

@@ -1,9 +1,9 @@
-"""The boards at true baud: how soon a stop is heard, and how much of what they measure arrives.
+"""The boards at true baud: latency of a stop, and share of measured samples that arrive.
 
-``make bench`` runs it on a machine that does nothing else. The virtual boards are a process of its
-own; what they print is on the same clock. A stop is timed from the call to its last byte
-at the last board, while a trajectory plays on both, their displays are written to all the time, and
-telemetry comes at 200 Hz; the time that the process takes until it reads its ports is in it.
+``make bench`` runs it on an idle machine. The virtual boards are a separate process, whose output
+has times of the same clock. The latency of a stop is measured from the call to its last byte at the
+last board. Meanwhile a trajectory plays on both boards, their displays are written continuously,
+and telemetry runs at 200 Hz. The latency includes the time until the process reads its ports.
 """
 
 import os
@@ -19,51 +19,52 @@ import numpy as np
 import pytest
 
 from rotemina.app.motion.session import MotionSession
-from rotemina.app.motion.state import Phase
-from rotemina.drivers.mc68hc11.driver import MC68HC11
-from rotemina.drivers.mc68hc11.framing import MAX_FRAME
-from rotemina.drivers.mc68hc11.line_budget import Line
-from rotemina.drivers.samples import DeviceState
+from rotemina.app.motion.state import SessionPhase
+from rotemina.drivers.contract import DeviceState
+from rotemina.drivers.mc68hc11 import LineCapacity
+from rotemina.drivers.mc68hc11.driver import MC68HC11Driver
+from rotemina.drivers.mc68hc11.protocol import MAX_FRAME_BYTES
 from rotemina.sim.errors import InputError
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.trajectory.dry_run import dry_run
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot_files import load_robot
+from rotemina.sim.trajectory import dry_run
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
 ROBOT = load_robot("rotemina")
 STOPS = 200
-WITH_WINDOW = 60
-SECONDS, CAPTURED = 20.0, 8000
-CLOCKS = ("4", "2")  # MHz, E of the chip
-HEARD = re.compile(r"^([\d.]+) s: board (\d): stop heard$")
-BEGAN = re.compile(r"^0.0000 s is ([\d.]+) s of")
-QUICK = {"STOPS": 2, "WITH_WINDOW": 2, "SECONDS": 2.0, "CAPTURED": 200}
+STOPS_WITH_WINDOW = 60
+SECONDS, CAPTURE_SAMPLES = 20.0, 8000
+# E clock of the chip.
+CLOCKS = ("4", "2")  # MHz
+STOP_LINE = re.compile(r"^([\d.]+) s: board (\d): stop heard$")
+START_LINE = re.compile(r"^0.0000 s is ([\d.]+) s of")
+QUICK = {"STOPS": 2, "STOPS_WITH_WINDOW": 2, "SECONDS": 2.0, "CAPTURE_SAMPLES": 200}
 
 
-class Boards:
-    """The process, and when its boards heard a stop, host time s."""
+class BoardProcess:
+    """The process of the boards, and the host times, s, at which they received a stop."""
 
     def __init__(self, process: subprocess.Popen) -> None:
-        self.heard: list[tuple[float, int]] = []
+        self.stops: list[tuple[float, int]] = []
         self.ports: list[str] = []
-        self._began_s = float("nan")
+        self._start_s = float("nan")
         self._ready = threading.Event()
         self._process = process
         self._listener = threading.Thread(target=self._listen)
         self._listener.start()
         assert self._ready.wait(30.0)
 
-    def first_after(self, host_time_s: float) -> dict[int, float]:
-        """Return how long after a host time each board heard a stop first, s."""
-        after: dict[int, float] = {}
-        for heard_s, board in self.heard:
-            if heard_s >= host_time_s - 1e-4:
-                after.setdefault(board, heard_s - host_time_s)
-        return after
+    def find_delays_after(self, host_time_s: float) -> dict[int, float]:
+        """Return how long after a host time each board first received a stop, s."""
+        delays_s: dict[int, float] = {}
+        for stop_s, board in self.stops:
+            if stop_s >= host_time_s - 1e-4:
+                delays_s.setdefault(board, stop_s - host_time_s)
+        return delays_s
 
     def end(self) -> None:
-        """End the process, and read what it said last."""
+        """End the process, and read the rest of its output."""
         self._process.terminate()
         self._listener.join()
 
@@ -71,39 +72,39 @@ class Boards:
         for line in self._process.stdout:
             if line.startswith("listening on "):
                 self.ports.append(line.split()[2].rstrip(":"))
-            elif began := BEGAN.match(line):
-                self._began_s = float(began[1])
+            elif match := START_LINE.match(line):
+                self._start_s = float(match[1])
                 self._ready.set()
-            elif heard := HEARD.match(line):
-                self.heard.append((self._began_s + float(heard[1]), int(heard[2])))
+            elif match := STOP_LINE.match(line):
+                self.stops.append((self._start_s + float(match[1]), int(match[2])))
 
 
 @contextmanager
-def boards(*options: str) -> Iterator[Boards]:
+def run_boards(*options: str) -> Iterator[BoardProcess]:
     command = [sys.executable, "-m", "rotemina.app.cli.main", "board", "--position-known", *options]
     with subprocess.Popen(
         command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
     ) as process:
-        found = Boards(process)
+        board_process = BoardProcess(process)
         try:
-            yield found
+            yield board_process
         finally:
-            found.end()
+            board_process.end()
 
 
-def swing(period_s: float) -> Record:
+def make_swing(period_s: float) -> Record:
     time_s = np.arange(0.0, 60.0, period_s)
     wave = np.sin(2 * np.pi * 0.5 * time_s)
     commands = {("x", Tap.CMD): 0.0275 + 5e-4 * wave, ("zn", Tap.CMD): 32e-6 + 2e-5 * wave}
     return Record.from_signals(time_s, commands, {"x": "m", "zn": "m"})
 
 
-def rest() -> None:
+def sleep_briefly() -> None:
     time.sleep(1e-3)
 
 
-def until(
-    condition: Callable[[], bool], wait: Callable[[], object] = rest, limit_s: float = 20.0
+def wait_until(
+    condition: Callable[[], bool], wait: Callable[[], object] = sleep_briefly, limit_s: float = 20.0
 ) -> None:
     end_s = time.monotonic() + limit_s
     while not condition():
@@ -111,133 +112,144 @@ def until(
         wait()
 
 
-def stops(
-    session: MotionSession, found: Boards, count: int, wait: Callable[[], object] = rest
+def measure_stops(
+    session: MotionSession,
+    board_process: BoardProcess,
+    count: int,
+    wait: Callable[[], object] = sleep_briefly,
 ) -> np.ndarray:
-    """Stop a playback so often; return the time (count, boards) until each board heard it, s.
+    """Stop a playback repeatedly; return the latency (count, boards) of each stop, s.
 
-    Another thread stops than the one that waits, which may be painting.
+    A separate thread makes the stops, because the waiting thread may be painting.
     """
-    until(lambda: session.snapshot().phase is Phase.READY, wait)
+    wait_until(lambda: session.snapshot().phase is SessionPhase.READY, wait)
     plan = dry_run(
-        ROBOT, swing(session.setpoint_period_s), setpoint_period_s=session.setpoint_period_s
+        ROBOT, make_swing(session.setpoint_period_s), setpoint_period_s=session.setpoint_period_s
     ).require()
-    rng, waits = np.random.default_rng(0), []
+    rng, latencies_s = np.random.default_rng(0), []
     for number in range(count):
         session.play(plan)
-        until(lambda: session.snapshot().progress > 0.0, wait)
+        wait_until(lambda: session.snapshot().progress > 0.0, wait)
         end_s = time.monotonic() + rng.uniform(0.05, 0.2)
         while time.monotonic() < end_s:
-            with_text(session, number)
+            send_text(session, number)
             wait()
         stopper = Stopper(session)
         stopper.start()
-        until(lambda one=stopper: len(found.first_after(one.asked_s)) == 2, wait)
-        waits.append(sorted(found.first_after(stopper.asked_s).values()))
-        until(lambda: session.snapshot().activity is DeviceState.IDLE, wait)
-        until(lambda: not session.snapshot().stopping, wait)
-    return np.array(waits)
+        wait_until(
+            lambda stop=stopper: len(board_process.find_delays_after(stop.call_s)) == 2, wait
+        )
+        latencies_s.append(sorted(board_process.find_delays_after(stopper.call_s).values()))
+        wait_until(lambda: session.snapshot().activity is DeviceState.IDLE, wait)
+        wait_until(lambda: not session.snapshot().stopping, wait)
+    return np.array(latencies_s)
 
 
 class Stopper(threading.Thread):
-    """Stops a session, and notes when it was asked to."""
+    """Stops a session, and records the time of the call."""
 
     def __init__(self, session: MotionSession) -> None:
         super().__init__()
-        self.asked_s = float("inf")
+        self.call_s = float("inf")
         self._session = session
 
     def run(self) -> None:
-        self.asked_s = time.monotonic()
+        self.call_s = time.monotonic()
         self._session.stop()
 
 
-def with_text(session: MotionSession, number: int) -> None:
-    """Keep the lines busy with what matters least."""
-    with suppress(InputError):  # a full queue is what was wanted
-        session.service.show(number % 2, f"stop {number}")
+def send_text(session: MotionSession, number: int) -> None:
+    """Keep the lines busy with messages of the lowest priority."""
+    # A full queue is intended.
+    with suppress(InputError):
+        session.service.show_text(number % 2, f"stop {number}")
 
 
-def told(name: str, waits: np.ndarray, limit_ms: float) -> None:
-    last = 1e3 * waits.max(axis=1)
+def print_latencies(name: str, latencies_s: np.ndarray, limit_ms: float) -> None:
+    last_board_ms = 1e3 * latencies_s.max(axis=1)
     print(
-        f"{len(last)} stops, {name}: median {np.median(last):.2f} ms, "
-        f"99 % {np.percentile(last, 99):.2f}, 99.9 % {np.percentile(last, 99.9):.2f} "
+        f"{len(last_board_ms)} stops, {name}: median {np.median(last_board_ms):.2f} ms, "
+        f"99 % {np.percentile(last_board_ms, 99):.2f}, 99.9 % "
+        f"{np.percentile(last_board_ms, 99.9):.2f} "
         f"(limit {limit_ms:.1f})"
     )
 
 
 @pytest.mark.parametrize(("baud", "clock"), [(125_000, "4"), (125_000, "2"), (9_600, "4")])
 def test_a_stop_is_heard_at_once(baud: int, clock: str) -> None:
-    with boards("--baud", str(baud), "--clock", clock) as found:
-        first, second = found.ports
+    with run_boards("--baud", str(baud), "--clock", clock) as board_process:
+        first, second = board_process.ports
         session = MotionSession(
-            MC68HC11(ROBOT, {"port": first, "second_port": second, "baud": baud, "settle_s": 0.0})
+            MC68HC11Driver(
+                ROBOT, {"port": first, "second_port": second, "baud": baud, "settle_s": 0.0}
+            )
         )
         session.start()
-        waits = stops(session, found, STOPS if baud == 125_000 else 20)
+        latencies_s = measure_stops(session, board_process, STOPS if baud == 125_000 else 20)
         session.close()
-    in_flight_ms = 1e3 * Line(baud).seconds(MAX_FRAME)
-    told(
+    in_flight_ms = 1e3 * LineCapacity(baud).compute_duration_s(MAX_FRAME_BYTES)
+    print_latencies(
         f"{baud} baud, {clock} MHz, headless",
-        waits,
+        latencies_s,
         5.0 if baud == 125_000 else in_flight_ms + 2.0,
     )
 
 
 def test_a_stop_is_heard_while_the_window_paints(tmp_path) -> None:
-    from rotemina.app.settings import Settings
-    from rotemina.app.shell.application import make_application
-    from rotemina.app.shell.window_run import make_window
+    from rotemina.app.settings import UserSettings
+    from rotemina.app.shell.startup.application import make_application
+    from rotemina.app.shell.startup.window_run import make_window
 
     application = make_application()
-    with boards() as found:
-        first, second = found.ports
+    with run_boards() as board_process:
+        first, second = board_process.ports
         settings = {"port": first, "second_port": second, "settle_s": 0.0}
-        session = MotionSession(MC68HC11(ROBOT, settings))
-        window = make_window(session, Settings(tmp_path / "settings.json"), tmp_path)
+        session = MotionSession(MC68HC11Driver(ROBOT, settings))
+        window = make_window(session, UserSettings(tmp_path / "settings.json"), tmp_path)
         window.resize(1920, 1080)
         window.show()
         window.workbench.start()
-        waits = stops(session, found, WITH_WINDOW, application.processEvents)
+        latencies_s = measure_stops(
+            session, board_process, STOPS_WITH_WINDOW, application.processEvents
+        )
         window.workbench.close()
         window.hide()
-    told("125000 baud, window painting", waits, 15.0)
+    print_latencies("125000 baud, window painting", latencies_s, 15.0)
 
 
 @pytest.mark.parametrize("clock", CLOCKS)
-def test_what_boards_measure_arrives(clock: str) -> None:
-    with boards("--clock", clock) as found:
-        first, second = found.ports
-        driver = MC68HC11(ROBOT, {"port": first, "second_port": second})
+def test_measured_samples_arrive(clock: str) -> None:
+    with run_boards("--clock", clock) as board_process:
+        first, second = board_process.ports
+        driver = MC68HC11Driver(ROBOT, {"port": first, "second_port": second})
         driver.open()
         try:
-            live = read_for(driver, SECONDS)
-            capture_hz = driver.capture_rates.one_hz
-            driver.capture(["zn"], capture_hz, CAPTURED)
+            sample_times_s = read_sample_times(driver, SECONDS)
+            capture_hz = driver.capture_rates.single_axis_hz
+            driver.capture(["zn"], capture_hz, CAPTURE_SAMPLES)
             parts = []
-            end_s = time.monotonic() + 1.5 * CAPTURED / capture_hz
+            end_s = time.monotonic() + 1.5 * CAPTURE_SAMPLES / capture_hz
             while time.monotonic() < end_s:
-                rest()
+                sleep_briefly()
                 driver.read()
-                if (part := driver.captured()) is not None:
+                if (part := driver.read_capture()) is not None:
                     parts.append(part)
         finally:
             driver.close()
-    periods = round((live[-1] - live[0]) / np.median(np.diff(live)))
-    arrived = sum(len(part.device_time_s) for part in parts)
+    periods = round((sample_times_s[-1] - sample_times_s[0]) / np.median(np.diff(sample_times_s)))
+    arrived_count = sum(len(part.device_time_s) for part in parts)
     print(
-        f"{clock} MHz, lost, % (limit 0.1): six axes at {len(live) / SECONDS:.0f} Hz "
-        f"{100 * (1 - (len(live) - 1) / periods):.3f}, one at {capture_hz:.0f} Hz "
-        f"{100 * (1 - arrived / CAPTURED):.3f}"
+        f"{clock} MHz, lost, % (limit 0.1): six axes at {len(sample_times_s) / SECONDS:.0f} Hz "
+        f"{100 * (1 - (len(sample_times_s) - 1) / periods):.3f}, one at {capture_hz:.0f} Hz "
+        f"{100 * (1 - arrived_count / CAPTURE_SAMPLES):.3f}"
     )
 
 
-def read_for(driver: MC68HC11, seconds: float) -> np.ndarray:
+def read_sample_times(driver: MC68HC11Driver, seconds: float) -> np.ndarray:
     """Read a driver as a session does; return the times of its samples, s."""
     parts = []
     end_s = time.monotonic() + seconds
     while time.monotonic() < end_s:
         parts.append(driver.read().device_time_s)
-        rest()
+        sleep_briefly()
     return np.concatenate(parts)

@@ -1,7 +1,7 @@
-"""`gap diagnose`: seconds and memory as a user runs it, beside simulating the same records.
+"""`gap diagnose`: time and memory as for a user, compared with a simulation of the same records.
 
-Limits, on two cores and a quiet machine, for three records of a stage of three axes: 60 s with an
-effect on an axis, 5 s where nothing is wrong; 2 GB.
+Limits, on two cores of an idle machine, for three records of a stage of three axes: 60 s with an
+effect on an axis, 5 s without an effect; 2 GB.
 """
 
 import os
@@ -13,11 +13,10 @@ from statistics import median
 import numpy as np
 import pytest
 
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.records.writing import write_record
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.robot.model import AxisEffect
-from rotemina.sim.simulation.simulation import simulate
+from rotemina.sim.records import Record, Tap, write_record
+from rotemina.sim.robot import AxisEffect
+from rotemina.sim.robot_files import load_robot
+from rotemina.sim.simulation import simulate
 
 ROBOT = load_robot("rotemina")
 RATE_HZ, TURNS = 1000.0, 3
@@ -33,13 +32,13 @@ CASES = {
 QUICK = {"TURNS": 1, "RATE_HZ": 100.0}
 
 
-def commands(number):
-    """Triangles that shrink, a sum of sines, or steps; 12 to 20 s."""
+def make_commands(number):
+    """Return commands of 12 to 20 s: shrinking triangles, a sum of sines, or steps."""
     time_s = np.arange(round((12.0 + 4.0 * number) * RATE_HZ)) / RATE_HZ
     signals, units = {}, {}
-    for place, name in enumerate(AXES):
+    for position, name in enumerate(AXES):
         axis = ROBOT.axes[name]
-        phase = time_s * (0.3 + 0.07 * place)
+        phase = time_s * (0.3 + 0.07 * position)
         shape = (
             (2.0 * np.abs(2.0 * (phase % 1.0) - 1.0) - 1.0) * np.exp(-time_s / 10.0),
             0.5 * np.sin(2 * np.pi * phase) + 0.3 * np.sin(2 * np.pi * 5.3 * phase),
@@ -51,22 +50,22 @@ def commands(number):
 
 
 @pytest.mark.parametrize("case", CASES)
-def test_a_diagnosis_beside_the_simulation_of_its_records(case, tmp_path):
+def test_a_diagnosis_next_to_the_simulation_of_its_records(case, tmp_path):
     effects, limit = CASES[case]
-    asked = [commands(number) for number in range(3)]
-    names = []
-    for number, one in enumerate(asked):
-        record = simulate(ROBOT, effects, one, np.random.default_rng(number))
-        names.append(str(tmp_path / f"train_{number}.csv"))
-        write_record(record, names[-1])
-    rows, peaks, ratios = [], [], []
+    commands = [make_commands(number) for number in range(3)]
+    paths = []
+    for number, axis_commands in enumerate(commands):
+        record = simulate(ROBOT, effects, axis_commands, np.random.default_rng(number))
+        paths.append(str(tmp_path / f"train_{number}.csv"))
+        write_record(record, paths[-1])
+    diagnosis_times_s, peaks_gb, ratios = [], [], []
     for _ in range(TURNS):
         begin = time.perf_counter()
-        for one in asked:
-            simulate(ROBOT, effects, one)
-        simulated = time.perf_counter() - begin
+        for axis_commands in commands:
+            simulate(ROBOT, effects, axis_commands)
+        simulation_s = time.perf_counter() - begin
         begin = time.perf_counter()
-        command = [sys.executable, "-m", "rotemina.app.cli.main", "gap", "diagnose", *names]
+        command = [sys.executable, "-m", "rotemina.app.cli.main", "gap", "diagnose", *paths]
         child = subprocess.Popen(
             [*command, "--json", str(tmp_path / "out.json")],
             stdout=subprocess.DEVNULL,
@@ -75,13 +74,14 @@ def test_a_diagnosis_beside_the_simulation_of_its_records(case, tmp_path):
         _, status, usage = os.wait4(child.pid, 0)
         child.returncode = os.waitstatus_to_exitcode(status)
         assert child.returncode == 0
-        for left in tmp_path.glob("out*"):
-            left.unlink()
-        rows.append(time.perf_counter() - begin)
-        ratios.append(rows[-1] / simulated)
-        peaks.append(usage.ru_maxrss / 2**20)
+        for output in tmp_path.glob("out*"):
+            output.unlink()
+        diagnosis_times_s.append(time.perf_counter() - begin)
+        ratios.append(diagnosis_times_s[-1] / simulation_s)
+        peaks_gb.append(usage.ru_maxrss / 2**20)
     print(
-        f"\n{case}, {TURNS} runs: {median(rows):.1f} s ({min(rows):.1f} to {max(rows):.1f}; "
-        f"limit {limit:.0f}), {median(ratios):.0f} times its simulation, {max(peaks):.2f} GB "
+        f"\n{case}, {TURNS} runs: {median(diagnosis_times_s):.1f} s ({min(diagnosis_times_s):.1f} "
+        f"to {max(diagnosis_times_s):.1f}; "
+        f"limit {limit:.0f}), {median(ratios):.0f} times its simulation, {max(peaks_gb):.2f} GB "
         f"(limit 2)"
     )

@@ -1,8 +1,8 @@
-"""The window's thread in use: how late it is, what blocks it, and frames a second of its views.
+"""The window's thread in use: its lateness, what blocks it, and frame rates of the views.
 
 Limits, on two cores with software rendering, after the start: the thread is late by at most 50 ms
-in 99 of 100 cases and 250 ms at worst; plots and camera side by side get 20 frames a second or
-more, 12 while the 3-D view is shown as well. As a program of its own it prints JSON:
+at the 99th percentile and 250 ms at worst; plots and camera side by side have at least 20 frames
+per second, 12 with the 3-D view. Started directly it prints JSON:
 ``python tests/benchmarks/bench_frames.py --seconds 60``.
 """
 
@@ -15,22 +15,22 @@ import subprocess
 import sys
 import time
 
-LATE_MS, WORST_MS = 50.0, 250.0
-FRAMES, FRAMES_BESIDE_3D = 20.0, 12.0
+MAX_LATENESS_99_MS, MAX_LATENESS_MS = 50.0, 250.0
+MIN_FRAME_RATE_HZ, MIN_FRAME_RATE_WITH_3D_HZ = 20.0, 12.0
 SECONDS = 60.0
 QUICK = {"SECONDS": 3.0}
 
 
-def additions_s():
-    """Return how long ten million additions take: what a figure in ms is to be read with."""
+def measure_additions_s():
+    """Return the time of ten million additions, as a reference for the speed of the machine."""
     began_s, total = time.perf_counter(), 0
     for number in range(10**7):
         total += number
     return time.perf_counter() - began_s
 
 
-class Frames:
-    """Counts what is painted of some widgets."""
+class PaintCounter:
+    """Counts the paint events of some widgets."""
 
     def __init__(self, widgets):
         from PySide6.QtCore import QEvent, QObject
@@ -49,39 +49,39 @@ class Frames:
             widget.installEventFilter(self._watcher)
 
 
-class Work:
-    """Measures the thread's own work between two beats: processor time, whatever else runs here."""
+class ProcessorTimeMeter:
+    """Measures the processor time of the thread between two ticks of a timer."""
 
     def __init__(self):
         from PySide6.QtCore import QTimer
 
         self._spent, self._last_s = [], time.thread_time()
         self._timer = QTimer(interval=20)
-        self._timer.timeout.connect(self._beat)
+        self._timer.timeout.connect(self._record)
         self._timer.start()
 
-    def _beat(self):
+    def _record(self):
         now_s = time.thread_time()
         self._spent.append(now_s - self._last_s)
         self._last_s = now_s
 
     def summary(self):
         spent = sorted(self._spent) or [0.0]
-        usual = spent[int(0.99 * (len(spent) - 1))]
+        percentile_99 = spent[int(0.99 * (len(spent) - 1))]
         return {
-            "work_99_percent_ms": round(1e3 * usual, 1),
+            "work_99_percent_ms": round(1e3 * percentile_99, 1),
             "work_worst_ms": round(1e3 * spent[-1], 1),
         }
 
 
 class Operator:
-    """Plays, switches panels and jogs in turns, as quick as nobody is."""
+    """Plays, switches panels and jogs in turn, faster than any human operator."""
 
-    def __init__(self, used):
+    def __init__(self, window_use):
         from PySide6.QtCore import QTimer
 
-        self._used = used
-        self._panels = [one for one in used.window.panels if one != "view3d"]
+        self._window_use = window_use
+        self._panels = [name for name in window_use.window.panels if name != "view3d"]
         self._number = 0
         self.diagnoses = 0
         self._switching, self._moving = QTimer(interval=500), QTimer(interval=700)
@@ -98,24 +98,24 @@ class Operator:
 
     def _switch(self):
         self._number += 1
-        self._used.window.bring_up(self._panels[self._number % len(self._panels)])
-        gap = self._used.window.panels["gap"]
+        self._window_use.window.bring_up(self._panels[self._number % len(self._panels)])
+        gap = self._window_use.window.panels["gap"]
         if gap.records.chosen and not gap.diagnosing.running and self._number > 4:
             self.diagnoses += 1
             gap.diagnose()
 
     def _move(self):
-        used = self._used
-        if not used.ready:
+        window_use = self._window_use
+        if not window_use.ready:
             return
         if self._number % 8 < 4:
-            used.bench.play()
+            window_use.bench.play()
         else:
-            used.bench.jog("thx", 1e-6 if self._number % 2 else -1e-6)
+            window_use.bench.jog("thx", 1e-6 if self._number % 2 else -1e-6)
 
 
 def run_for(seconds):
-    """Let Qt's own loop run for a while."""
+    """Run the event loop of Qt for a while."""
     from PySide6.QtCore import QEventLoop, QTimer
 
     loop = QEventLoop()
@@ -123,52 +123,52 @@ def run_for(seconds):
     loop.exec()
 
 
-def in_use(used, seconds):
-    """Return how late the thread was while everything was used, and what blocked it."""
-    watch = used.window.loop_watch
-    operator = Operator(used)
+def measure_use(window_use, seconds):
+    """Return the lateness of the thread while everything is used, and the calls that blocked it."""
+    watch = window_use.window.loop_watch
+    operator = Operator(window_use)
     operator.begin()
-    work = Work()
+    meter = ProcessorTimeMeter()
     watch.restart()
     run_for(seconds)
-    found = {**watch.lateness.as_json(), **work.summary(), "diagnoses": operator.diagnoses}
-    found["stalls"] = [(round(one.lasted_s, 3), one.calls) for one in watch.stalls]
+    result = {**watch.lateness.as_json(), **meter.summary(), "diagnoses": operator.diagnoses}
+    result["stalls"] = [(round(stall.duration_s, 3), stall.calls) for stall in watch.stalls]
     operator.end()
-    used.window.panels["gap"].end()
-    return found
+    window_use.window.panels["gap"].stop_diagnosis()
+    return result
 
 
-def frames(used, seconds, *, also=()):
-    """Return frames a second of plots and camera side by side, while a trajectory plays.
+def measure_frames(window_use, seconds, *, also=()):
+    """Return the frame rates of plots and camera side by side, while a trajectory plays.
 
-    Panels that are shown ``also`` stand below the camera.
+    Panels in ``also`` are shown below the camera.
     """
     from PySide6.QtCore import Qt
 
-    window, panels = used.window, used.window.panels
+    window, panels = window_use.window, window_use.window.panels
     window.resize(1920, 1080)
     window.bring_up("plots")
-    beside = [put_beside(window, panels[name]) for name in ("microscope", *also)]
-    window.resizeDocks(beside[:1], [800], Qt.Orientation.Horizontal)
-    plots = {name: plot.viewport() for name, plot in plots_of(panels["plots"])}
-    counted = Frames({**plots, "camera": panels["microscope"].view})
-    used.until(lambda: used.ready)
-    used.bench.play()
+    docks = [put_in_dock(window, panels[name]) for name in ("microscope", *also)]
+    window.resizeDocks(docks[:1], [800], Qt.Orientation.Horizontal)
+    plots = {name: plot.viewport() for name, plot in list_plots(panels["plots"])}
+    counter = PaintCounter({**plots, "camera": panels["microscope"].view})
+    window_use.wait_until(lambda: window_use.ready)
+    window_use.bench.play()
     run_for(1.0)
     watch = window.loop_watch
-    work = Work()
+    meter = ProcessorTimeMeter()
     watch.restart()
-    counted.counts.clear()
+    counter.counts.clear()
     began_s, cpu_s = time.monotonic(), time.process_time()
     run_for(seconds)
     lasted_s = time.monotonic() - began_s
-    found = {name: round(count / lasted_s, 1) for name, count in counted.counts.items()}
-    found["cpu_percent"] = round(100.0 * (time.process_time() - cpu_s) / lasted_s)
-    return {**found, **watch.lateness.as_json(), **work.summary()}
+    result = {name: round(count / lasted_s, 1) for name, count in counter.counts.items()}
+    result["cpu_percent"] = round(100.0 * (time.process_time() - cpu_s) / lasted_s)
+    return {**result, **watch.lateness.as_json(), **meter.summary()}
 
 
-def put_beside(window, panel):
-    """Show a panel in a dock of its own: in the window as it is one hides the other."""
+def put_in_dock(window, panel):
+    """Show a panel in a separate dock, because in the usual layout one panel hides the other."""
     from PySide6.QtCore import Qt
     from PySide6.QtWidgets import QDockWidget
 
@@ -179,95 +179,101 @@ def put_beside(window, panel):
     return dock
 
 
-def beside_3d(used, seconds):
-    """Return the same with the 3-D view shown as well, and its own frames."""
-    panel = used.window.panels["view3d"]
-    before, began_s = panel.canvas.painted, time.monotonic()
-    found = frames(used, seconds, also=["view3d"])
+def measure_frames_with_3d(window_use, seconds):
+    """Return the frame rates while the 3-D view is shown too, and its own frame rate."""
+    panel = window_use.window.panels["view3d"]
+    before, began_s = panel.canvas.paint_count, time.monotonic()
+    result = measure_frames(window_use, seconds, also=["view3d"])
     lasted_s = time.monotonic() - began_s
-    found["view3d"] = round((panel.canvas.painted - before) / lasted_s, 1)
-    return found
+    result["view3d"] = round((panel.canvas.paint_count - before) / lasted_s, 1)
+    return result
 
 
-def plots_of(panel):
-    for name, one in panel.plots.items():
-        yield name, one.plot
+def list_plots(panel):
+    for name, plot_panel in panel.plots.items():
+        yield name, plot_panel.plot
 
 
 def measure(seconds):
-    """Use a window, and return what was measured."""
+    """Use a window, and return the results."""
     import gc
 
-    from window_use import UsedWindow
+    from window_use import WindowUse
 
-    from rotemina.app.cameras.feed import FeedState
-    from rotemina.app.shell.window_run import tidy_memory
+    from rotemina.app.cameras import FeedState
+    from rotemina.app.shell.startup.window_run import start_memory_upkeep
 
     logging.basicConfig(level=logging.ERROR)
-    load, speed_s = os.getloadavg()[0], additions_s()
-    used = UsedWindow(times_as_fast=1.0, size=(1600, 1000))
-    end_tidying = tidy_memory(used.application)  # as the program does
+    load, speed_s = os.getloadavg()[0], measure_additions_s()
+    window_use = WindowUse(times_as_fast=1.0, size=(1600, 1000))
+    # As in the program.
+    end_upkeep = start_memory_upkeep(window_use.application)
     gc.collect()
     gc.freeze()
-    window, microscope = used.window, used.bench.microscope
+    window, microscope = window_use.window, window_use.bench.microscope
     window.loop_watch.start()
-    used.play()
-    used.plan(seconds=6.0)
+    window_use.play()
+    window_use.plan(seconds=6.0)
     window.bring_up("microscope")
-    used.until(lambda: microscope.status.cameras)
+    window_use.wait_until(lambda: microscope.status.cameras)
     microscope.camera.open("simulated:microscope")
-    used.until(lambda: microscope.status.feed.state is FeedState.LIVE)
-    told = {
+    window_use.wait_until(lambda: microscope.status.feed.state is FeedState.LIVE)
+    result = {
         "load_before": round(load, 2),
         "cores": os.cpu_count(),
         "additions_s": round(speed_s, 2),
     }
-    told["in_use"] = in_use(used, seconds)
-    told["frames"] = frames(used, min(seconds, 15.0))
-    told["beside_3d"] = beside_3d(used, min(seconds, 15.0))
-    told["load_after"] = round(os.getloadavg()[0], 2)
-    end_tidying()
-    used.close()
-    return told
+    result["in_use"] = measure_use(window_use, seconds)
+    result["frames"] = measure_frames(window_use, min(seconds, 15.0))
+    result["beside_3d"] = measure_frames_with_3d(window_use, min(seconds, 15.0))
+    result["load_after"] = round(os.getloadavg()[0], 2)
+    end_upkeep()
+    window_use.close()
+    return result
 
 
-def shown(drawn):
-    """Return what was measured beside each other as one line."""
-    views = {name: drawn[name] for name in ("camera", "view3d") if name in drawn}
-    figures = {*views, "cpu_percent", "watched_s"}
+def format_frames(result):
+    """Return the results side by side as one line."""
+    views = {name: result[name] for name in ("camera", "view3d") if name in result}
+    other_keys = {*views, "cpu_percent", "watched_s"}
     plots = [
         rate
-        for name, rate in drawn.items()
-        if name not in figures and not name.startswith(("late_", "work_"))
+        for name, rate in result.items()
+        if name not in other_keys and not name.startswith(("late_", "work_"))
     ]
     rates = ", ".join(f"{name} {rate}" for name, rate in views.items())
     return (
-        f"{rates}, plots {min(plots)} to {max(plots)}; {drawn['cpu_percent']}; "
-        f"{drawn['late_99_percent_ms']}, {drawn['late_worst_ms']}; "
-        f"{drawn['work_99_percent_ms']}, {drawn['work_worst_ms']}"
+        f"{rates}, plots {min(plots)} to {max(plots)}; {result['cpu_percent']}; "
+        f"{result['late_99_percent_ms']}, {result['late_worst_ms']}; "
+        f"{result['work_99_percent_ms']}, {result['work_worst_ms']}"
     )
 
 
 def test_frames_and_lateness():
-    told = subprocess.run(
+    process = subprocess.run(
         [sys.executable, __file__, "--seconds", str(SECONDS)],
         check=True,
         capture_output=True,
         text=True,
     )
-    found = json.loads(told.stdout)
-    used = found["in_use"]
+    results = json.loads(process.stdout)
+    use_result = results["in_use"]
     print(
-        f"\nin use for {SECONDS:.0f} s, machine's load {found['load_before']} to "
-        f"{found['load_after']}, 10 million additions in {found['additions_s']} s: late, ms: "
-        f"99 % {used['late_99_percent_ms']} (limit {LATE_MS:.0f}), worst "
-        f"{used['late_worst_ms']} ({WORST_MS:.0f})"
+        f"\nin use for {SECONDS:.0f} s, machine's load {results['load_before']} to "
+        f"{results['load_after']}, 10 million additions in {results['additions_s']} s: late, ms: "
+        f"99 % {use_result['late_99_percent_ms']} (limit {MAX_LATENESS_99_MS:.0f}), worst "
+        f"{use_result['late_worst_ms']} ({MAX_LATENESS_MS:.0f})"
     )
     print("frames/s; processor, %; late, ms: 99 %, worst; work, ms: 99 %, worst")
-    print(f"plots beside camera (limit {FRAMES:.0f}): {shown(found['frames'])}")
-    print(f"with the 3-D view ({FRAMES_BESIDE_3D:.0f}): {shown(found['beside_3d'])}")
+    print(
+        f"plots next to camera (limit {MIN_FRAME_RATE_HZ:.0f}): {format_frames(results['frames'])}"
+    )
+    print(
+        f"with the 3-D view ({MIN_FRAME_RATE_WITH_3D_HZ:.0f}): "
+        f"{format_frames(results['beside_3d'])}"
+    )
     print("longest turns, s, and their innermost calls")
-    for lasted_s, calls in sorted(used["stalls"], reverse=True)[:5]:
+    for lasted_s, calls in sorted(use_result["stalls"], reverse=True)[:5]:
         print(f"{lasted_s:.3f} {calls[-1]}")
 
 

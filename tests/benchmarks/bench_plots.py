@@ -1,7 +1,7 @@
-"""The plots panel: what a frame of each view costs the GUI thread, with another run and cursors.
+"""The plots panel: cost of a frame of each view in the GUI thread, with another run and cursors.
 
-Limit: 20 frames a second or more of six axes, 10 s at 1 kHz, in a window of 1920×1080. The thread's
-own time counts, so that what else the machine does is no matter.
+Limit: at least 20 frames per second of six axes, 10 s at 1 kHz, in a window of 1920×1080. The
+processor time of the thread counts, so that other processes have no influence.
 """
 
 import os
@@ -21,17 +21,17 @@ def test_frames_of_every_view(tmp_path):
     import numpy as np
 
     from rotemina.app.motion.session import MotionSession
-    from rotemina.app.settings import Settings
-    from rotemina.app.shell.application import make_application
-    from rotemina.app.shell.window_run import make_window
-    from rotemina.drivers.samples import Samples
-    from rotemina.drivers.simulator.driver import Simulator
-    from rotemina.sim.robot.file import load_robot
+    from rotemina.app.settings import UserSettings
+    from rotemina.app.shell.startup.application import make_application
+    from rotemina.app.shell.startup.window_run import make_window
+    from rotemina.drivers.contract import DeviceSamples
+    from rotemina.drivers.simulator import Simulator
+    from rotemina.sim.robot_files import load_robot
 
     application = make_application()
     robot = load_robot("rotemina")
     session = MotionSession(Simulator(robot))
-    window = make_window(session, Settings(tmp_path / "settings.json"), tmp_path)
+    window = make_window(session, UserSettings(tmp_path / "settings.json"), tmp_path)
     window.resize(1920, 1080)
     window.show()
     centres = np.array([sum(axis.range) / 2 for axis in robot.axes.values()])
@@ -45,19 +45,19 @@ def test_frames_of_every_view(tmp_path):
         measured = command + 1e-3 * spans * rng.standard_normal(command.shape)
         inputs = np.full_like(command, np.nan)
         rows = np.full(count, -1)
-        session.history.append(Samples(time_s, command, measured, inputs, rows), command)
+        session.history.append(DeviceSamples(time_s, command, measured, inputs, rows), command)
 
     feed(0, ROWS)
     plots = window.panels["plots"]
     application.processEvents()
     plots.refresh()
-    plots.beside.setCurrentIndex(1)
-    plots.beside.activated.emit(1)
+    plots.overlay_choice.setCurrentIndex(1)
+    plots.overlay_choice.activated.emit(1)
     plots.cursors.setChecked(True)
-    row, slow = ROWS, False
+    row, is_slow = ROWS, False
     lines = [f"GUI thread, ms a frame: median (limit {1e3 * LIMIT_S:.0f}), worst"]
-    for view in range(plots.shown.count()):
-        plots.shown.setCurrentIndex(view)
+    for view in range(plots.kind_choice.count()):
+        plots.kind_choice.setCurrentIndex(view)
         seconds = []
         for _ in range(FRAMES):
             feed(row, 33)
@@ -66,10 +66,10 @@ def test_frames_of_every_view(tmp_path):
             plots.refresh()
             application.processEvents()
             seconds.append(time.thread_time() - begin)
-        name = plots.shown.currentText()
+        name = plots.kind_choice.currentText()
         lines.append(f"{name:22} {1e3 * median(seconds):5.1f} {1e3 * max(seconds):6.1f}")
-        slow = slow or median(seconds) >= LIMIT_S
+        is_slow = is_slow or median(seconds) >= LIMIT_S
     print("\n" + "\n".join(lines))
     window.workbench.close()
     window.hide()
-    assert not slow, lines
+    assert not is_slow, lines

@@ -1,6 +1,6 @@
-"""What recording costs: 20 kHz × 24 channels in real time, beside naive ways to keep samples.
+"""What recording costs: 20 kHz × 24 channels in real time, compared with simple methods.
 
-``make bench`` runs it. The recorder is to take at most 10 % of a core, thread, disk and all.
+``make bench`` runs it. The recorder may take at most 10 % of a core, including thread and disk.
 """
 
 import csv
@@ -15,40 +15,44 @@ from pathlib import Path
 import numpy as np
 import pyarrow as pa
 
-from rotemina.app.motion.recording.recording_reader import Recording
+from rotemina.app.motion.recording import Recording
 from rotemina.app.motion.recording.writer import RecordingWriter
-from rotemina.drivers.samples import Samples
+from rotemina.drivers.contract import DeviceSamples
 
 RATE_HZ = 20_000
-AXES = 6  # of four channels each
+# Each axis has four channels.
+AXES = 6
 PORTION_S = 0.016
 SECONDS, LONG_S = 15.0, 600.0
-MOST_LOAD = 0.10
-QUICK = {"SECONDS": 1.0, "LONG_S": 6.0, "MOST_LOAD": inf}
+MAX_LOAD = 0.10
+QUICK = {"SECONDS": 1.0, "LONG_S": 6.0, "MAX_LOAD": inf}
 
 
-def made(first: int) -> tuple[Samples, np.ndarray]:
-    """Return a portion of readings with noise, rounded as sensors do."""
+def make_portion(first: int) -> tuple[DeviceSamples, np.ndarray]:
+    """Return a portion of noisy readings, rounded as by sensors."""
     count = round(PORTION_S * RATE_HZ)
     rng = np.random.default_rng(first)
     command = np.repeat(0.02 + 1e-6 * np.sin(np.arange(first, first + count) / 1e3)[:, None], 6, 1)
     measured = np.rint((command + 1e-8 * rng.standard_normal(command.shape)) / 1e-9) * 1e-9
     times = np.arange(first, first + count) / RATE_HZ
-    samples = Samples(times, command, measured, command * 2e6, np.full(count, -1))
+    samples = DeviceSamples(times, command, measured, command * 2e6, np.full(count, -1))
     return samples, command * 0.999
 
 
-def load(keep: Callable[[Samples, np.ndarray], None], end: Callable[[], None]) -> float:
-    """Hand portions over in real time; return the share of a core that keeping them took."""
-    portions = [made(320 * number) for number in range(64)]  # made before, and used again
+def measure_load(
+    keep: Callable[[DeviceSamples, np.ndarray], None], end: Callable[[], None]
+) -> float:
+    """Add portions in real time; return the share of a core that is needed to store them."""
+    # The portions are made in advance and reused, so that making them costs nothing.
+    portions = [make_portion(320 * number) for number in range(64)]
     count = round(SECONDS / PORTION_S)
     span_s = len(portions) * PORTION_S
     began_s, before_s = time.perf_counter(), time.process_time()
     for number in range(count):
         samples, model = portions[number % len(portions)]
-        again = number // len(portions)
-        shifted = Samples(
-            samples.device_time_s + again * span_s,
+        repetition = number // len(portions)
+        shifted = DeviceSamples(
+            samples.device_time_s + repetition * span_s,
             samples.command,
             samples.measured,
             samples.inputs,
@@ -61,10 +65,10 @@ def load(keep: Callable[[Samples, np.ndarray], None], end: Callable[[], None]) -
 
 
 def test_the_recorder_takes_a_small_part_of_a_core(tmp_path: Path) -> None:
-    idle = load(lambda *_: None, lambda: None)
+    idle_load = measure_load(lambda *_: None, lambda: None)
     writer = RecordingWriter(tmp_path / "run.arrows", dict.fromkeys("abcdef", "m"), {})
     writer.start()
-    recorder = load(
+    recorder_load = measure_load(
         lambda samples, model: writer.add(samples, model, time.monotonic()), writer.run_once
     )
     part_bytes = writer.bytes_written
@@ -74,28 +78,29 @@ def test_the_recorder_takes_a_small_part_of_a_core(tmp_path: Path) -> None:
     rows = Recording.open(path).count
     assert rows == round(SECONDS / PORTION_S) * 320
     print(
-        f"recorder: {100 * (recorder - idle):.1f} % of a core at {RATE_HZ / 1e3:g} kHz × "
-        f"{4 * AXES} channels (handing over {100 * idle:.1f}), {part_bytes / rows:.0f} bytes a "
+        f"recorder: {100 * (recorder_load - idle_load):.1f} % of a core at {RATE_HZ / 1e3:g} kHz × "
+        f"{4 * AXES} channels (transfer to it {100 * idle_load:.1f}), {part_bytes / rows:.0f} "
+        "bytes per "
         f"sample; {SECONDS:g} s merged in {merging_s:.2f} s"
     )
-    for name, keep, end in naive_ways(tmp_path):
-        other = load(keep, end)
-        print(f"{name}: {100 * (other - idle):.1f} %")
-    assert recorder - idle <= MOST_LOAD
+    for name, keep, end in list_naive_methods(tmp_path):
+        naive_load = measure_load(keep, end)
+        print(f"{name}: {100 * (naive_load - idle_load):.1f} %")
+    assert recorder_load - idle_load <= MAX_LOAD
 
 
-def naive_ways(folder: Path):
+def list_naive_methods(folder: Path):
     text = (folder / "run.csv").open("w", newline="")
     rows = csv.writer(text)
 
-    def append_csv(samples: Samples, model: np.ndarray) -> None:
-        rows.writerows(table_of(samples, model).tolist())
+    def append_csv(samples: DeviceSamples, model: np.ndarray) -> None:
+        rows.writerows(make_table(samples, model).tolist())
         text.flush()
 
-    def save_block(samples: Samples, model: np.ndarray) -> None:
+    def save_block(samples: DeviceSamples, model: np.ndarray) -> None:
         path = folder / f"{samples.device_time_s[0]:.6f}.npy"
         with path.open("wb") as file:
-            np.save(file, table_of(samples, model))
+            np.save(file, make_table(samples, model))
             file.flush()
             os.fsync(file.fileno())
 
@@ -103,19 +108,19 @@ def naive_ways(folder: Path):
     yield "numpy.save and fsync of each block", save_block, lambda: None
 
 
-def table_of(samples: Samples, model: np.ndarray) -> np.ndarray:
+def make_table(samples: DeviceSamples, model: np.ndarray) -> np.ndarray:
     times = samples.device_time_s[:, None]
     return np.hstack([times, samples.command, samples.inputs, model, samples.measured])
 
 
 def test_compression_is_not_worth_its_time() -> None:
-    parts = [made(320 * number) for number in range(32)]
-    table = np.concatenate([table_of(*part) for part in parts])
+    parts = [make_portion(320 * number) for number in range(32)]
+    table = np.concatenate([make_table(*part) for part in parts])
     schema = pa.schema([(str(column), pa.float64()) for column in range(table.shape[1])])
     batch = pa.record_batch(
         [pa.array(np.ascontiguousarray(column)) for column in table.T], schema=schema
     )
-    print("compression: bytes a sample, % of a core")
+    print("compression: bytes per sample, % of a core")
     for codec in (None, "lz4", "zstd"):
         options = pa.ipc.IpcWriteOptions(compression=codec, use_threads=False)
         began_s = time.process_time()
@@ -129,12 +134,12 @@ def test_compression_is_not_worth_its_time() -> None:
 
 
 def test_long_recordings(tmp_path: Path) -> None:
-    """Long recordings at 20 kHz, as fast as they are taken: size, memory, merging, opening."""
+    """Measure long recordings at 20 kHz, as fast as possible: size, memory, merging, opening."""
     writer = RecordingWriter(tmp_path / "run.arrows", dict.fromkeys("abcdef", "m"), {})
-    samples, model = made(0)
-    before = peak_mb()
+    samples, model = make_portion(0)
+    peak_before_mb = measure_peak_mb()
     for number in range(round(LONG_S / PORTION_S)):
-        shifted = Samples(
+        shifted = DeviceSamples(
             samples.device_time_s + number * PORTION_S,
             samples.command,
             samples.measured,
@@ -145,26 +150,26 @@ def test_long_recordings(tmp_path: Path) -> None:
         if number % 25 == 24:
             writer.run_once()
     writer.run_once()
-    recorded = peak_mb() - before
+    recording_mb = measure_peak_mb() - peak_before_mb
     size = writer.bytes_written
     began_s = time.perf_counter()
     writer.close()
     path = tmp_path / "run.arrows"
     merging_s = time.perf_counter() - began_s
-    merged = peak_mb() - before
+    merging_mb = measure_peak_mb() - peak_before_mb
     began_s = time.perf_counter()
     recording = Recording.open(path)
     opening_s = time.perf_counter() - began_s
     began_s = time.perf_counter()
-    assert 19_999 <= len(recording.samples(LONG_S / 2, LONG_S / 2 + 1.0)) <= 20_001
+    assert 19_999 <= len(recording.read_samples(LONG_S / 2, LONG_S / 2 + 1.0)) <= 20_001
     second_s = time.perf_counter() - began_s
     print(
-        f"{LONG_S:g} s: {size / 1e9:.2f} GB; memory grows by {recorded:.0f} MB, merging by "
-        f"{merged:.0f}; merged in {merging_s:.1f} s, opened in {1e3 * opening_s:.0f} ms, one "
+        f"{LONG_S:g} s: {size / 1e9:.2f} GB; memory grows by {recording_mb:.0f} MB, merging by "
+        f"{merging_mb:.0f}; merged in {merging_s:.1f} s, opened in {1e3 * opening_s:.0f} ms, one "
         f"second read in {1e3 * second_s:.1f} ms"
     )
 
 
-def peak_mb() -> float:
-    """Return the most memory that this process has had, of its own."""
+def measure_peak_mb() -> float:
+    """Return the peak memory of this process, MB."""
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e3

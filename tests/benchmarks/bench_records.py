@@ -1,8 +1,8 @@
-"""Import and export: 1 000 000 rows by 13 columns, beside pandas, polars and pyarrow.
+"""Import and export: 1 000 000 rows by 13 columns, compared with pandas and pyarrow.
 
-``make bench`` runs it and holds it to its bounds; ``python tests/benchmarks/bench_records.py ROWS``
-only prints. All take turns in one run, so that a slow moment of the machine meets them all; the
-export of pandas, which takes half a minute, has one turn. It needs the extra ``bench``.
+``make bench`` runs it and checks the limits; ``python tests/benchmarks/bench_records.py ROWS`` only
+prints. All libraries take turns in one run, so that a slow phase of the machine affects all of
+them. The export of pandas takes half a minute and has only one turn. The extra ``bench`` is needed.
 """
 
 import os
@@ -17,33 +17,30 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-import polars as pl
 import pyarrow as pa
 import pyarrow.csv
 
-from rotemina.sim.records.reading import read_record
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.records.writing import write_record
+from rotemina.sim.records import Record, Tap, read_record, write_record
 
 ROWS = 1_000_000
 CHANNELS = 12
 TURNS = 3
 ONE_TURN = "pandas, one turn"
 
-MOST_TIMES_THE_FASTEST = 2.0
-MOST_TIMES_THE_ARRAY = 5.0
+MAX_RATIO_TO_THE_FASTEST = 2.0
+MAX_RATIO_TO_THE_ARRAY = 5.0
 QUICK = {
     "ROWS": 1000,
     "TURNS": 1,
-    "MOST_TIMES_THE_FASTEST": inf,
-    "MOST_TIMES_THE_ARRAY": inf,
+    "MAX_RATIO_TO_THE_FASTEST": inf,
+    "MAX_RATIO_TO_THE_ARRAY": inf,
 }
 
 MEMORY_PROBE = """
 import sys
 import psutil
-from rotemina.sim.records.reading import read_record
-from rotemina.sim.records.writing import write_record
+from rotemina.sim.records import read_record
+from rotemina.sim.records import write_record
 task, source, target = sys.argv[1:]
 def peak_bytes():
     if sys.platform == "win32":
@@ -62,26 +59,31 @@ print(peak_bytes() - before)
 """
 
 
-def test_import_and_export_keep_to_their_bounds() -> None:
+def test_import_and_export_stay_within_their_limits() -> None:
     slowness, growth = main()
-    assert slowness <= MOST_TIMES_THE_FASTEST
-    assert growth <= MOST_TIMES_THE_ARRAY
+    assert slowness <= MAX_RATIO_TO_THE_FASTEST
+    assert growth <= MAX_RATIO_TO_THE_ARRAY
 
 
 def main(rows: int = ROWS) -> tuple[float, float]:
-    """Measure and print; return the worst of our times and of our peaks, as ratios."""
+    """Measure and print; return our worst time and our worst peak as ratios to the others."""
     array_bytes = 8 * rows * (CHANNELS + 1)
     with tempfile.TemporaryDirectory() as folder:
         source, target = Path(folder, "source.csv"), Path(folder, "target.csv")
         record = make_record(rows)
         write_record(record, source)
         print(f"\n{rows} rows x {CHANNELS + 1} columns, {source.stat().st_size / 1e6:.0f} MB")
-        read, written = measure(importers(source)), measure(exporters(record, target))
+        import_times_s, export_times_s = (
+            measure(make_importers(source)),
+            measure(make_exporters(record, target)),
+        )
         print("            import, s  export, s")
-        for own, one, other in zip(read, read.values(), written.values(), strict=True):
-            print(f"{own:11} {one:9.2f} {other:10.2f}")
-        slowness = [slowness_of(read), slowness_of(written)]
-        peaks = [peak_growth(task, source, target) for task in ("import", "export")]
+        for name, reading_s, writing_s in zip(
+            import_times_s, import_times_s.values(), export_times_s.values(), strict=True
+        ):
+            print(f"{name:11} {reading_s:9.2f} {writing_s:10.2f}")
+        slowness = [compute_slowness(import_times_s), compute_slowness(export_times_s)]
+        peaks = [measure_peak_growth(task, source, target) for task in ("import", "export")]
     print("peak, MB   ", *(f"{peak / 1e6:10.0f}" for peak in peaks))
     print("x the array", *(f"{peak / array_bytes:10.2f}" for peak in peaks))
     return max(slowness), max(peaks) / array_bytes
@@ -95,36 +97,33 @@ def make_record(rows: int) -> Record:
     return Record.from_signals(np.arange(rows) / 1000, signals, dict.fromkeys(axes, "m"))
 
 
-def importers(source: Path) -> Mapping[str, Callable[[], object]]:
-    """Return what reads the file: ours checks it, the others take it as it is."""
+def make_importers(source: Path) -> Mapping[str, Callable[[], object]]:
+    """Return the functions that read the file; only ours also checks it."""
     return {
         "rotemina": lambda: read_record(source),
-        "polars": lambda: pl.read_csv(source, comment_prefix="#"),
         "pyarrow": lambda: pa.csv.read_csv(source, pa.csv.ReadOptions(skip_rows=1)),
         "pandas": lambda: pd.read_csv(source, comment="#"),
     }
 
 
-def exporters(record: Record, target: Path) -> Mapping[str, Callable[[], object]]:
-    """Return what writes the same numbers from each library's own table, each up to the disk.
+def make_exporters(record: Record, target: Path) -> Mapping[str, Callable[[], object]]:
+    """Return the functions that write the same numbers from a table of each library to the disk.
 
-    Ours is on the disk when it returns; the others leave that to the system.
+    Ours syncs the file itself; for the others a sync is added.
     """
     names = ["t [s]", *(f"{column} [m]" for column in record.columns)]
     columns = [record.time_s, *record.values.T]
     frame = pd.DataFrame(dict(zip(names, columns, strict=True)))
-    table = pl.DataFrame(dict(zip(names, columns, strict=True)))
     arrow = pa.table(dict(zip(names, columns, strict=True)))
     return {
         "rotemina": lambda: write_record(record, target),
-        "polars": to_disk(target, lambda: table.write_csv(target)),
-        "pyarrow": to_disk(target, lambda: pa.csv.write_csv(arrow, target)),
-        ONE_TURN: to_disk(target, lambda: frame.to_csv(target, index=False)),
+        "pyarrow": sync_after(target, lambda: pa.csv.write_csv(arrow, target)),
+        ONE_TURN: sync_after(target, lambda: frame.to_csv(target, index=False)),
     }
 
 
-def to_disk(target: Path, write: Callable[[], object]) -> Callable[[], None]:
-    """Return what writes a file and waits until it is on the disk."""
+def sync_after(target: Path, write: Callable[[], object]) -> Callable[[], None]:
+    """Return a function that writes a file and waits until it is on the disk."""
 
     def task() -> None:
         write()
@@ -135,7 +134,7 @@ def to_disk(target: Path, write: Callable[[], object]) -> Callable[[], None]:
 
 
 def measure(tasks: Mapping[str, Callable[[], object]]) -> dict[str, float]:
-    """Return the median seconds of each task, which take turns after one unmeasured round."""
+    """Return the median time of each task, s; the tasks take turns after an unmeasured round."""
     seconds: dict[str, list[float]] = {name: [] for name in tasks}
     for turn in range(TURNS + 1):
         for name, task in tasks.items():
@@ -145,17 +144,17 @@ def measure(tasks: Mapping[str, Callable[[], object]]) -> dict[str, float]:
             task()
             if turn > 0:
                 seconds[name].append(time.perf_counter() - start)
-    return {name: statistics.median(each) for name, each in seconds.items()}
+    return {name: statistics.median(times_s) for name, times_s in seconds.items()}
 
 
-def slowness_of(seconds: Mapping[str, float]) -> float:
-    """Return our seconds divided by those of the fastest of the others."""
+def compute_slowness(seconds: Mapping[str, float]) -> float:
+    """Return our time divided by that of the fastest other library."""
     fastest = min(value for name, value in seconds.items() if name != "rotemina")
     return seconds["rotemina"] / fastest
 
 
-def peak_growth(task: str, source: Path, target: Path) -> int:
-    """Return by how many bytes a process of its own grows at most, imports of code included."""
+def measure_peak_growth(task: str, source: Path, target: Path) -> int:
+    """Return the peak growth of a separate process, bytes, including its imports."""
     command = [sys.executable, "-c", MEMORY_PROBE, task, str(source), str(target)]
     return int(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
 

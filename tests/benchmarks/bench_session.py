@@ -1,7 +1,7 @@
-"""The session's loop: at 1 kHz with the simulator, and how soon a stop is out and acts.
+"""The session's loop: at 1 kHz with the simulator, and latency of a stop.
 
-``make bench`` runs it on a machine that does nothing else. The loop is to keep 1 kHz within 2 ms
-for 99.9 % of its cycles, on at most 15 % of a core.
+``make bench`` runs it on an idle machine. The loop must keep 1 kHz within 2 ms for 99.9 % of its
+cycles, with at most 15 % of a core.
 """
 
 import os
@@ -15,26 +15,26 @@ import numpy as np
 import psutil
 
 from rotemina.app.motion.session import MotionSession
-from rotemina.drivers.samples import DeviceState
-from rotemina.drivers.simulator.driver import Simulator
+from rotemina.drivers.contract import DeviceState
+from rotemina.drivers.simulator import Simulator
 from rotemina.sim.errors import InputError
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.robot.model import KeepOut
-from rotemina.sim.trajectory.checked_trajectory import accepted
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot import KeepOut
+from rotemina.sim.robot_files import load_robot
+from rotemina.sim.trajectory import accept_trajectory
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
 SECONDS = 10.0
-MOST_LATE_S = 2e-3
-MOST_LOAD = 0.15
+MAX_LATENESS_S = 2e-3
+MAX_LOAD = 0.15
 STOPS = 20
 PATH_ROWS, CALLS = 1_500_000, 5000
 QUICK = {"SECONDS": 1.0, "STOPS": 1, "PATH_ROWS": 10_000, "CALLS": 50}
 
 
-class Timed(Simulator):
-    """The simulator, noting when it is read."""
+class TimedSimulator(Simulator):
+    """The simulator, which records the times of its reads."""
 
     def __init__(self, *args, **options):
         super().__init__(*args, **options)
@@ -45,30 +45,30 @@ class Timed(Simulator):
         return super()._read()
 
 
-def connected(session):
+def connect(session):
     session.start()
     while session.snapshot().position_known is False:
         time.sleep(0.01)
 
 
 def test_the_loop_keeps_a_kilohertz() -> None:
-    driver = Timed(load_robot("rotemina"))
+    driver = TimedSimulator(load_robot("rotemina"))
     session = MotionSession(driver)
-    connected(session)
+    connect(session)
     time.sleep(1.0)
-    measured("alone", driver, lambda: time.sleep(SECONDS))
+    measure_loop("alone", driver, lambda: time.sleep(SECONDS))
     session.close()
 
 
-def test_the_loop_beside_the_window(tmp_path) -> None:
-    from rotemina.app.settings import Settings
-    from rotemina.app.shell.application import make_application
-    from rotemina.app.shell.window_run import make_window
+def test_the_loop_with_the_window(tmp_path) -> None:
+    from rotemina.app.settings import UserSettings
+    from rotemina.app.shell.startup.application import make_application
+    from rotemina.app.shell.startup.window_run import make_window
 
     application = make_application()
-    driver = Timed(load_robot("rotemina"))
+    driver = TimedSimulator(load_robot("rotemina"))
     session = MotionSession(driver)
-    window = make_window(session, Settings(tmp_path / "settings.json"), tmp_path)
+    window = make_window(session, UserSettings(tmp_path / "settings.json"), tmp_path)
     window.resize(1920, 1080)
     window.show()
     window.workbench.start()
@@ -80,34 +80,35 @@ def test_the_loop_beside_the_window(tmp_path) -> None:
             time.sleep(1e-3)
 
     paint(2.0)
-    measured("beside the window", driver, lambda: paint(SECONDS))
+    measure_loop("with the window", driver, lambda: paint(SECONDS))
     window.workbench.close()
     window.hide()
 
 
-def measured(name: str, driver: Timed, live: Callable[[], None]) -> None:
+def measure_loop(name: str, driver: TimedSimulator, run: Callable[[], None]) -> None:
     driver.read_s.clear()
     process, begin = psutil.Process(), time.perf_counter()
     before = process.cpu_times()
-    live()
-    after, took = process.cpu_times(), time.perf_counter() - begin
+    run()
+    after, duration_s = process.cpu_times(), time.perf_counter() - begin
     intervals = np.diff(np.array(driver.read_s))
-    late = np.percentile(intervals, 99.9) - 1e-3
-    load = (after.user + after.system - before.user - before.system) / took
+    lateness_s = np.percentile(intervals, 99.9) - 1e-3
+    load = (after.user + after.system - before.user - before.system) / duration_s
     print(
-        f"loop {name}: {len(intervals) / took:.0f} Hz; late, ms: 99.9 % {1e3 * late:.2f} (limit "
-        f"{1e3 * MOST_LATE_S:.0f}), worst {1e3 * (intervals.max() - 1e-3):.2f}; "
-        f"{100 * load:.0f} % of a core ({100 * MOST_LOAD:.0f})"
+        f"loop {name}: {len(intervals) / duration_s:.0f} Hz; late, ms: 99.9 % "
+        f"{1e3 * lateness_s:.2f} (limit "
+        f"{1e3 * MAX_LATENESS_S:.0f}), worst {1e3 * (intervals.max() - 1e-3):.2f}; "
+        f"{100 * load:.0f} % of a core ({100 * MAX_LOAD:.0f})"
     )
 
 
 def test_simulated_axes_rest_soon_after_a_stop() -> None:
     robot = load_robot("rotemina")
     session = MotionSession(Simulator(robot))
-    connected(session)
+    connect(session)
     axis = robot.axes["x"]
     braking_s = axis.max_speed / axis.max_acceleration
-    excess, calls = [], []
+    excess_s, call_times_s = [], []
     for number in range(STOPS):
         session.go_to({"x": 0.05 if number % 2 else 0.005})
         time.sleep(0.3)
@@ -116,46 +117,47 @@ def test_simulated_axes_rest_soon_after_a_stop() -> None:
         stopper.join()
         while (state := session.snapshot()).activity is not DeviceState.IDLE or state.stopping:
             time.sleep(0.001)
-        excess.append(state.standstill_s - braking_s)
-        calls.append(state.stop_latency_s)
+        excess_s.append(state.standstill_s - braking_s)
+        call_times_s.append(state.stop_latency_s)
     session.close()
     print(
-        f"stop: confirmed within {1e3 * max(calls):.3f} ms, seen at rest "
-        f"{1e3 * np.median(excess):.1f} ms (worst {1e3 * max(excess):.1f}) after braking"
+        f"stop: confirmed within {1e3 * max(call_times_s):.3f} ms, reported at rest "
+        f"{1e3 * np.median(excess_s):.1f} ms (worst {1e3 * max(excess_s):.1f}) after braking"
     )
 
 
-def test_a_stop_beside_the_largest_check_of_a_path() -> None:
-    """A call of stop against what an idle thread of the same process waits, in turn."""
+def test_a_stop_during_the_largest_check_of_a_path() -> None:
+    """Compare the latency of a stop with the delay of an idle thread of the same process."""
     robot = replace(load_robot("rotemina"), keep_out=KeepOut(floor=-0.02))
     session = MotionSession(Simulator(robot))
-    connected(session)
+    connect(session)
     time_s = np.arange(PATH_ROWS) / 1000.0
     signal = 0.0275 + 1e-3 * np.sin(0.5 * time_s)
-    checked = accepted(
+    trajectory = accept_trajectory(
         robot, Record.from_signals(time_s, {("x", Tap.CMD): signal}, {"x": "m"}), 1e-3
     )
     ended = threading.Event()
 
     def check() -> None:
         while not ended.is_set():
-            with suppress(InputError):  # the stops overtake it
-                session.play(checked)
+            # The stops cancel the request.
+            with suppress(InputError):
+                session.play(trajectory)
 
     checker = threading.Thread(target=check)
     checker.start()
-    waits, calls = [], []
+    wait_times_s, call_times_s = [], []
     for _ in range(CALLS):
         begin = time.perf_counter()
         time.sleep(2e-3)
-        woken = time.perf_counter()
+        wake_time_s = time.perf_counter()
         session.stop()
-        calls.append(time.perf_counter() - woken)
-        waits.append(woken - begin - 2e-3)
+        call_times_s.append(time.perf_counter() - wake_time_s)
+        wait_times_s.append(wake_time_s - begin - 2e-3)
     ended.set()
     checker.join()
     session.close()
-    print(f"beside the check of {PATH_ROWS} rows, ms: median, 99.9 %, worst")
-    for name, times in (("an idle thread waits", waits), ("a stop takes", calls)):
-        late = np.percentile(times, [50.0, 99.9, 100.0])
-        print(f"{name}:", ", ".join(f"{1e3 * one:.3f}" for one in late))
+    print(f"during the check of {PATH_ROWS} rows, ms: median, 99.9 %, worst")
+    for name, times in (("an idle thread waits", wait_times_s), ("a stop takes", call_times_s)):
+        delays_s = np.percentile(times, [50.0, 99.9, 100.0])
+        print(f"{name}:", ", ".join(f"{1e3 * delay_s:.3f}" for delay_s in delays_s))

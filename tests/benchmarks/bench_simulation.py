@@ -1,4 +1,4 @@
-"""The nominal simulation: six axes, beside ``scipy.signal.dlsim`` on the same matrices.
+"""The nominal simulation: six axes, compared with ``scipy.signal.dlsim`` on the same matrices.
 
 Limit: at least 20 times faster.
 """
@@ -10,14 +10,14 @@ import numpy as np
 from scipy.linalg import block_diag, expm
 from scipy.signal import dlsim
 
-from rotemina.sim.plant.plant import Plant
-from rotemina.sim.robot.file import load_robot
+from rotemina.sim.plant import Plant
+from rotemina.sim.robot_files import load_robot
 
 RATE_HZ, ROWS, TURNS = 2000.0, 20_000, 7
 QUICK = {"ROWS": 2000, "TURNS": 1}
 
 
-def test_nominal_simulation_beside_dlsim():
+def test_nominal_simulation_compared_with_dlsim():
     robot = load_robot("rotemina")
     plant = Plant.of(robot)
     time_s = np.arange(ROWS) / RATE_HZ
@@ -25,22 +25,22 @@ def test_nominal_simulation_beside_dlsim():
     spans = np.array([axis.span for axis in robot.axes.values()])
     wave = np.sin(2 * np.pi * np.outer(time_s, [1.0, 1.5, 2.0, 3.0, 4.0, 5.0]))
     command = centres + 0.05 * spans * wave
-    system = discrete_system(plant)
-    inputs = plant.open_loop_inputs(command)
+    system = make_discrete_system(plant)
+    inputs = plant.compute_open_loop_inputs(command)
     order = [plant.axes.index(name) for group in plant.groups for name in group.axes]
-    start = dlsim_start(plant, command[0])
+    start = make_dlsim_start(plant, command[0])
 
-    def ours():
-        return plant.advance(plant.at_rest(0.0, command[0]), time_s, command)[0].position
+    def run_ours():
+        return plant.advance(plant.find_rest_state(0.0, command[0]), time_s, command)[0].position
 
-    def scipys():
+    def run_dlsim():
         return dlsim(system, inputs[:, order], x0=start)[1]
 
-    gap = np.abs(ours()[:, order] - scipys()) / spans[order]
+    gap = np.abs(run_ours()[:, order] - run_dlsim()) / spans[order]
     assert gap.max() < 1e-9
     seconds = {"ours": [], "dlsim": []}
     for _ in range(TURNS):
-        for name, run in (("ours", ours), ("dlsim", scipys)):
+        for name, run in (("ours", run_ours), ("dlsim", run_dlsim)):
             begin = time.perf_counter()
             run()
             seconds[name].append(time.perf_counter() - begin)
@@ -52,8 +52,8 @@ def test_nominal_simulation_beside_dlsim():
     )
 
 
-def discrete_system(plant):
-    """The same exact discretisation, all groups in one system."""
+def make_discrete_system(plant):
+    """Return the same exact discretisation, with all groups in one system."""
     states, inputs = [], []
     for group in plant.groups:
         exact = expm(group.generator / RATE_HZ)
@@ -66,10 +66,10 @@ def discrete_system(plant):
     return a, b, c, np.zeros((sum(sizes), sum(sizes))), 1.0 / RATE_HZ
 
 
-def dlsim_start(plant, command):
-    position = plant.at_rest(0.0, command).position[0]
+def make_dlsim_start(plant, command):
+    position = plant.find_rest_state(0.0, command).position[0]
     parts = []
     for group in plant.groups:
-        own = [plant.axes.index(name) for name in group.axes]
-        parts.append(np.concatenate([position[own], np.zeros(len(own))]))
+        columns = [plant.axes.index(name) for name in group.axes]
+        parts.append(np.concatenate([position[columns], np.zeros(len(columns))]))
     return np.concatenate(parts)

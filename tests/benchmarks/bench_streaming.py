@@ -1,8 +1,8 @@
 """Peak memory of ``rotemina simulate``: 10 minutes and 1 hour of six axes at 1 kHz.
 
-The commands go from file to file in pieces, so the peak must not grow with their length; beside
-it stand the limit and how long it took. Effects, noise and the table of loads are on in the second
-pair of runs. ``make bench`` runs it; it needs about 5 GB of room for a while.
+The commands are streamed from file to file, so the peak must not grow with their length. The limit
+and the time are printed too. The second pair of runs has effects, noise and the table of loads.
+``make bench`` runs it; it needs about 5 GB of free disk space.
 """
 
 import subprocess
@@ -16,16 +16,15 @@ from pathlib import Path
 
 import numpy as np
 
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.records.record_pieces import PIECE_ROWS
-from rotemina.sim.records.writing import write_pieces
-from rotemina.sim.robot.file import load_robot
+from rotemina.sim.records import PIECE_ROWS, Record, Tap, write_pieces
+from rotemina.sim.robot_files import load_robot
 
 RATE_HZ = 1000
 DURATIONS_S = (600, 3600)
 LIMIT_MB = 500.0
-MOST_GROWTH = 1.1  # of the peak, from the shortest to the longest
-QUICK = {"DURATIONS_S": (2, 4), "LIMIT_MB": inf, "MOST_GROWTH": inf}
+# Largest ratio of the peaks of the longest and the shortest run.
+MAX_GROWTH = 1.1
+QUICK = {"DURATIONS_S": (2, 4), "LIMIT_MB": inf, "MAX_GROWTH": inf}
 
 EFFECTS = """
 [[axis.thx.effect]]
@@ -55,36 +54,36 @@ sys.exit(status)
 """
 
 
-def test_a_long_simulation_keeps_within_its_memory() -> None:
+def test_a_long_simulation_stays_within_its_memory_limit() -> None:
     peaks = main()
-    assert max(max(each) for each in peaks) <= LIMIT_MB
-    assert all(long <= MOST_GROWTH * short for short, long in peaks)
+    assert max(max(pair) for pair in peaks) <= LIMIT_MB
+    assert all(long <= MAX_GROWTH * short for short, long in peaks)
 
 
 def main(*durations_s: int) -> list[tuple[float, float]]:
-    """Measure and print; return the peaks of the shortest and the longest run, MB, of each way."""
+    """Measure and print; return the peaks of the shortest and the longest run of each pair, MB."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         commands = [make_commands(folder, length) for length in durations_s or DURATIONS_S]
-        shipped = resources.files("rotemina.resources.robots").joinpath("rotemina.toml")
-        own = folder / "own.toml"
-        own.write_text(shipped.read_text("utf-8") + EFFECTS, "utf-8")
+        shipped_file = resources.files("rotemina.resources.robots").joinpath("rotemina.toml")
+        robot_file = folder / "own.toml"
+        robot_file.write_text(shipped_file.read_text("utf-8") + EFFECTS, "utf-8")
         print(f"six axes at 1 kHz: peak, MB (limit {LIMIT_MB:.0f}); written, MB; s")
         nominal = [measure("nominal", path, "--no-noise") for path in commands]
-        loads = ("--robot", str(own), "--loads", str(folder / "loads.csv"))
-        full = [measure("effects, noise, loads", path, *loads) for path in commands]
+        options = ("--robot", str(robot_file), "--loads", str(folder / "loads.csv"))
+        full = [measure("effects, noise, loads", path, *options) for path in commands]
     return [(nominal[0], nominal[-1]), (full[0], full[-1])]
 
 
 def make_commands(folder: Path, duration_s: int) -> Path:
-    """Write slow waves of all axes, piece by piece; return the file."""
+    """Write slow waves of all axes in pieces; return the path of the file."""
     path = folder / f"{duration_s}.csv"
-    write_pieces(waves(duration_s * RATE_HZ + 1), path)
+    write_pieces(make_waves(duration_s * RATE_HZ + 1), path)
     return path
 
 
-def waves(rows: int) -> Iterator[Record]:
-    """Give the commands in pieces."""
+def make_waves(rows: int) -> Iterator[Record]:
+    """Yield the commands in pieces."""
     robot = load_robot("rotemina")
     for first in range(0, rows, PIECE_ROWS):
         time_s = np.arange(first, min(first + PIECE_ROWS, rows)) / RATE_HZ
@@ -95,14 +94,14 @@ def waves(rows: int) -> Iterator[Record]:
         yield Record.from_signals(time_s, signals, {n: robot.unit(n) or "m" for n in robot.axes})
 
 
-def measure(title: str, commands: Path, *asked: str) -> float:
-    """Simulate in a process of its own, print what it took, and return its peak, MB."""
+def measure(title: str, commands: Path, *options: str) -> float:
+    """Simulate in a separate process, print time and memory, and return the peak, MB."""
     output = commands.with_name("record.csv")
-    command = [sys.executable, "-c", PROBE, "simulate", str(commands), *asked, "-o", str(output)]
+    command = [sys.executable, "-c", PROBE, "simulate", str(commands), *options, "-o", str(output)]
     start = time.perf_counter()
-    printed = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    output_text = subprocess.run(command, check=True, capture_output=True, text=True).stdout
     seconds = time.perf_counter() - start
-    peak_mb = int(printed.split()[-1]) / 1e6
+    peak_mb = int(output_text.split()[-1]) / 1e6
     print(
         f"{commands.stem:>5} s, {title:22} {peak_mb:5.0f} {output.stat().st_size / 1e6:6.0f} "
         f"{seconds:6.1f}"

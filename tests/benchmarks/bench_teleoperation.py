@@ -1,9 +1,9 @@
-"""Teleoperation: how soon a stick's motion is on the wire, and what switching leaves of a motion.
+"""Teleoperation: latency from a stick to the wire, and steps of the command while switching.
 
-``make bench`` runs it on a machine that does nothing else. The boards are a process of their own at
-true baud; a stick is a fake below hidapi. A change is timed from its report to the last byte of the
-speed that follows from it, by the line's own baud rate: the limits are 10 ms at the median and
-20 ms at the 99th percentile, at 200 Hz.
+``make bench`` runs it on an idle machine. The boards are a separate process at true baud; a stick
+is a fake below hidapi. The latency is measured from a report of the stick to the last byte of the
+resulting speed command, which the baud rate determines. Limits: 10 ms at the median and 20 ms at
+the 99th percentile, at 200 Hz.
 """
 
 import struct
@@ -16,20 +16,18 @@ from contextlib import contextmanager
 import numpy as np
 import pytest
 
-from rotemina.app.motion.operation import Operation
+from rotemina.app.motion.inputs import Intent, OperatorAction
 from rotemina.app.motion.session import MotionSession
-from rotemina.app.motion.state import Phase
-from rotemina.app.motion.teleoperation.intent import Action, Intent
-from rotemina.app.motion.teleoperation.scales import LawKind
-from rotemina.app.motion.teleoperation.teleoperation_loop import Teleoperator
-from rotemina.drivers.clock import VirtualClock
-from rotemina.drivers.inputs.hid.hid_discovery import HidSource
-from rotemina.drivers.mc68hc11.driver import MC68HC11
-from rotemina.drivers.mc68hc11.framing import Decoder
-from rotemina.drivers.mc68hc11.host_messages import MoveVelocity
-from rotemina.drivers.serial_port import open_port
-from rotemina.drivers.simulator.driver import Simulator
-from rotemina.sim.robot.file import load_robot
+from rotemina.app.motion.state import SessionPhase
+from rotemina.app.motion.teleoperation import LawKind, Teleoperator
+from rotemina.app.operation import OperatorControl
+from rotemina.drivers.contract import VirtualClock
+from rotemina.drivers.inputs import HidSource
+from rotemina.drivers.mc68hc11.driver import MC68HC11Driver
+from rotemina.drivers.mc68hc11.protocol import FrameDecoder, MoveVelocity
+from rotemina.drivers.serial_lines import open_port
+from rotemina.drivers.simulator import Simulator
+from rotemina.sim.robot_files import load_robot
 
 ROBOT = load_robot("rotemina")
 CHANGES = 400
@@ -42,17 +40,17 @@ DESCRIPTOR = bytes.fromhex(
 QUICK = {"CHANGES": 10}
 
 
-class Stick:
-    """hidapi's module and its only device in one; ``push`` is what a hand does."""
+class FakeStick:
+    """Fake of the hidapi module with a single device; ``push`` moves the stick."""
 
     def __init__(self):
-        self.waiting = deque()
+        self.reports = deque()
         self.push(0.0)
 
     def enumerate(self):
-        about = {"vendor_id": 1, "product_id": 1, "usage_page": 1, "usage": 4}
+        numbers = {"vendor_id": 1, "product_id": 1, "usage_page": 1, "usage": 4}
         names = {"manufacturer_string": "", "product_string": "Stick", "serial_number": "1"}
-        return [{**about, **names, "path": b"stick", "interface_number": 0}]
+        return [{**numbers, **names, "path": b"stick", "interface_number": 0}]
 
     def device(self):
         return self
@@ -67,7 +65,7 @@ class Stick:
         return list(DESCRIPTOR)
 
     def read(self, max_length):
-        return list(self.waiting.popleft()) if self.waiting else []
+        return list(self.reports.popleft()) if self.reports else []
 
     def error(self):
         return ""
@@ -76,15 +74,15 @@ class Stick:
         pass
 
     def push(self, x):
-        self.waiting.append(struct.pack("<3hB", round(32767 * x), 0, 0, 0))
+        self.reports.append(struct.pack("<3hB", round(32767 * x), 0, 0, 0))
 
 
-class Wire:
-    """A port that notes speeds of the first axis, and when their last byte is out."""
+class RecordingPort:
+    """A port that records speeds of the first axis, and the times of their last bytes."""
 
     def __init__(self, url, baud):
         self._port = open_port(url, baud)
-        self._decoder = Decoder(of_board=True)
+        self._decoder = FrameDecoder(is_board=True)
         self.speeds = []
 
     def write(self, data):
@@ -101,7 +99,7 @@ class Wire:
 
 
 @contextmanager
-def boards(clock):
+def run_boards(clock):
     command = [sys.executable, "-m", "rotemina.app.cli.main", "board", "--position-known"]
     command += ["--clock", clock]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
@@ -111,65 +109,77 @@ def boards(clock):
             process.terminate()
 
 
-def until(condition, limit_s=20.0):
+def wait_until(condition, limit_s=20.0):
     end_s = time.monotonic() + limit_s
     while not condition():
         assert time.monotonic() < end_s
         time.sleep(2e-4)
 
 
-@pytest.mark.parametrize("clock", ["4", "2"])  # MHz, E of the chip
+# E clock of the chip, MHz.
+@pytest.mark.parametrize("clock", ["4", "2"])
 def test_from_stick_to_wire(tmp_path, clock):
-    stick, wires = Stick(), []
+    stick, wires = FakeStick(), []
 
-    def opened(url, baud):
-        wires.append(Wire(url, baud))
+    def open_recording_port(url, baud):
+        wires.append(RecordingPort(url, baud))
         return wires[-1]
 
-    with boards(clock) as ports:
-        driver = MC68HC11(ROBOT, {"port": ports[0], "second_port": ports[1]}, open_port=opened)
+    with run_boards(clock) as ports:
+        driver = MC68HC11Driver(
+            ROBOT, {"port": ports[0], "second_port": ports[1]}, open_port=open_recording_port
+        )
         session = MotionSession(driver)
         sources = {"hid": HidSource(load=lambda: stick)}
-        operation = Operation(session, tmp_path / "config", tmp_path / "data", sources=sources)
+        operation = OperatorControl(
+            session, tmp_path / "config", tmp_path / "data", sources=sources
+        )
         session.start()
-        until(lambda: session.snapshot().phase is Phase.READY)
+        wait_until(lambda: session.snapshot().phase is SessionPhase.READY)
         operation.start()
-        until(lambda: "x" in operation.intent.deflections)
-        rng, waits = np.random.default_rng(1), []
-        # Up and down as a hand does it: a stick that leaps is not trusted.
+        wait_until(lambda: "x" in operation.intent.deflections)
+        rng, latencies = np.random.default_rng(1), []
+        # The stick moves up and down gradually, because a jump would be rejected.
         level, step, speeds = 0.3, 0.08, wires[0].speeds
         stick.push(level)
-        until(lambda: bool(speeds))
+        wait_until(lambda: bool(speeds))
         for _ in range(CHANGES):
             time.sleep(rng.uniform(0.03, 0.06))
             step = np.copysign(0.08, step if 0.2 < level + step < 0.9 else -step)
             level += step
-            seen, before = len(speeds), speeds[-1][1]
-            least = step * 0.25 * 1e4  # steps a second: a quarter of the change to come
+            speed_count, previous_speed = len(speeds), speeds[-1][1]
+            # A quarter of the coming change of speed, in steps per second.
+            min_change = step * 0.25 * 1e4
             begin_s = time.monotonic()
             stick.push(level)
 
-            def told(since=seen, before=before, least=least):
-                new = list(speeds[since:])
-                return [at for at, speed in new if (speed - before) / least > 1.0]
+            def find_arrival_times(
+                since=speed_count, previous_speed=previous_speed, min_change=min_change
+            ):
+                new_speeds = list(speeds[since:])
+                return [
+                    arrival_s
+                    for arrival_s, speed in new_speeds
+                    if (speed - previous_speed) / min_change > 1.0
+                ]
 
-            until(lambda: len(told()) > 0)
-            waits.append(told()[0] - begin_s)
+            wait_until(lambda: len(find_arrival_times()) > 0)
+            latencies.append(find_arrival_times()[0] - begin_s)
         stick.push(0.0)
         operation.close()
         session.close()
-    waits = 1e3 * np.array(waits)
+    latencies = 1e3 * np.array(latencies)
     print(
-        f"\nstick to wire, {clock} MHz, {CHANGES} changes, ms: median {np.median(waits):.1f} "
-        f"(limit 10), 99 % {np.percentile(waits, 99):.1f} (20), worst {waits.max():.1f}"
+        f"\nstick to wire, {clock} MHz, {CHANGES} changes, ms: median {np.median(latencies):.1f} "
+        f"(limit 10), 99 % {np.percentile(latencies, 99):.1f} (20), worst {latencies.max():.1f}"
     )
 
 
 @pytest.mark.parametrize(
     "sticks", [{"x": 0.0, "y": 0.0, "z": 0.0}, {"x": 0.7, "y": -0.5, "z": 0.6}]
 )
-def test_what_switching_leaves(sticks):
-    """Switch through all modes and laws on the simulator; print the greatest step of a command."""
+def test_switching_leaves_no_step_in_the_command(sticks):
+    """Switch through all modes and laws on the simulator; print the largest step of a command."""
     clock = VirtualClock(1.0)
     session = MotionSession(Simulator(ROBOT, clock=clock))
     session.connect()
@@ -177,7 +187,7 @@ def test_what_switching_leaves(sticks):
     teleoperator, samples = Teleoperator(session), []
     session.tap(lambda portion, _: samples.append(portion))
     rest = dict.fromkeys(sticks, 0.0)
-    moves = []
+    step_times_s = []
 
     def run(seconds, deflections, *pressed):
         for number in range(max(1, round(seconds / TICK_S))):
@@ -187,24 +197,25 @@ def test_what_switching_leaves(sticks):
             intent = Intent(clock(), deflections, actions, frozenset(), "bench")
             begin_s = time.perf_counter()
             teleoperator.step(intent, clock())
-            moves.append(time.perf_counter() - begin_s)
+            step_times_s.append(time.perf_counter() - begin_s)
 
     for law in LawKind:
         teleoperator.use_law(law)
         for _ in teleoperator.modes.names:
             run(0.2, rest)
             run(0.3, sticks)
-            run(0.2, sticks, Action.STAGE)
-            run(0.2, sticks, Action.LAW)
+            run(0.2, sticks, OperatorAction.STAGE)
+            run(0.2, sticks, OperatorAction.LAW)
     commands = np.concatenate([portion.command for portion in samples])
-    bends = np.abs(np.diff(commands, n=2, axis=0)).max(axis=0)
-    held = ", ".join(f"{name} {deflection:g}" for name, deflection in sticks.items())
-    steps = dict(zip(ROBOT.axes, bends, strict=True))
-    shown = ", ".join(f"{name} {step:.3g}" for name, step in steps.items())
+    second_differences = np.abs(np.diff(commands, n=2, axis=0)).max(axis=0)
+    stick_texts = ", ".join(f"{name} {deflection:g}" for name, deflection in sticks.items())
+    steps = dict(zip(ROBOT.axes, second_differences, strict=True))
+    results = ", ".join(f"{name} {step:.3g}" for name, step in steps.items())
     print(
-        f"\nsticks at {held}: loop step {1e3 * np.median(moves):.2f} ms; greatest second "
+        f"\nsticks at {stick_texts}: loop step {1e3 * np.median(step_times_s):.2f} ms; greatest "
+        "second "
         "difference of a command while switching, m or rad (limit: greatest acceleration × "
-        f"(1 ms)²): {shown}"
+        f"(1 ms)²): {results}"
     )
     for name, step in steps.items():
         assert step <= ROBOT.axes[name].max_acceleration * 1e-6 * (1.0 + 1e-6), name

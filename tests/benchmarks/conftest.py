@@ -1,8 +1,8 @@
-"""Benchmarks in a short form, and the page of what they measured.
+"""Options of the benchmarks: a short form, and a page with the results.
 
-``--quick`` runs each on so little that it says nothing of speed, to see that it still runs: names
-in a module's ``QUICK`` take those values, which leave limits of time and memory open.
-``--page FILE`` writes what was printed, with the machine, the date and the commit.
+``--quick`` only checks that each benchmark still runs. It sets the names in a module's ``QUICK`` to
+small sizes and unlimited times; the speed means nothing then. ``--page FILE`` writes the printed
+results, with the machine, the date and the commit.
 """
 
 import os
@@ -29,8 +29,10 @@ brackets are the spread over repetitions. Run one file on an idle machine:
 
 
 def pytest_addoption(parser):
-    parser.addoption("--quick", action="store_true", help="run each as shortly as it can be")
-    parser.addoption("--page", type=Path, metavar="FILE", help="write what was printed to a page")
+    parser.addoption(
+        "--quick", action="store_true", help="run each benchmark as briefly as possible"
+    )
+    parser.addoption("--page", type=Path, metavar="FILE", help="write the results to a page")
 
 
 def pytest_configure(config):
@@ -50,10 +52,10 @@ def pytest_collection_modifyitems(config, items):
 def pytest_runtest_makereport(item, call):
     report = yield
     if call.when == "call":
-        told = item.config.printed.setdefault(item.module, [])
-        told.append(report.capstdout.strip("\n"))
+        outputs = item.config.printed.setdefault(item.module, [])
+        outputs.append(report.capstdout.strip("\n"))
         if report.outcome != "passed":
-            told.append(f"{item.name}: {report.outcome}")
+            outputs.append(f"{item.name}: {report.outcome}")
         item.config.get_terminal_writer().write(f"\n{report.capstdout}")
     return report
 
@@ -74,17 +76,17 @@ def _page(config):
             commit=_commit(),
         )
     ]
-    for module, told in config.printed.items():
+    for module, outputs in config.printed.items():
         file = Path(module.__file__).relative_to(ROOT)
         title = (module.__doc__ or file.stem).split("\n\n")[0].replace("\n", " ")
-        lines = [f"    {line}" for each in told for line in each.splitlines() if line]
+        lines = [f"    {line}" for output in outputs for line in output.splitlines() if line]
         heading = f"## {title.split(': ')[0].rstrip('.')}\n\n`{file}`\n\n"
         parts.append(heading + "\n".join(lines) + "\n")
     return "\n".join(parts)
 
 
 def _machine():
-    """Return processor and memory; the machine's own name is nobody's business."""
+    """Return processor and memory, but not the machine's name, which is private."""
     info = Path("/proc/cpuinfo")
     lines = info.read_text("utf-8").splitlines() if info.exists() else []
     names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
@@ -98,9 +100,9 @@ def _commit():
     git = shutil.which("git")
     if git is None:
         return "unknown"
-    told = [
+    processes = [
         subprocess.run([git, *words], cwd=ROOT, capture_output=True, text=True, check=False)
         for words in (("rev-parse", "--short=12", "HEAD"), ("status", "--porcelain", "-uno"))
     ]
-    commit, changes = (one.stdout.strip() for one in told)
+    commit, changes = (process.stdout.strip() for process in processes)
     return f"{commit}, with changes" if changes else commit

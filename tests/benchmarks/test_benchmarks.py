@@ -12,10 +12,10 @@ FOLDER = Path(__file__).parent
 @pytest.mark.slow
 @pytest.mark.parametrize("name", sorted(file.name for file in FOLDER.glob("bench_*.py")))
 def test_a_benchmark_runs(name, tmp_path):
-    for needed in ("pandas", "psutil"):
-        pytest.importorskip(needed, reason="comes with the extra 'bench'")
+    for package in ("pandas", "psutil"):
+        pytest.importorskip(package, reason="comes with the extra 'bench'")
     page = tmp_path / "benchmarks.md"
-    done = subprocess.run(
+    process = subprocess.run(
         [
             *(sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider"),
             *("--override-ini", "python_files=bench_*.py", "--quick", f"--page={page}"),
@@ -26,5 +26,5 @@ def test_a_benchmark_runs(name, tmp_path):
         text=True,
         check=False,
     )
-    assert done.returncode == 0, done.stdout + done.stderr
+    assert process.returncode == 0, process.stdout + process.stderr
     assert f"`tests/benchmarks/{name}`" in page.read_text("utf-8")

@@ -1,4 +1,4 @@
-"""A window in use without hands: a simulator with a quick clock, plays, whatever is harmless."""
+"""Automatic use of a window: a simulator with a fast clock, playback, random harmless actions."""
 
 import os
 import random
@@ -10,7 +10,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
-os.environ["LANGUAGE"] = "en"  # what may be done is known by its English words
+# The actions are identified by their English texts.
+os.environ["LANGUAGE"] = "en"
 
 import numpy as np
 from PySide6.QtCore import QCoreApplication, QEvent, QTimer
@@ -18,31 +19,32 @@ from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import QApplication, QDialog, QMenu, QMessageBox
 
 from rotemina.app.motion.session import MotionSession
-from rotemina.app.settings import Settings
-from rotemina.app.shell.application import make_application
-from rotemina.app.shell.layouts import OPERATE
-from rotemina.app.shell.memory_allocator import trim_heap
-from rotemina.app.shell.palette_entries import Entry
-from rotemina.app.shell.window_run import SWITCH_S, make_window
-from rotemina.drivers.samples import DeviceState
-from rotemina.drivers.simulator.driver import Simulator
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.file import load_robot
+from rotemina.app.settings import UserSettings
+from rotemina.app.shell.startup.application import make_application
+from rotemina.app.shell.startup.memory_allocator import configure_allocator
+from rotemina.app.shell.startup.window_run import THREAD_SWITCH_S, make_window
+from rotemina.app.shell.window import OPERATE
+from rotemina.app.shell.window.palette_entries import PaletteEntry
+from rotemina.drivers.contract import DeviceState
+from rotemina.drivers.simulator import Simulator
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot_files import load_robot
 
 TIMES_AS_FAST = 4.0
-# What ends the use, takes minutes, leaves the window, or keeps the machine from playing.
-_NOT_DONE = re.compile(
+# Actions that end the program, take minutes, leave the window, or prevent playback.
+_EXCLUDED_ACTIONS = re.compile(
     "Quit|Language|Home|Disconnect|Reconnect|Connect$|Stop and lock|Teach floor|virtual board|"
     "Solve|Compensation: (Simulator|Last record|Records|Sweep|Try it|Tune|Put on)|calibration: Run|"
     "Gap diagnosis: |Identification: Excite|browser|Penetration: (Arm|Start)|Recorder: |Mode |"
     "Microscope: (Close|Open)|Trajectory: (Play|Step|◂)|Motion: Play|Control: .* [−+]$|Go to|Back"
 )
-_SELDOM = re.compile("theme|contrast|text")  # a second each: all of the window is styled anew
-_LONG_S = 60.0
+# These actions take a second each, because the whole window gets a new style.
+_SLOW_ACTIONS = re.compile("theme|contrast|text")
+_TIMEOUT_S = 60.0
 
 
-class UsedWindow:
-    """The operator's window with all panels, offscreen, and somebody who is never tired."""
+class WindowUse:
+    """Automatic use of the main window with all panels, offscreen."""
 
     def __init__(
         self,
@@ -50,8 +52,9 @@ class UsedWindow:
         size: tuple[int, int] = (1280, 800),
         times_as_fast: float = TIMES_AS_FAST,
     ) -> None:
-        trim_heap()  # as the program does
-        sys.setswitchinterval(SWITCH_S)
+        # As at the start of the program.
+        configure_allocator()
+        sys.setswitchinterval(THREAD_SWITCH_S)
         self.application = make_application()
         self.folder = Path(tempfile.mkdtemp(prefix="rotemina-use-"))
         simulator = Simulator(
@@ -60,32 +63,33 @@ class UsedWindow:
             clock=lambda: times_as_fast * time.monotonic(),
         )
         self.session = MotionSession(simulator, stale_after_s=20.0 * times_as_fast)
-        settings = Settings(self.folder / "settings.json")
+        settings = UserSettings(self.folder / "settings.json")
         self.window = make_window(self.session, settings, self.folder / "played")
         self.bench = self.window.workbench
         self.window.resize(*size)
         self.window.show()
         self.window.arrangement.arrange(OPERATE)
         self.bench.start()
-        QDesktopServices.openUrl = staticmethod(lambda _url: True)  # nothing leaves the window
+        # No browser may open.
+        QDesktopServices.openUrl = staticmethod(lambda _url: True)
         self._closer = QTimer(interval=1)
         self._closer.timeout.connect(self._close_modal)
-        self._chance = random.Random(1)  # noqa: S311 (no secret)
-        self._played = 0
+        self._random = random.Random(1)  # noqa: S311 (no secret)
+        self._playback_count = 0
         self.bench.run_changed.connect(lambda _: self._count())
-        self.until(lambda: not self.window.panels.waiting and self.ready)
+        self.wait_until(lambda: not self.window.panels.pending_names and self.ready)
 
     @property
     def ready(self) -> bool:
-        """Whether the machine could move now."""
+        """Whether the machine can move now."""
         state = self.session.snapshot()
-        return state.locked is None and state.activity is DeviceState.IDLE
+        return state.lock_reason is None and state.activity is DeviceState.IDLE
 
     def _count(self) -> None:
-        self._played += 1
+        self._playback_count += 1
 
     def settle(self, seconds: float = 0.0) -> None:
-        """Let the window do what it has to do."""
+        """Process the events of the window."""
         end = time.monotonic() + seconds
         while True:
             self.application.processEvents()
@@ -94,69 +98,73 @@ class UsedWindow:
                 return
             time.sleep(0.001)
 
-    def until(self, reached: Callable[[], bool]) -> None:
-        """Wait for something that must come.
+    def wait_until(self, condition: Callable[[], bool]) -> None:
+        """Wait until a condition is true.
 
         Raises
         ------
         TimeoutError
-            If it does not.
+            If the condition stays false for too long.
         """
-        end = time.monotonic() + _LONG_S
-        while not reached():
+        end = time.monotonic() + _TIMEOUT_S
+        while not condition():
             if time.monotonic() > end:
-                said = [one.line for one in self.window.log.messages()[-3:]]
-                raise TimeoutError(f"it did not come: {self.session.snapshot().locked}, {said}")
+                messages = [message.line for message in self.window.log.messages()[-3:]]
+                raise TimeoutError(
+                    f"the condition stays false: {self.session.snapshot().lock_reason}, {messages}"
+                )
             self.settle(0.002)
 
     def plan(self, seconds: float = 0.2, rate_hz: float = 500.0) -> None:
-        """Take a short trajectory of all piezos in hand, there and back."""
+        """Load a short trajectory that moves all piezos back and forth."""
         time_s = np.arange(round(seconds * rate_hz) + 1) / rate_hz
         swing = np.sin(np.pi * time_s / time_s[-1]) ** 2
         signals, units = {}, {}
         for name in ("thx", "thy", "zn"):
-            own = self.session.robot.axes[name]
-            signals[name, Tap.CMD] = sum(own.range) / 2 + 0.05 * own.span * swing
-            units[name] = own.unit
-        before = self.bench.plan
+            axis = self.session.robot.axes[name]
+            signals[name, Tap.CMD] = sum(axis.range) / 2 + 0.05 * axis.span * swing
+            units[name] = axis.unit
+        previous_plan = self.bench.plan
         self.bench.plan_trajectory("use", Record.from_signals(time_s, signals, units))
-        self.until(lambda: self.bench.plan is not before)
+        self.wait_until(lambda: self.bench.plan is not previous_plan)
 
     def play(self) -> None:
         """Play a trajectory, and wait until it is compared and written.
 
-        What is in hand may be a piece too short to be compared: chance also sets where it begins.
+        A new trajectory is loaded first: random actions may have left only a piece of the loaded
+        one, too short for a comparison.
         """
         self.plan()
-        before = self._played
-        while not self.bench.ask(self._begin):
-            self.settle(0.05)  # what was done before still moves it
-        self.until(lambda: self._played > before and not self.bench.busy)
+        previous_count = self._playback_count
+        while not self.bench.run_request(self._begin):
+            # An earlier action still moves the machine.
+            self.settle(0.05)
+        self.wait_until(lambda: self._playback_count > previous_count and not self.bench.busy)
 
     def _begin(self) -> None:
-        self.until(lambda: self.ready)
+        self.wait_until(lambda: self.ready)
         self.bench.playback.play(self.bench.plan.dry_run.require())
 
-    def entries(self) -> list[Entry]:
-        """Return what may be done now, as the command palette offers it."""
+    def entries(self) -> list[PaletteEntry]:
+        """Return the permitted entries of the command palette."""
         return [
-            one
-            for one in self.window._entries()
-            if one.why_not is None and not _NOT_DONE.search(one.text)
+            entry
+            for entry in self.window._make_palette_entries()
+            if entry.objection is None and not _EXCLUDED_ACTIONS.search(entry.text)
         ]
 
-    def act(self, count: int) -> list[str]:
-        """Do some things by chance; return what."""
+    def run_random_entries(self, count: int) -> list[str]:
+        """Run random entries; return their texts."""
         entries = self.entries()
-        weights = [0.1 if _SELDOM.search(one.text) else 1.0 for one in entries]
-        done = []
-        for one in self._chance.choices(entries, weights, k=count):
-            self.do(one)
-            done.append(one.text)
-        return done
+        weights = [0.1 if _SLOW_ACTIONS.search(entry.text) else 1.0 for entry in entries]
+        texts = []
+        for entry in self._random.choices(entries, weights, k=count):
+            self.run_entry(entry)
+            texts.append(entry.text)
+        return texts
 
-    def do(self, entry: Entry) -> None:
-        """Do one thing, and close whatever it opened."""
+    def run_entry(self, entry: PaletteEntry) -> None:
+        """Run one entry, and close the dialogs and menus that it opened."""
         self._closer.start()
         entry.run()
         self._closer.stop()
@@ -167,8 +175,8 @@ class UsedWindow:
         self.settle()
 
     def notify(self, text: str) -> None:
-        """Tell the operator something."""
-        from rotemina.app.shell.workbench import Level
+        """Show a notice."""
+        from rotemina.app.workbench import Level
 
         self.bench.notify(Level.INFO, text)
 
@@ -181,6 +189,6 @@ class UsedWindow:
             menu.close()
 
     def close(self) -> None:
-        """End all."""
+        """Close the workbench and hide the window."""
         self.bench.close()
         self.window.hide()

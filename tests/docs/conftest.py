@@ -1,4 +1,4 @@
-"""The pages, and the blocks of code that stand in them."""
+"""The pages of the documentation, and the blocks of code in them."""
 
 import re
 from dataclasses import dataclass
@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-# The example of a plugin has tests of its own.
+# The example plugin has separate tests.
 PAGES = (ROOT / "README.md", *sorted(path for path in (ROOT / "docs").rglob("*.md")
                                       if "examples" not in path.parts))  # fmt: skip
 PROGRAMS = ("rotemina", "pip", "make", "pytest", "python", "sudo", "apt-get", "git", "cd")
@@ -15,8 +15,8 @@ NOT_RUN = re.compile(r"<!-- not run: (\S.*) -->")
 
 
 @dataclass(frozen=True)
-class Block:
-    """Code in a page: its language ("" if it names none), and why it is not run, if so."""
+class CodeBlock:
+    """Code in a page, with its language ("" if not stated) and the reason if it is not run."""
 
     line: int
     language: str
@@ -25,50 +25,50 @@ class Block:
 
     @property
     def commands(self) -> list[str]:
-        """Lines to be typed: those after "$ " if there are any, the rest being what is answered."""
+        """The commands: the lines after "$ " if there are any, otherwise all lines."""
         lines = [line.strip() for line in self.text.splitlines()]
-        typed = [line[2:] for line in lines if line.startswith("$ ")]
-        return typed or [line for line in lines if line and not line.startswith("#")]
+        typed_commands = [line[2:] for line in lines if line.startswith("$ ")]
+        return typed_commands or [line for line in lines if line and not line.startswith("#")]
 
     @property
     def kind(self) -> str:
-        """Language of a fence; else "sh" for what begins with a program, "text" for the rest."""
+        """The stated language, else "sh" if the block begins with a program, otherwise "text"."""
         if self.language or not self.commands:
             return self.language or "text"
         word = self.commands[0].split()[0]
         return "sh" if word in PROGRAMS or word.startswith(".venv/") else "text"
 
 
-def blocks_of(text: str) -> list[Block]:
-    """Fenced and indented blocks of a page, in order; a tab of a site (===) indents nothing."""
+def find_blocks(text: str) -> list[CodeBlock]:
+    """Return the fenced and indented blocks of a page, in order."""
     lines = text.splitlines()
-    found: list[Block] = []
-    at = 0
-    while at < len(lines):
-        begun = at
-        if lines[at].startswith("```"):
-            at = lines.index("```", at + 1)
-            body, language = lines[begun + 1 : at], lines[begun].removeprefix("```").strip()
-        elif lines[at].startswith("    ") and (at == 0 or not lines[at - 1].strip()):
-            while at + 1 < len(lines) and (
-                lines[at + 1].startswith("    ") or not lines[at + 1].strip()
+    blocks: list[CodeBlock] = []
+    index = 0
+    while index < len(lines):
+        first = index
+        if lines[index].startswith("```"):
+            index = lines.index("```", index + 1)
+            body, language = lines[first + 1 : index], lines[first].removeprefix("```").strip()
+        elif lines[index].startswith("    ") and (index == 0 or not lines[index - 1].strip()):
+            while index + 1 < len(lines) and (
+                lines[index + 1].startswith("    ") or not lines[index + 1].strip()
             ):
-                at += 1
-            body, language = [line[4:] for line in lines[begun : at + 1]], ""
+                index += 1
+            body, language = [line[4:] for line in lines[first : index + 1]], ""
         else:
-            at += 1
+            index += 1
             continue
-        above = next((line for line in reversed(lines[:begun]) if line.strip()), "")
-        reason = NOT_RUN.fullmatch(above.strip())
-        joined = "\n".join(body).strip("\n") + "\n"
-        found.append(Block(begun + 1, language, joined, reason[1] if reason else ""))
-        at += 1
-    return found
+        line_above = next((line for line in reversed(lines[:first]) if line.strip()), "")
+        reason = NOT_RUN.fullmatch(line_above.strip())
+        block_text = "\n".join(body).strip("\n") + "\n"
+        blocks.append(CodeBlock(first + 1, language, block_text, reason[1] if reason else ""))
+        index += 1
+    return blocks
 
 
 @pytest.fixture(params=PAGES, ids=lambda path: path.relative_to(ROOT).as_posix())
 def page(request) -> Path:
-    """Each page in turn."""
+    """One page; tests run for each page."""
     return request.param
 
 
@@ -79,12 +79,12 @@ def root() -> Path:
 
 
 @pytest.fixture
-def blocks(page) -> list[Block]:
+def blocks(page) -> list[CodeBlock]:
     """The blocks of the page."""
-    return blocks_of(page.read_text("utf-8"))
+    return find_blocks(page.read_text("utf-8"))
 
 
 @pytest.fixture(scope="session")
 def parse_blocks():
-    """The function that finds blocks, for tests of its own."""
-    return blocks_of
+    """The function that finds blocks, for its own tests."""
+    return find_blocks

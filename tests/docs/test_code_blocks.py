@@ -1,7 +1,8 @@
-"""Every block of code in README and docs: read in the quick run, run by the slow one.
+"""Every block of code in README and docs: the quick tests read it, the slow test runs it.
 
-The blocks of a page run from top to bottom in a folder of their own; names in Python live on to
-the next block. What cannot be run says so above it: ``<!-- not run: REASON -->``.
+The blocks of a page run from top to bottom in a separate folder. Python names remain defined in
+the blocks that follow. A block that cannot be run has a comment above it:
+``<!-- not run: REASON -->``.
 """
 
 import ast
@@ -20,16 +21,16 @@ import pytest
 import tifffile
 
 from rotemina.app.cli.main import build_parser, main
-from rotemina.app.motion.recording.session_recorder import SessionRecorder
+from rotemina.app.motion.recording import SessionRecorder
 from rotemina.app.motion.session import MotionSession
-from rotemina.drivers.clock import VirtualClock
-from rotemina.drivers.simulator.driver import Simulator
-from rotemina.sim.robot.file import load_robot
+from rotemina.drivers.contract import VirtualClock
+from rotemina.drivers.simulator import Simulator
+from rotemina.sim.robot_files import load_robot
 
 _THX = "excite multisine --axes thx --duration 5"
 _HYSTERESIS = '[[axis.thx.effect]]\nid = "hysteresis"\nwidth = 1.1e-4\n'
-# What a page takes for granted, made by commands: files that a reader has.
-PREPARED = {
+# Commands that make the files which a page assumes its reader to have.
+PREPARATION_COMMANDS = {
     "command-line.md": (
         "simulate reference.csv --robot emps -o emps_train.csv",
         f"{_THX} -o new.csv",
@@ -46,7 +47,15 @@ PREPARED = {
         "excite multisine --axes thx,zn --seed 2 -o second.csv",
         "play second.csv -o day2.csv",
     ),
-    # The page makes emps.csv anew of the real data, where those are.
+    "gap-json.md": (
+        f"{_THX} -o new.csv",
+        "excite multisine --axes thx,zn -o try.csv",
+        "play try.csv -o day1.csv",
+        "excite multisine --axes thx,zn --seed 2 -o second.csv",
+        "play second.csv -o day2.csv",
+        "gap diagnose day1.csv day2.csv --json out.json",
+    ),
+    # The page makes emps.csv again from the real data, if they are available.
     "tutorial-machine.md": ("simulate reference.csv --robot emps -o emps.csv",),
     "identification.md": ("excite multisine --axes x -o x.csv", "play x.csv -o run.csv"),
 }
@@ -54,28 +63,28 @@ PREPARED = {
 
 @pytest.fixture
 def folder(root, tmp_path, monkeypatch):
-    """The reader's folder: the examples of the repository, a worn robot, a robot of his own."""
+    """The reader's folder: the examples of the repository, a worn robot and the reader's robot."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / ".config"))
     shutil.copytree(root / "resources", tmp_path / "resources")
     robot = (root / "resources" / "robots" / "rotemina.toml").read_text("utf-8")
     (tmp_path / "lab.toml").write_text(robot, "utf-8")
     (tmp_path / "worn.toml").write_text(robot + _HYSTERESIS, "utf-8")
-    way = 0.1 - 0.1 * np.cos(2.0 * np.pi * np.arange(2000) / 1000.0)
-    rows = "".join(f"{row / 1000},{position:.6f}\n" for row, position in enumerate(way))
+    path = 0.1 - 0.1 * np.cos(2.0 * np.pi * np.arange(2000) / 1000.0)
+    rows = "".join(f"{row / 1000},{position:.6f}\n" for row, position in enumerate(path))
     head = "# rotemina-record: 1\n# mode: closed_loop\nt [s],q.cmd [m]\n"
     (tmp_path / "reference.csv").write_text(head + rows, "utf-8")
     (tmp_path / "FOLDER").mkdir()
     shared = Path(os.environ.get("ROTEMINA_SHARED", root.parent / "shared"))
-    measured = shared / "data" / "emps" / "DATA_EMPS.mat"
-    if measured.exists():
-        shutil.copy(measured, tmp_path)
+    measured_file = shared / "data" / "emps" / "DATA_EMPS.mat"
+    if measured_file.exists():
+        shutil.copy(measured_file, tmp_path)
     return tmp_path
 
 
 @pytest.fixture
-def recorded(folder):
-    """A recording of 25 s with a jog of x in it, ``run.arrows`` and ``today.arrows``."""
+def recording(folder):
+    """A recording of 25 s that contains a jog of x: ``run.arrows`` and ``today.arrows``."""
     clock = VirtualClock(7.0)
     session = MotionSession(Simulator(load_robot("rotemina"), clock=clock))
     session.connect()
@@ -96,8 +105,8 @@ def recorded(folder):
 
 
 @pytest.fixture
-def filmed(folder):
-    """Two pictures with their times, ``video.tif``."""
+def video(folder):
+    """Two pictures with their times: ``video.tif``."""
     with tifffile.TiffWriter(folder / "video.tif") as file:
         for time_s in (0.0, 0.1):
             picture = np.zeros((8, 8), np.uint8)
@@ -108,17 +117,17 @@ def is_command(line):
     return line.startswith("rotemina ") or line == "rotemina"
 
 
-def words_of(line):
+def split_arguments(line):
     return shlex.split(line, comments=True)[1:]
 
 
 def run_command(line):
     """Run a command as a reader would and return what it printed."""
-    said = io.StringIO()
-    with contextlib.redirect_stdout(said):
-        status = main(words_of(line))
+    printed = io.StringIO()
+    with contextlib.redirect_stdout(printed):
+        status = main(split_arguments(line))
     assert status == 0, f"{line}: status {status}"
-    return said.getvalue()
+    return printed.getvalue()
 
 
 def test_blocks_are_found_with_their_kinds_and_reasons(parse_blocks):
@@ -136,7 +145,7 @@ def test_blocks_are_found_with_their_kinds_and_reasons(parse_blocks):
     assert equation.kind == "text"
 
 
-def test_commands_are_understood(blocks):
+def test_commands_can_be_parsed(blocks):
     parser = build_parser()
     for block in blocks:
         if block.kind != "sh" or block.not_run:
@@ -144,33 +153,33 @@ def test_commands_are_understood(blocks):
         for line in block.commands:
             assert is_command(line), f"line {block.line}: {line}: say why it is not run"
             try:
-                parser.parse_args(words_of(line))
+                parser.parse_args(split_arguments(line))
             except SystemExit:
                 pytest.fail(f"line {block.line}: {line}")
 
 
-def test_python_names_what_there_is(blocks):
+def test_imported_names_exist(blocks):
     for block in blocks:
         if block.kind != "python":
             continue
         for node in ast.walk(ast.parse(block.text)):
             if isinstance(node, ast.ImportFrom) and node.module.startswith("rotemina."):
                 module = import_module(node.module)
-                missing = [one.name for one in node.names if not hasattr(module, one.name)]
+                missing = [alias.name for alias in node.names if not hasattr(module, alias.name)]
                 assert missing == [], f"line {block.line}: {node.module}"
 
 
-def test_tables_are_well_formed(blocks):
-    read = {"toml": tomllib.loads, "json": json.loads}
+def test_toml_and_json_blocks_are_valid(blocks):
+    parsers = {"toml": tomllib.loads, "json": json.loads}
     for block in blocks:
-        if block.kind in read:
-            read[block.kind](block.text)
+        if block.kind in parsers:
+            parsers[block.kind](block.text)
 
 
 @pytest.mark.slow
-@pytest.mark.usefixtures("recorded", "filmed")
+@pytest.mark.usefixtures("recording", "video")
 def test_blocks_run_from_top_to_bottom(page, blocks, folder):
-    for line in PREPARED.get(page.name, ()):
+    for line in PREPARATION_COMMANDS.get(page.name, ()):
         run_command(f"rotemina {line}")
     names = {"__name__": "page", "desired": 1e-5, "positions": np.linspace(0.0, 1e-5, 9)}
     for block in blocks:
@@ -181,6 +190,6 @@ def test_blocks_run_from_top_to_bottom(page, blocks, folder):
             exec(code, names)  # noqa: S102 - the page's own code
         if block.kind == "sh":
             for line in block.commands:
-                answered = run_command(line)
+                output = run_command(line)
                 if f"$ {line}\n" in block.text:
-                    assert block.text.endswith(answered), f"line {block.line}: {answered}"
+                    assert block.text.endswith(output), f"line {block.line}: {output}"

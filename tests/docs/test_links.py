@@ -1,4 +1,4 @@
-"""Links inside README and docs lead somewhere, and pictures show something."""
+"""Links inside README and docs have targets, and pictures are not empty."""
 
 import re
 from xml.etree import ElementTree
@@ -6,41 +6,41 @@ from xml.etree import ElementTree
 import pytest
 from PIL import Image
 
-from rotemina.sim.effects.registry import all_effects
+from rotemina.sim.effects import load_all_effects
 
 _LINK = re.compile(r"(!?)\[[^\]]*\]\(([^)\s]+)\)")
 _CODE = re.compile(r"^```.*?^```$|`[^`\n]*`", re.DOTALL | re.MULTILINE)
 
 
-def slug(heading):
-    """The anchor of a heading, where GitHub and the site agree: letters, digits, hyphens."""
+def make_anchor(heading):
+    """Return the anchor of a heading as on GitHub and on the site: letters, digits, hyphens."""
     plain = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).replace("`", "").strip().lower()
     return re.sub(r"[^\w\- ]", "", plain).replace(" ", "-")
 
 
-def anchors_of(path):
+def find_anchors(path):
     text = re.sub(r"^```.*?^```$", "", path.read_text("utf-8"), flags=re.DOTALL | re.MULTILINE)
-    return {slug(heading) for heading in re.findall(r"^#+ (.*)$", text, re.MULTILINE)}
+    return {make_anchor(heading) for heading in re.findall(r"^#+ (.*)$", text, re.MULTILINE)}
 
 
-def targets_of(page):
-    for mark, target in _LINK.findall(_CODE.sub("", page.read_text("utf-8"))):
+def find_targets(page):
+    for picture_mark, target in _LINK.findall(_CODE.sub("", page.read_text("utf-8"))):
         if not target.startswith(("http://", "https://")):
             file, _, anchor = target.partition("#")
-            yield bool(mark), target, page.parent / file if file else page, anchor
+            yield bool(picture_mark), target, page.parent / file if file else page, anchor
 
 
-def test_links_lead_somewhere(page):
-    lost = [
+def test_links_have_targets(page):
+    broken_links = [
         target
-        for _, target, path, anchor in targets_of(page)
-        if not path.exists() or (anchor and anchor not in anchors_of(path))
+        for _, target, path, anchor in find_targets(page)
+        if not path.exists() or (anchor and anchor not in find_anchors(path))
     ]
-    assert lost == []
+    assert broken_links == []
 
 
-def test_pictures_show_something(page):
-    for is_picture, target, path, _ in targets_of(page):
+def test_pictures_are_not_empty(page):
+    for is_picture, target, path, _ in find_targets(page):
         if not is_picture:
             continue
         if path.suffix == ".svg":
@@ -57,23 +57,25 @@ def test_every_page_is_linked_from_another(root):
     linked = {
         path.resolve()
         for page in (*pages, root / "README.md")
-        for _, _, path, _ in targets_of(page)
+        for _, _, path, _ in find_targets(page)
         if path != page
     }
-    named = (docs / "site" / "mkdocs.yml").read_text("utf-8")
-    lost = [
-        one
-        for one in pages
-        if one.resolve() not in linked and f" {one.relative_to(docs)}" not in named
+    navigation = (docs / "site" / "mkdocs.yml").read_text("utf-8")
+    unlinked_pages = [
+        page
+        for page in pages
+        if page.resolve() not in linked and f" {page.relative_to(docs)}" not in navigation
     ]
-    assert lost == []
+    assert unlinked_pages == []
 
 
-@pytest.mark.parametrize("effect", all_effects()[0].values(), ids=lambda effect: effect.id)
-def test_physics_has_the_equations_of_every_effect_as_they_are(effect, root):
+@pytest.mark.parametrize("effect", load_all_effects()[0].values(), ids=lambda effect: effect.id)
+def test_physics_shows_the_equations_of_every_effect_unchanged(effect, root):
     page = (root / "docs" / "physics.md").read_text("utf-8")
     _, _, section = page.partition(f"### {effect.title}\n")
-    for one in effect.formulations:
-        line = f"- **{one.name}**: `{one.equation}`."
+    for formulation in effect.formulations:
+        line = f"- **{formulation.name}**: `{formulation.equation}`."
         assert line in section
-        assert section.partition(line)[2].partition("Source: ")[2].startswith(f"{one.source}.")
+        assert (
+            section.partition(line)[2].partition("Source: ")[2].startswith(f"{formulation.source}.")
+        )

@@ -1,4 +1,4 @@
-"""Every picture of the documentation can be made anew, has its size, and shows something."""
+"""Every picture of the documentation can be made again, keeps its size, and is not empty."""
 
 import os
 import subprocess
@@ -8,56 +8,61 @@ from collections import Counter
 import pytest
 from PIL import Image
 
-# Fonts of another machine make panels a little wider or higher; windows have the size asked for.
-SLACK = 0.1
-LEAST_COLOURS = 200  # of text with smooth edges alone
-MOST_OF_ONE = 0.97  # of the area; an empty panel is all ground
+# Fonts of another machine make panels a little wider or higher. Windows have the requested size.
+MAX_SIZE_DEVIATION = 0.1
+# Text with smooth edges alone has this number of colours.
+MIN_COLOURS = 200
+# An empty panel consists of background only.
+MAX_SHARE_OF_ONE_COLOUR = 0.97
 
-# On one worker: the pictures are made once.
+# On one worker, so that the pictures are made only once.
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("screenshots")]
 
 
 @pytest.fixture(scope="module")
-def made(tmp_path_factory):
-    """The folder of the pictures as they are now."""
+def new_pictures_folder(tmp_path_factory):
+    """The folder of newly made pictures."""
     folder = tmp_path_factory.mktemp("screenshots")
-    done = subprocess.run(
-        [sys.executable, "-m", "rotemina.app.shell.screenshots", str(folder)],
+    process = subprocess.run(
+        [sys.executable, "-m", "rotemina.app.shell.startup.screenshots", str(folder)],
         capture_output=True, text=True, check=False, timeout=900,
         env={**os.environ, "XDG_CONFIG_HOME": str(folder / "nobody")},
     )  # fmt: skip
-    assert done.returncode == 0, done.stderr
+    assert process.returncode == 0, process.stderr
     return folder
 
 
-def pictures_in(folder):
-    found = {path.name: path for path in folder.glob("*.png")}
-    assert found
-    return found
+def find_pictures(folder):
+    pictures = {path.name: path for path in folder.glob("*.png")}
+    assert pictures
+    return pictures
 
 
-def test_every_picture_is_made_anew_in_its_size(made, root):
-    kept, new = pictures_in(root / "docs" / "screenshots"), pictures_in(made)
-    assert sorted(new) == sorted(kept)  # `make screenshots`
-    odd = []
+def test_every_new_picture_has_the_size_of_the_stored_one(new_pictures_folder, root):
+    stored, new = find_pictures(root / "docs" / "screenshots"), find_pictures(new_pictures_folder)
+    assert sorted(new) == sorted(stored)  # Repair: `make screenshots`.
+    deviations = []
     for name, path in new.items():
-        with Image.open(path) as one, Image.open(kept[name]) as other:
-            slack = 0.0 if name.startswith("window-") else SLACK
-            pairs = zip(one.size, other.size, strict=True)
-            if any(abs(now - then) > slack * then for now, then in pairs):
-                odd.append(f"{name}: {one.size}, kept {other.size}")
-    assert odd == []
+        with Image.open(path) as new_picture, Image.open(stored[name]) as stored_picture:
+            max_deviation = 0.0 if name.startswith("window-") else MAX_SIZE_DEVIATION
+            pairs = zip(new_picture.size, stored_picture.size, strict=True)
+            if any(
+                abs(new_length - stored_length) > max_deviation * stored_length
+                for new_length, stored_length in pairs
+            ):
+                deviations.append(f"{name}: {new_picture.size}, stored {stored_picture.size}")
+    assert deviations == []
 
 
-def test_no_picture_is_empty(made, root):
-    for folder in (made, root / "docs" / "screenshots"):
-        for name, path in pictures_in(folder).items():
+def test_no_picture_is_empty(new_pictures_folder, root):
+    for folder in (new_pictures_folder, root / "docs" / "screenshots"):
+        for name, path in find_pictures(folder).items():
             with Image.open(path) as picture:
-                counted = Counter(dict(colours_of(picture)))
-            assert len(counted) >= LEAST_COLOURS, name
-            assert counted.most_common(1)[0][1] < MOST_OF_ONE * counted.total(), name
+                counts = Counter(dict(count_colours(picture)))
+            assert len(counts) >= MIN_COLOURS, name
+            assert counts.most_common(1)[0][1] < MAX_SHARE_OF_ONE_COLOUR * counts.total(), name
 
 
-def colours_of(picture):
+def count_colours(picture):
     area = picture.width * picture.height
     return [(colour, count) for count, colour in picture.convert("RGB").getcolors(area)]

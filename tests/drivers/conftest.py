@@ -1,8 +1,8 @@
-"""What tests of drivers share: a clock set by hand."""
+"""Fixture for tests of drivers: a virtual clock."""
 
 import pytest
 
-from rotemina.drivers.clock import VirtualClock
+from rotemina.drivers.contract import VirtualClock
 
 
 @pytest.fixture

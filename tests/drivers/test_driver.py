@@ -1,36 +1,40 @@
-"""Rules of the base classes that no well-behaved driver can show."""
+"""Rules of the base classes that a correct driver cannot demonstrate."""
 
 import numpy as np
 import pytest
 
 from rotemina.drivers.abilities import TrajectoryPlayer
-from rotemina.drivers.clock import VirtualClock
-from rotemina.drivers.driver import Driver, MachineKind
-from rotemina.drivers.errors import (
+from rotemina.drivers.contract import (
     ConnectionLostError,
+    DeviceSamples,
+    DeviceState,
+    DeviceStatus,
+    Driver,
     DriverError,
+    DriverSettingError,
     DriverTimeoutError,
     LimitError,
+    MachineKind,
     ProtocolError,
     StateError,
+    VirtualClock,
 )
-from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
-from rotemina.drivers.settings import SettingError, resolve
+from rotemina.drivers.contract.settings import resolve_settings
 from rotemina.sim.errors import InputError
-from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot_files import load_robot
 
 ROBOT = load_robot("picma")
 
 
-class Plain(Driver):
-    """Answers what it was told to."""
+class ScriptedDriver(Driver):
+    """A driver with given answers."""
 
     name = "plain"
 
     def __init__(self):
         super().__init__(ROBOT, clock=VirtualClock())
-        self.answer = DeviceStatus(DeviceState.IDLE)
-        self.samples = Samples.none(1)
+        self.given_status = DeviceStatus(DeviceState.IDLE)
+        self.samples = DeviceSamples.empty(1)
         self.calls = []
 
     def _open(self):
@@ -40,7 +44,7 @@ class Plain(Driver):
         self.calls.append("close")
 
     def _status(self):
-        return self.answer
+        return self.given_status
 
     def _move_to(self, targets, speeds, permit):
         self.calls.append(targets)
@@ -56,63 +60,66 @@ class Plain(Driver):
 
 
 @pytest.fixture
-def plain():
-    driver = Plain()
+def driver():
+    driver = ScriptedDriver()
     driver.open()
     driver.calls.clear()
     return driver
 
 
-def samples(time_s, **changes):
-    n = len(time_s)
+def make_samples(time_s, **changes):
+    count = len(time_s)
     arrays = {
         "device_time_s": np.array(time_s),
-        "command": np.zeros((n, 1)),
-        "measured": np.zeros((n, 1)),
-        "inputs": np.full((n, 1), np.nan),
-        "playback_row": np.full(n, -1),
+        "command": np.zeros((count, 1)),
+        "measured": np.zeros((count, 1)),
+        "inputs": np.full((count, 1), np.nan),
+        "playback_row": np.full(count, -1),
     }
-    return Samples(**(arrays | changes))
+    return DeviceSamples(**(arrays | changes))
 
 
-def test_a_device_that_says_nothing_of_itself_is_a_real_machine():
-    driver = Plain()
+def test_a_device_that_does_not_report_its_kind_is_real():
+    driver = ScriptedDriver()
     assert (driver.machine_kind, driver.is_identified) == (MachineKind.REAL, False)
     driver.open()
     assert (driver.machine_kind, driver.is_identified) == (MachineKind.REAL, True)
 
 
-class Emulated(Plain):
-    """Says what it is, if it is asked while it answers."""
+class SelfIdentifyingDriver(ScriptedDriver):
+    """A driver whose device reports what kind of machine it is, if it is connected."""
 
-    said = MachineKind.VIRTUAL
+    reported_kind = MachineKind.VIRTUAL
+    is_connected = True
 
     def _open(self):
         super()._open()
-        if self.said == "nothing":
-            raise ConnectionLostError("nobody answers")
+        if not self.is_connected:
+            raise ConnectionLostError("no answer")
 
     def _identify(self):
-        return self.said
+        return self.reported_kind
 
 
-def test_what_a_device_said_of_itself_stays_until_it_says_something_else():
-    driver = Emulated()
+def test_a_reported_kind_stays_until_the_device_reports_another_one():
+    driver = SelfIdentifyingDriver()
     driver.open()
     driver.close()
     assert driver.machine_kind is MachineKind.VIRTUAL
-    driver.said = "nothing"
+    driver.is_connected = False
     with pytest.raises(ConnectionLostError):
         driver.open()
     assert driver.machine_kind is MachineKind.VIRTUAL
-    driver.said = MachineKind.REAL  # another device at the same port
+    # Another device is connected to the same port.
+    driver.is_connected = True
+    driver.reported_kind = MachineKind.REAL
     driver.open()
     assert driver.machine_kind is MachineKind.REAL
 
 
-def test_a_device_whose_word_makes_no_sense_is_closed_again():
-    driver = Emulated()
-    driver.said = "imaginary"
+def test_a_device_that_reports_an_invalid_kind_is_closed():
+    driver = SelfIdentifyingDriver()
+    driver.reported_kind = "imaginary"
     with pytest.raises(ValueError, match="imaginary"):
         driver.open()
     assert driver.calls == ["open", "close"]
@@ -120,53 +127,53 @@ def test_a_device_whose_word_makes_no_sense_is_closed_again():
     assert driver.machine_kind is MachineKind.REAL
 
 
-def test_a_driver_cannot_override_what_its_device_said():
+def test_a_driver_cannot_override_the_reported_kind():
     with pytest.raises(TypeError, match="machine_kind: final in Driver"):
-        type("Boastful", (Plain,), {"machine_kind": MachineKind.VIRTUAL})
+        type("Boastful", (ScriptedDriver,), {"machine_kind": MachineKind.VIRTUAL})
 
 
-def test_a_faulty_device_is_not_moved(plain):
-    plain.answer = DeviceStatus(DeviceState.FAULT, fault="limit switch")
+def test_a_faulty_device_is_not_moved(driver):
+    driver.given_status = DeviceStatus(DeviceState.FAULT, fault="limit switch")
     with pytest.raises(StateError, match="limit switch"):
-        plain.move_to({"p": 1e-6})
-    plain.clear_fault()
-    assert plain.calls == ["clear"]
+        driver.move_to({"p": 1e-6})
+    driver.clear_fault()
+    assert driver.calls == ["clear"]
 
 
-def test_nothing_moves_from_an_unknown_position(plain):
-    plain.answer = DeviceStatus(DeviceState.IDLE, position_known=False)
+def test_nothing_moves_from_an_unknown_position(driver):
+    driver.given_status = DeviceStatus(DeviceState.IDLE, position_known=False)
     with pytest.raises(StateError, match="position is unknown"):
-        plain.move_to({"p": 1e-6})
-    assert plain.calls == []
+        driver.move_to({"p": 1e-6})
+    assert driver.calls == []
 
 
-def test_moving_no_axis_asks_the_device_nothing(plain):
-    plain.move_to({})
-    assert plain.calls == []
+def test_a_move_without_axes_sends_nothing(driver):
+    driver.move_to({})
+    assert driver.calls == []
 
 
-def test_a_closed_device_is_not_told_to_stop(plain):
-    plain.stop()
-    plain.close()
-    plain.stop()
-    assert plain.calls == ["stop", "close"]
+def test_a_closed_device_gets_no_stop(driver):
+    driver.stop()
+    driver.close()
+    driver.stop()
+    assert driver.calls == ["stop", "close"]
 
 
-def test_time_that_runs_back_between_reads_is_no_answer(plain):
-    plain.samples = samples([1.0, 2.0])
-    plain.read()
-    plain.samples = samples([2.0, 3.0])
+def test_device_time_that_runs_back_is_an_error(driver):
+    driver.samples = make_samples([1.0, 2.0])
+    driver.read()
+    driver.samples = make_samples([2.0, 3.0])
     with pytest.raises(ProtocolError, match="back from 2 s to 2 s"):
-        plain.read()
-    plain.close()
-    plain.open()
-    plain.read()
+        driver.read()
+    driver.close()
+    driver.open()
+    driver.read()
 
 
-def test_samples_of_another_machine_are_no_answer(plain):
-    plain.samples = Samples.none(3)
+def test_samples_with_another_number_of_axes_are_an_error(driver):
+    driver.samples = DeviceSamples.empty(3)
     with pytest.raises(ProtocolError, match="3 axes, expected 1"):
-        plain.read()
+        driver.read()
 
 
 @pytest.mark.parametrize(
@@ -180,41 +187,41 @@ def test_samples_of_another_machine_are_no_answer(plain):
         {"playback_row": np.array([-1])},
     ],
 )
-def test_samples_that_make_no_sense_are_refused(changes):
+def test_inconsistent_samples_are_refused(changes):
     with pytest.raises(ProtocolError):
-        samples([1.0, 2.0], **changes)
+        make_samples([1.0, 2.0], **changes)
 
 
-def test_a_driver_that_fails_to_close_counts_as_closed(plain):
-    def broken():
+def test_a_driver_that_fails_to_close_counts_as_closed(driver):
+    def raise_error():
         raise ConnectionLostError("cable pulled")
 
-    plain._close = broken
+    driver._close = raise_error
     with pytest.raises(ConnectionLostError):
-        plain.close()
-    plain.close()
-    assert plain.status().state is DeviceState.CLOSED
+        driver.close()
+    driver.close()
+    assert driver.status().state is DeviceState.CLOSED
 
 
 def test_a_driver_that_fails_to_open_stays_closed():
-    driver = Plain()
+    driver = ScriptedDriver()
 
-    def broken():
+    def raise_error():
         raise DriverTimeoutError("no answer in 1 s")
 
-    driver._open = broken
+    driver._open = raise_error
     with pytest.raises(TimeoutError):
         driver.open()
     assert driver.status().state is DeviceState.CLOSED
 
 
 @pytest.mark.parametrize("method", ["open", "close", "stop", "move_to", "read", "status"])
-def test_rules_cannot_be_overridden(method):
+def test_final_methods_cannot_be_overridden(method):
     with pytest.raises(TypeError, match=f"{method}: final in Driver"):
-        type("Sly", (Plain,), {method: lambda self: None})
+        type("Sly", (ScriptedDriver,), {method: lambda self: None})
     mixin = type("Mixin", (), {method: lambda self: None})
     with pytest.raises(TypeError, match=method):
-        type("Sly", (mixin, Plain), {})
+        type("Sly", (mixin, ScriptedDriver), {})
 
 
 def test_play_cannot_be_overridden():
@@ -222,7 +229,7 @@ def test_play_cannot_be_overridden():
         type("Sly", (TrajectoryPlayer,), {"play": lambda self, trajectory: None})
 
 
-def test_errors_are_the_builtins_that_fit_them():
+def test_errors_are_subclasses_of_matching_builtins():
     assert issubclass(ConnectionLostError, (DriverError, ConnectionError))
     assert issubclass(DriverTimeoutError, TimeoutError)
     assert issubclass(LimitError, InputError)
@@ -231,22 +238,22 @@ def test_errors_are_the_builtins_that_fit_them():
 
 
 @pytest.mark.parametrize(
-    "given", [{"rate": "fast"}, {"rate": True}, {"rate": float("nan")}, {"seed": 1.0}]
+    "values", [{"rate": "fast"}, {"rate": True}, {"rate": float("nan")}, {"seed": 1.0}]
 )
-def test_settings_of_the_wrong_type_are_named(given):
-    with pytest.raises(SettingError, match=next(iter(given))):
-        resolve({"rate": 1.0, "seed": 0}, given, "board")
+def test_settings_of_the_wrong_type_are_refused(values):
+    with pytest.raises(DriverSettingError, match=next(iter(values))):
+        resolve_settings({"rate": 1.0, "seed": 0}, values, "board")
 
 
-def test_a_whole_number_passes_for_a_float():
-    resolved = resolve({"rate": 1.0, "seed": 0}, {"rate": 5}, "board")
+def test_a_whole_number_is_accepted_as_a_float():
+    resolved = resolve_settings({"rate": 1.0, "seed": 0}, {"rate": 5}, "board")
     assert resolved == {"rate": 5.0, "seed": 0}
     assert isinstance(resolved["rate"], float)
 
 
-def test_a_clock_moves_on_only():
+def test_a_clock_only_moves_forward():
     clock = VirtualClock(2.0)
     clock.advance(0.5)
     assert clock() == 2.5
-    with pytest.raises(ValueError, match="moves on"):
+    with pytest.raises(ValueError, match="cannot advance"):
         clock.advance(-1.0)

@@ -1,37 +1,36 @@
-"""The page about drivers: its example keeps the contract, and what it names exists."""
+"""The page about drivers: its example fulfils the contract, and all names on it exist."""
 
 import re
 from pathlib import Path
 
 import pytest
 
-from rotemina.drivers import abilities, errors, gate, model_abilities, tool
-from rotemina.drivers.clock import VirtualClock
-from rotemina.drivers.driver import Driver
-from rotemina.sim.robot.file import load_robot
+from rotemina.drivers.abilities import abilities, model_abilities, parameters, tool
+from rotemina.drivers.contract import Driver, VirtualClock, errors, gate
+from rotemina.sim.robot_files import load_robot
 
 PAGE = (Path(__file__).parents[2] / "docs" / "drivers.md").read_text("utf-8")
-DRIVER, USE = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)
+DRIVER_EXAMPLE, USAGE_EXAMPLE = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)
 
 
 @pytest.mark.parametrize("name", ["rotemina", "fsm"])
-def test_the_example_keeps_the_contract(name):
+def test_the_example_fulfils_the_contract(name):
     names = {"robot": load_robot(name), "clock": VirtualClock()}
-    exec(DRIVER, names)  # noqa: S102 - the page's own code
-    exec(USE, names)  # noqa: S102
+    exec(DRIVER_EXAMPLE, names)  # noqa: S102 - the page's own code
+    exec(USAGE_EXAMPLE, names)  # noqa: S102 - the page's own code
     assert names["failed"] == []
 
 
-def test_every_ability_is_on_the_page_and_no_other():
-    own = {
+def test_the_page_lists_exactly_the_abilities():
+    ability_names = {
         name
-        for module in (abilities, model_abilities, tool)
-        for name, one in vars(module).items()
-        if isinstance(one, type) and issubclass(one, Driver) and one is not Driver
+        for module in (abilities, model_abilities, parameters, tool)
+        for name, value in vars(module).items()
+        if isinstance(value, type) and issubclass(value, Driver) and value is not Driver
     }
     section = PAGE.split("## Abilities")[1].split("\n## ")[0]
     cells = [line.split("|")[1] for line in section.splitlines() if line.startswith("| `")]
-    assert {name for cell in cells for name in re.findall(r"`(\w+)`", cell)} == own
+    assert {name for cell in cells for name in re.findall(r"`(\w+)`", cell)} == ability_names
 
 
 def test_errors_on_the_page_exist():

@@ -1,11 +1,16 @@
-"""The gate: what passes, what does not, and that a stop waits for one write at most."""
+"""The gate blocks requests from before a stop, and a stop waits for at most one write."""
 
 import threading
 
 import pytest
 
-from rotemina.drivers.clock import VirtualClock
-from rotemina.drivers.gate import Gate, GateError, OvertakenError, Purpose
+from rotemina.drivers.contract import (
+    Gate,
+    GateError,
+    PermitPurpose,
+    StalePermitError,
+    VirtualClock,
+)
 
 
 @pytest.fixture
@@ -18,63 +23,65 @@ def gate(clock):
     return Gate(clock)
 
 
-def passes(permit, **how):
-    with permit.passing(**how):
+def pass_gate(permit, **options):
+    with permit.passing(**options):
         return True
 
 
-@pytest.mark.parametrize("event", ["stop", "release", "reconnected"])
-def test_what_was_asked_for_before_does_not_pass(gate, event):
-    before = gate.permit()
-    assert passes(before)
+@pytest.mark.parametrize("event", ["stop", "release", "start_connection"])
+def test_an_earlier_permit_does_not_pass(gate, event):
+    earlier_permit = gate.permit()
+    assert pass_gate(earlier_permit)
     getattr(gate, event)()
-    assert not before.valid
-    with pytest.raises(OvertakenError):
-        passes(before)
-    assert passes(gate.permit())
+    assert not earlier_permit.is_valid
+    with pytest.raises(StalePermitError):
+        pass_gate(earlier_permit)
+    assert pass_gate(gate.permit())
 
 
-def test_a_latch_lets_nothing_move_and_a_release_lets_only_what_comes_after_it(gate):
+def test_a_latch_blocks_motion_and_a_release_admits_only_later_permits(gate):
     gate.stop("emergency stop")
-    meanwhile = gate.permit()
-    assert gate.latched == "emergency stop"
-    with pytest.raises(OvertakenError, match="emergency stop is active; release it first"):
-        passes(meanwhile)
+    permit_during_latch = gate.permit()
+    assert gate.latch_reason == "emergency stop"
+    with pytest.raises(StalePermitError, match="emergency stop is active; release it first"):
+        pass_gate(permit_during_latch)
     gate.release()
-    with pytest.raises(OvertakenError, match="try again"):
-        passes(meanwhile)
-    assert passes(gate.permit())
+    with pytest.raises(StalePermitError, match="try again"):
+        pass_gate(permit_during_latch)
+    assert pass_gate(gate.permit())
 
 
-def test_a_question_passes_after_a_stop_but_not_on_another_connection(gate):
-    question = gate.permit(Purpose.ENQUIRY)
+def test_an_enquiry_passes_after_a_stop_but_not_after_a_new_connection(gate):
+    enquiry = gate.permit(PermitPurpose.ENQUIRY)
     gate.stop("emergency stop")
-    assert passes(question)
-    gate.reconnected()
-    with pytest.raises(OvertakenError, match="connection"):
-        passes(question)
+    assert pass_gate(enquiry)
+    gate.start_connection()
+    with pytest.raises(StalePermitError, match="connection"):
+        pass_gate(enquiry)
 
 
-def test_what_locks_motion_is_asked_where_a_motion_begins_not_where_one_goes_on(gate):
+def test_a_lock_blocks_only_the_start_of_a_motion(gate):
     permit = gate.permit()
-    gate.locks = lambda asked: "parameters differ" if asked.purpose is Purpose.MOTION else None
+    gate.lock_reason = lambda permit_to_check: (
+        "parameters differ" if permit_to_check.purpose is PermitPurpose.MOTION else None
+    )
     with pytest.raises(GateError, match="parameters differ"):
-        passes(permit)
-    assert passes(permit, begins=False)
-    assert passes(permit.meant_for(Purpose.SERVICE))
+        pass_gate(permit)
+    assert pass_gate(permit, begins=False)
+    assert pass_gate(permit.with_purpose(PermitPurpose.SERVICE))
 
 
-def test_a_lease_ends(gate, clock):
-    permit = gate.permit().until(1.5)
+def test_a_permit_expires_with_its_lease(gate, clock):
+    permit = gate.permit().with_deadline(1.5)
     clock.advance(0.5)
-    assert passes(permit)
+    assert pass_gate(permit)
     clock.advance(0.001)
-    with pytest.raises(OvertakenError, match="lease"):
-        passes(permit)
+    with pytest.raises(StalePermitError, match="lease"):
+        pass_gate(permit)
 
 
-def test_a_stop_comes_before_a_write_or_after_it_and_never_in_the_middle(gate):
-    """A stop from another thread, asked for while a write is under way, ends after the write."""
+def test_a_stop_never_happens_during_a_write(gate):
+    """A stop from another thread during a write ends after the write."""
     order, writing = [], threading.Event()
 
     def stop():
@@ -86,7 +93,8 @@ def test_a_stop_comes_before_a_write_or_after_it_and_never_in_the_middle(gate):
     thread.start()
     with gate.permit().passing():
         writing.set()
-        thread.join(0.05)  # it cannot end: the gate is held open
+        # The thread cannot end during the write.
+        thread.join(0.05)
         order.append("written")
     thread.join()
     assert order == ["written", "stopped"]

@@ -1,25 +1,26 @@
-"""Profiles that a device runs by itself: checked as a whole before any of it moves."""
+"""A profile that a device runs by itself is checked completely before any motion."""
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from rotemina.drivers.profile import Profile, ProfileSegment
+from rotemina.drivers.abilities import MotionProfile, ProfileSegment
 from rotemina.sim.errors import InputError
-from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot_files import load_robot
 
 ROBOT = load_robot("rotemina")
 ZN = ROBOT.axes["zn"]
 
 
-def thrust(length, duration_s=0.05):
-    """From rest to rest by half a cubic wave."""
+def make_thrust(length, duration_s=0.05):
+    """Return a cubic segment from rest to rest."""
     return ProfileSegment(duration_s, 0.0, 3.0 * length, -2.0 * length)
 
 
 def test_a_thrust_and_its_return_are_allowed():
-    profile = Profile("zn", (thrust(50e-6), ProfileSegment(0.1, 0.0, 0.0, 0.0), thrust(-50e-6)))
+    profile = MotionProfile(
+        "zn", (make_thrust(50e-6), ProfileSegment(0.1, 0.0, 0.0, 0.0), make_thrust(-50e-6))
+    )
     profile.check(ROBOT, 5e-6)
     assert profile.duration_s == pytest.approx(0.2)
 
@@ -27,26 +28,26 @@ def test_a_thrust_and_its_return_are_allowed():
 @pytest.mark.parametrize(
     ("profile", "start", "message"),
     [
-        (Profile("zn", (thrust(50e-6),)), 30e-6, r"segment 1: .*zn"),
-        (Profile("zn", (thrust(50e-6), thrust(20e-6))), 0.0, "segment 2: .*zn"),
+        (MotionProfile("zn", (make_thrust(50e-6),)), 30e-6, r"segment 1: .*zn"),
+        (MotionProfile("zn", (make_thrust(50e-6), make_thrust(20e-6))), 0.0, "segment 2: .*zn"),
         (
-            Profile("zn", (thrust(50e-6, 0.01),)),
+            MotionProfile("zn", (make_thrust(50e-6, 0.01),)),
             5e-6,
             r"segment 1: 7\.5 mm/s: must be at most 5 mm/s",
         ),
         (
-            Profile("x", (thrust(1e-4, 0.05),)),
+            MotionProfile("x", (make_thrust(1e-4, 0.05),)),
             0.02,
             r"segment 1: 240 mm/s²: must be at most 200 mm/s²",
         ),
-        (Profile("zn", ()), 5e-6, "0 segments: must be 1 to 16"),
-        (Profile("zn", (thrust(1e-9),) * 17), 5e-6, "17 segments: must be 1 to 16"),
-        (Profile("zn", (thrust(float("nan")),)), 5e-6, "must be finite"),
-        (Profile("zn", (thrust(1e-6, 0.0),)), 5e-6, "time positive"),
-        (Profile("elbow", (thrust(1e-6),)), 0.0, "elbow"),
+        (MotionProfile("zn", ()), 5e-6, "0 segments: must be 1 to 16"),
+        (MotionProfile("zn", (make_thrust(1e-9),) * 17), 5e-6, "17 segments: must be 1 to 16"),
+        (MotionProfile("zn", (make_thrust(float("nan")),)), 5e-6, "must be finite"),
+        (MotionProfile("zn", (make_thrust(1e-6, 0.0),)), 5e-6, "the duration positive"),
+        (MotionProfile("elbow", (make_thrust(1e-6),)), 0.0, "elbow"),
     ],
 )
-def test_what_an_axis_cannot_do_is_refused(profile, start, message):
+def test_a_profile_that_an_axis_cannot_follow_is_refused(profile, start, message):
     with pytest.raises(InputError, match=message):
         profile.check(ROBOT, start)
 
@@ -56,10 +57,10 @@ def test_extremes_and_speeds_bound_the_whole_segment(c1, c2, c3):
     segment = ProfileSegment(0.1, c1, c2, c3)
     tau = np.linspace(0.0, 1.0, 2001)
     position = ((c3 * tau + c2) * tau + c1) * tau
-    ends = [0.0, *segment.extremes()]
+    ends = [0.0, *segment.find_extremes()]
     assert min(ends) - 1e-12 <= position.min()
     assert position.max() <= max(ends) + 1e-12
     speed = np.abs(c1 + 2 * c2 * tau + 3 * c3 * tau**2).max() / 0.1
-    assert speed <= segment.greatest_speed() * (1 + 1e-9) + 1e-15
+    assert speed <= segment.compute_max_speed() * (1 + 1e-9) + 1e-15
     acceleration = np.abs(2 * c2 + 6 * c3 * tau).max() / 0.01
-    assert acceleration == pytest.approx(segment.greatest_acceleration(), rel=1e-9, abs=1e-15)
+    assert acceleration == pytest.approx(segment.compute_max_acceleration(), rel=1e-9, abs=1e-15)

@@ -1,14 +1,13 @@
-"""One bad plugin is named and left out; the others load."""
+"""A bad plugin is reported and skipped, and the others are loaded."""
 
 from importlib.metadata import EntryPoint
 
 import pytest
 
-from rotemina.drivers import registry
-from rotemina.drivers.driver import Driver
-from rotemina.drivers.simulator.driver import Simulator
+from rotemina.drivers.contract import Driver, registry
+from rotemina.drivers.simulator import Simulator
 
-GOOD = "rotemina.drivers.simulator.driver:Simulator"
+VALID_ENTRY_POINT = "rotemina.drivers.simulator.driver:Simulator"
 
 
 class OldSimulator(Simulator):
@@ -16,9 +15,9 @@ class OldSimulator(Simulator):
 
 
 @pytest.fixture
-def installed(monkeypatch):
+def install_plugins(monkeypatch):
     def install(**values):
-        points = [EntryPoint(name, value, registry.DRIVERS) for name, value in values.items()]
+        points = [EntryPoint(name, value, registry.DRIVER_GROUP) for name, value in values.items()]
         monkeypatch.setattr(registry, "entry_points", lambda group: points)
 
     return install
@@ -31,35 +30,41 @@ def installed(monkeypatch):
         ("rotemina.drivers.simulator.driver:Missing", "cannot be imported: AttributeError"),
         ("math:pi", "is no Driver"),
         ("pathlib:Path", "is no Driver"),
-        ("rotemina.drivers.abilities:TrajectoryPlayer", "does not define _clear_fault, _close"),
+        (
+            "rotemina.drivers.abilities.abilities:TrajectoryPlayer",
+            "does not define _clear_fault, _close",
+        ),
     ],
 )
-def test_a_bad_plugin_is_named_and_left_out(installed, value, reason):
-    installed(bad=value, good=GOOD)
+def test_a_bad_plugin_is_reported_and_skipped(install_plugins, value, reason):
+    install_plugins(bad=value, good=VALID_ENTRY_POINT)
     discovery = registry.discover_drivers()
-    assert discovery.found == {"good": Simulator}
-    assert reason in discovery.broken["bad"]
-    assert value in discovery.broken["bad"]
+    assert discovery.plugins == {"good": Simulator}
+    assert reason in discovery.problems["bad"]
+    assert value in discovery.problems["bad"]
 
 
-def test_a_plugin_for_another_version_is_left_out(installed, monkeypatch):
-    installed(old=GOOD)
+def test_a_plugin_for_another_version_is_skipped(install_plugins, monkeypatch):
+    install_plugins(old=VALID_ENTRY_POINT)
     monkeypatch.setattr(EntryPoint, "load", lambda self: OldSimulator)
-    assert "version 0" in registry.discover_drivers().broken["old"]
+    assert "version 0" in registry.discover_drivers().problems["old"]
 
 
-def test_a_plugin_that_raises_anything_is_left_out(installed, monkeypatch):
-    def explode(self):
+def test_a_plugin_that_raises_any_exception_is_skipped(install_plugins, monkeypatch):
+    def raise_licence_error(self):
         raise RuntimeError("licence expired")
 
-    installed(bad=GOOD)
-    monkeypatch.setattr(EntryPoint, "load", explode)
-    assert "licence expired" in registry.discover_drivers().broken["bad"]
+    install_plugins(bad=VALID_ENTRY_POINT)
+    monkeypatch.setattr(EntryPoint, "load", raise_licence_error)
+    assert "licence expired" in registry.discover_drivers().problems["bad"]
 
 
-def test_a_name_is_taken_once(monkeypatch):
-    points = [EntryPoint("twin", GOOD, registry.DRIVERS), EntryPoint("twin", "x:Y", "g")]
+def test_a_second_plugin_of_the_same_name_is_reported(monkeypatch):
+    points = [
+        EntryPoint("twin", VALID_ENTRY_POINT, registry.DRIVER_GROUP),
+        EntryPoint("twin", "x:Y", "g"),
+    ]
     monkeypatch.setattr(registry, "entry_points", lambda group: points)
-    discovery = registry.discover("g", Driver)
-    assert discovery.found == {"twin": Simulator}
-    assert "already" in discovery.broken["twin (x:Y)"]
+    discovery = registry.discover_plugins("g", Driver)
+    assert discovery.plugins == {"twin": Simulator}
+    assert "already" in discovery.problems["twin (x:Y)"]

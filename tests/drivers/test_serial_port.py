@@ -1,4 +1,4 @@
-"""The ports of all kinds, also where the other end takes no bytes, and why one does not open."""
+"""Serial ports of all kinds, with connected devices that accept no bytes, and failed openings."""
 
 import os
 import pty
@@ -15,16 +15,15 @@ import pytest
 import serial
 from serial.rfc2217 import PortManager
 
-from rotemina.drivers import byte_channels
-from rotemina.drivers.byte_channels import (
+from rotemina.drivers.contract import ConnectionLostError, DriverError, VirtualClock
+from rotemina.drivers.serial_lines import UrgentBytes, byte_channels, open_port
+from rotemina.drivers.serial_lines.byte_channels import (
     ByteChannel,
     TelnetChannel,
     WindowsChannel,
     open_channel,
 )
-from rotemina.drivers.clock import VirtualClock
-from rotemina.drivers.errors import ConnectionLostError, DriverError
-from rotemina.drivers.serial_port import MAX_BLOCKED_S, SerialPort, UrgentBytes, open_port
+from rotemina.drivers.serial_lines.serial_port import MAX_BLOCKED_S, SerialPort
 
 STOP = UrgentBytes(b"!")
 
@@ -34,19 +33,19 @@ def terminal():
     master, slave = pty.openpty()
     tty.setraw(slave)
     yield master, os.ttyname(slave)
-    for each in (master, slave):
+    for descriptor in (master, slave):
         try:
-            os.close(each)
+            os.close(descriptor)
         except OSError:
             continue
 
 
 class NarrowChannel(ByteChannel):
-    """Takes so many bytes as there is room for."""
+    """A channel that accepts as many bytes as it has room for."""
 
     def __init__(self, room=0):
         self.room = room
-        self.out = b""
+        self.accepted = b""
         self.calls = 0
 
     def read(self):
@@ -54,10 +53,10 @@ class NarrowChannel(ByteChannel):
 
     def write(self, data):
         self.calls += 1
-        taken = data[: self.room]
-        self.room -= len(taken)
-        self.out += taken
-        return len(taken)
+        accepted_data = data[: self.room]
+        self.room -= len(accepted_data)
+        self.accepted += accepted_data
+        return len(accepted_data)
 
     def close(self):
         self.room = 0
@@ -86,19 +85,19 @@ def read_all(port, count):
     return received
 
 
-def use(port):
+def read_and_write(port):
     for _ in range(100):
         port.read()
         port.write(b"\0")
 
 
-def use_in_vain(port):
+def fill_queue(port):
     for _ in range(1024 // 8):
         port.write(b"8 bytes.")
 
 
-def fill(port, piece):
-    """Write until the system takes no more of what the other end does not read."""
+def fill_system_buffer(port, piece):
+    """Write until the system accepts no more bytes, because the other end does not read."""
     for _ in range(100_000):
         port.write(piece)
         if port._queue:
@@ -106,25 +105,22 @@ def fill(port, piece):
     raise AssertionError("the port takes any number of bytes")
 
 
-# --- what a port takes, and what waits -------------------------------------------------------
-
-
-def test_what_the_port_does_not_take_is_sent_later_in_order_and_whole(port, channel):
+def test_bytes_that_the_port_does_not_accept_are_sent_later_in_order(port, channel):
     channel.room = 2
     port.write(b"first")
     port.write(b"second")
-    assert channel.out == b"fi"
+    assert channel.accepted == b"fi"
     assert port.waiting() == 9
     channel.room = 5
     port.read()
-    assert channel.out == b"firstse"
+    assert channel.accepted == b"firstse"
     channel.room = 100
     port.write(b"third")
-    assert channel.out == b"firstsecondthird"
+    assert channel.accepted == b"firstsecondthird"
     assert port.waiting() == 0
 
 
-def test_a_stop_finishes_the_frame_under_way_and_replaces_what_waits(port, channel):
+def test_a_stop_follows_the_started_frame_and_replaces_waiting_frames(port, channel):
     channel.room = 2
     for frame in (b"begun", b"motion", b"more"):
         port.write(frame)
@@ -132,21 +128,19 @@ def test_a_stop_finishes_the_frame_under_way_and_replaces_what_waits(port, chann
     port.write(b"after")
     channel.room = 100
     port.read()
-    assert channel.out == b"begun!after"
+    assert channel.accepted == b"begun!after"
 
 
-def test_stops_of_two_kinds_keep_their_order_and_one_that_is_repeated_is_sent_once(port, channel):
+def test_stops_of_two_kinds_keep_their_order_and_are_not_repeated(port, channel):
     for data in (b"motion", STOP, STOP, UrgentBytes(b"\x18"), UrgentBytes(b"\x18"), b"?"):
         port.write(data)
     port.write(STOP)
     channel.room = 100
     port.read()
-    assert channel.out == b"!\x18!"
+    assert channel.accepted == b"!\x18!"
 
 
-def test_a_port_that_takes_nothing_is_lost_after_its_time_and_sends_nothing_old(
-    port, channel, clock
-):
+def test_a_blocked_port_is_lost_after_its_time_out_and_sends_nothing_old(port, channel, clock):
     port.write(b"motion")
     clock.advance(MAX_BLOCKED_S)
     port.read()
@@ -158,49 +152,49 @@ def test_a_port_that_takes_nothing_is_lost_after_its_time_and_sends_nothing_old(
         port.write(b"more")
     with pytest.raises(ConnectionLostError, match="reconnect"):
         port.read()
-    assert channel.out == b""
+    assert channel.accepted == b""
 
 
-def test_a_stop_is_tried_even_on_a_port_that_is_lost(port, channel, clock):
+def test_a_stop_is_tried_even_on_a_lost_port(port, channel, clock):
     port.write(b"motion")
     clock.advance(60.0)
     channel.room = 100
     with pytest.raises(ConnectionLostError):
         port.write(STOP)
-    assert channel.out == b"!"
+    assert channel.accepted == b"!"
 
 
-def test_a_port_that_takes_byte_by_byte_is_not_lost(port, channel, clock):
+def test_a_port_that_accepts_single_bytes_is_not_lost(port, channel, clock):
     port.write(b"slowly")
     for _ in range(6):
         clock.advance(0.9 * MAX_BLOCKED_S)
         channel.room = 1
         port.read()
-    assert channel.out == b"slowly"
+    assert channel.accepted == b"slowly"
     clock.advance(60.0)
     port.read()
 
 
-def test_no_more_waits_than_the_bound_but_stops_do(port, channel):
-    use_in_vain(port)
+def test_the_queue_is_bounded_except_for_stops(port, channel):
+    fill_queue(port)
     port.write(STOP)
     port.write(b"fits again")
     with pytest.raises(ConnectionLostError, match="takes no more bytes"):
-        use_in_vain(port)
+        fill_queue(port)
 
 
-def test_a_blocked_port_is_tried_once_a_call(port, channel):
+def test_a_blocked_port_is_tried_once_per_call(port, channel):
     port.write(b"motion")
-    before = channel.calls
+    calls_before = channel.calls
     port.read()
-    assert channel.calls == before + 1
+    assert channel.calls == calls_before + 1
 
 
-def test_frames_of_two_threads_are_not_torn_and_none_is_lost(port, channel):
-    gate = threading.Barrier(2)
+def test_frames_of_two_threads_are_neither_split_nor_lost(port, channel):
+    barrier = threading.Barrier(2)
 
     def write(frame):
-        gate.wait()
+        barrier.wait()
         for _ in range(100):
             port.write(frame)
             channel.room += 3
@@ -212,14 +206,11 @@ def test_frames_of_two_threads_are_not_torn_and_none_is_lost(port, channel):
         thread.join()
     channel.room = 10_000
     port.read()
-    parts = channel.out.replace(b"<ab>", b"").replace(b"<cd>", b"")
-    assert (len(channel.out), parts) == (800, b"")
+    torn_frames = channel.accepted.replace(b"<ab>", b"").replace(b"<cd>", b"")
+    assert (len(channel.accepted), torn_frames) == (800, b"")
 
 
-# --- the kinds of ports ----------------------------------------------------------------------
-
-
-def test_bytes_go_both_ways_and_nothing_waits(terminal):
+def test_bytes_are_sent_and_received_without_delay(terminal):
     master, name = terminal
     port = open_port(name, 9600)
     begin_s = time.monotonic()
@@ -243,10 +234,10 @@ def read_descriptor(master):
             return
 
 
-def test_a_device_that_takes_no_bytes_blocks_neither_a_write_nor_a_stop(terminal, clock):
+def test_a_device_that_accepts_no_bytes_blocks_neither_a_write_nor_a_stop(terminal, clock):
     master, name = terminal
     port = SerialPort(name, open_channel(name, 9600), clock)
-    fill(port, b"x" * 500)
+    fill_system_buffer(port, b"x" * 500)
     port.write(STOP)
     port.read()
     assert port.waiting() > 0
@@ -254,35 +245,36 @@ def test_a_device_that_takes_no_bytes_blocks_neither_a_write_nor_a_stop(terminal
     port.read()
     received = b"".join(read_descriptor(master))
     assert (received.strip(b"x"), len(received) < 500) == (b"!", True)
-    fill(port, b"x" * 500)
+    fill_system_buffer(port, b"x" * 500)
     clock.advance(MAX_BLOCKED_S + 0.001)
     with pytest.raises(ConnectionLostError, match="takes no more bytes"):
         port.read()
     port.close()
 
 
-def test_a_network_peer_that_takes_no_bytes_blocks_nothing(clock):
+def test_a_network_peer_that_accepts_no_bytes_blocks_nothing(clock):
     with socket.create_server(("127.0.0.1", 0)) as server:
         url = f"socket://127.0.0.1:{server.getsockname()[1]}"
         port = SerialPort(url, open_channel(url, 9600), clock)
-        accepted, _ = server.accept()
-        with closing(port), accepted:
-            fill(port, b"x" * 1_000_000)
+        connection, _ = server.accept()
+        with closing(port), connection:
+            fill_system_buffer(port, b"x" * 1_000_000)
             port.write(STOP)
             while port.waiting():
-                accepted.recv(1 << 20)
+                connection.recv(1 << 20)
                 port.read()
-            accepted.shutdown(socket.SHUT_WR)
+            connection.shutdown(socket.SHUT_WR)
             port.close()
-            received = b"".join(iter(partial(accepted.recv, 1 << 20), b""))
+            received = b"".join(iter(partial(connection.recv, 1 << 20), b""))
             assert received.strip(b"x") == b"!"
 
 
 class TelnetSerial:
-    """What of pyserial's RFC 2217 port is used, on a pair of sockets."""
+    """The used methods of pyserial's RFC 2217 port, on a pair of sockets."""
 
     def __init__(self, connection):
-        connection.settimeout(5.0)  # as pyserial does
+        # This is the time-out that pyserial sets.
+        connection.settimeout(5.0)
         self._socket = connection
         self._write_lock = threading.Lock()
         self.in_waiting = 0
@@ -294,66 +286,67 @@ class TelnetSerial:
         self._socket.close()
 
 
-def test_a_remote_port_that_takes_no_bytes_blocks_nothing(clock):
-    here, there = socket.socketpair()
-    with there:
-        fake = TelnetSerial(here)
-        port = SerialPort("rfc2217://x", TelnetChannel(fake), clock)
+def test_a_remote_port_that_accepts_no_bytes_blocks_nothing(clock):
+    local, remote = socket.socketpair()
+    with remote:
+        telnet_serial = TelnetSerial(local)
+        port = SerialPort("rfc2217://x", TelnetChannel(telnet_serial), clock)
         port.write(b"\x01\xff\xff\x02")
-        assert there.recv(100) == b"\x01\xff\xff\xff\xff\x02"
-        fill(port, b"x" * 100_000)
-        with fake._write_lock:  # pyserial answers the server, and waits
+        assert remote.recv(100) == b"\x01\xff\xff\xff\xff\x02"
+        fill_system_buffer(port, b"x" * 100_000)
+        # pyserial holds the lock while it answers the server.
+        with telnet_serial._write_lock:
             port.write(STOP)
         while port.waiting():
-            there.recv(1 << 20)
+            remote.recv(1 << 20)
             port.read()
         port.close()
-        assert b"".join(iter(partial(there.recv, 1 << 20), b"")).strip(b"x") == b"!"
+        assert b"".join(iter(partial(remote.recv, 1 << 20), b"")).strip(b"x") == b"!"
 
 
 class WindowsSerial:
-    """What of pyserial's COM port is used: every write is taken and completes later."""
+    """The used methods of pyserial's COM port, which accepts every write and completes it later."""
 
     def __init__(self):
         self.out_waiting = 0
-        self.out = b""
-        self.discarded = False
+        self.accepted = b""
+        self.is_output_discarded = False
 
     def read(self, _size):
         return b""
 
     def write(self, data):
-        self.out += data
+        self.accepted += data
         self.out_waiting += len(data)
         return len(data)
 
     def reset_output_buffer(self):
-        self.discarded = True
+        self.is_output_discarded = True
 
     def close(self):
         self.out_waiting = 0
 
 
-def test_a_com_port_that_completes_no_write_is_not_given_more_and_more(clock):
-    com = WindowsSerial()
-    port = SerialPort("COM3", WindowsChannel(com), clock)
+def test_a_com_port_that_completes_no_write_gets_a_limited_number_of_bytes(clock):
+    com_port = WindowsSerial()
+    port = SerialPort("COM3", WindowsChannel(com_port), clock)
     for _ in range(20):
         port.write(b"0123456789abcdef")
-    assert com.out == 16 * b"0123456789abcdef"
+    assert com_port.accepted == 16 * b"0123456789abcdef"
     port.write(STOP)
-    com.out_waiting = 0
+    com_port.out_waiting = 0
     port.read()
-    assert com.out == 16 * b"0123456789abcdef" + b"!"
+    assert com_port.accepted == 16 * b"0123456789abcdef" + b"!"
     for _ in range(17):
         port.write(b"0123456789abcdef")
     clock.advance(MAX_BLOCKED_S + 0.001)
     with pytest.raises(ConnectionLostError, match="takes no more bytes"):
         port.read()
     port.close()
-    assert com.discarded
+    assert com_port.is_output_discarded
 
 
-def test_a_loop_gives_back_what_it_took_and_waits_when_it_is_full():
+def test_a_loop_port_returns_its_bytes_and_is_limited():
     port = open_port("loop://", 9600)
     port.write(b"x" * 4090)
     port.write(b"0123456789")
@@ -363,42 +356,41 @@ def test_a_loop_gives_back_what_it_took_and_waits_when_it_is_full():
 
 
 def serve_remote_port(server, device):
-    """Serve RFC 2217 to one client, and read from it nothing but what it negotiates."""
-    accepted, _ = server.accept()
-    with accepted:
-        connection = type("Connection", (), {"write": staticmethod(accepted.sendall)})()
+    """Serve RFC 2217 to one client, and echo its bytes."""
+    client, _ = server.accept()
+    with client:
+        connection = type("Connection", (), {"write": staticmethod(client.sendall)})()
         manager = PortManager(device, connection)
-        while data := accepted.recv(1024):
-            accepted.sendall(b"".join(manager.escape(b"".join(manager.filter(data)))))
+        while data := client.recv(1024):
+            client.sendall(b"".join(manager.escape(b"".join(manager.filter(data)))))
 
 
 @pytest.mark.filterwarnings("ignore:set(Daemon|Name):DeprecationWarning")
 def test_a_remote_port_by_rfc_2217_echoes_every_byte():
     device = serial.serial_for_url("loop://", timeout=0)
     with socket.create_server(("127.0.0.1", 0)) as server:
-        serving = threading.Thread(target=serve_remote_port, args=(server, device), daemon=True)
-        serving.start()
+        server_thread = threading.Thread(
+            target=serve_remote_port, args=(server, device), daemon=True
+        )
+        server_thread.start()
         port = open_port(f"rfc2217://127.0.0.1:{server.getsockname()[1]}", 9600)
         port.write(bytes(range(256)))
         assert read_all(port, 256) == bytes(range(256))
         port.close()
-        serving.join()
+        server_thread.join()
 
 
-def test_a_kind_of_port_whose_writes_may_wait_is_refused(monkeypatch):
-    class Waiting:
+def test_a_port_type_whose_writes_may_block_is_refused(monkeypatch):
+    class BlockingPort:
         def close(self):
             pass
 
-    monkeypatch.setattr(byte_channels.serial, "serial_for_url", lambda *_, **__: Waiting())
+    monkeypatch.setattr(byte_channels.serial, "serial_for_url", lambda *_, **__: BlockingPort())
     with pytest.raises(DriverError, match="a write to cp2110:// may wait"):
         open_port("cp2110://x", 9600)
 
 
-# --- ports that are taken, gone or absent ----------------------------------------------------
-
-
-def test_a_port_that_is_taken_says_so(terminal):
+def test_a_port_in_use_is_refused_with_the_reason(terminal):
     _, name = terminal
     first = open_port(name, 9600)
     with pytest.raises(DriverError, match="another program uses it"):
@@ -407,12 +399,12 @@ def test_a_port_that_is_taken_says_so(terminal):
     open_port(name, 9600).close()
 
 
-def test_a_port_that_is_pulled_out_is_lost(terminal):
+def test_a_disconnected_port_is_lost(terminal):
     master, name = terminal
     port = open_port(name, 9600)
     os.close(master)
     with pytest.raises(ConnectionLostError, match="the port has disappeared"):
-        use(port)
+        read_and_write(port)
     port.close()
 
 
@@ -435,30 +427,30 @@ def test_a_closed_port_is_lost(terminal):
         (ValueError("invalid URL, protocol 'x' not known"), "cannot be opened"),
     ],
 )
-def test_what_is_wrong_is_said_with_what_to_do(monkeypatch, error, match):
-    def refuse(*_args, **_kwargs):
+def test_a_failed_opening_gives_the_reason_and_advice(monkeypatch, error, match):
+    def raise_error(*_args, **_kwargs):
         raise error
 
-    monkeypatch.setattr(byte_channels.serial, "serial_for_url", refuse)
+    monkeypatch.setattr(byte_channels.serial, "serial_for_url", raise_error)
     with pytest.raises(DriverError, match=match) as raised:
         open_port("/dev/ttyX", 9600)
     assert raised.value.__cause__ is error
 
 
-def test_a_port_that_is_not_there():
+def test_a_missing_port_is_refused():
     with pytest.raises(DriverError, match="no such port"):
         open_port("/dev/does-not-exist", 9600)
     with pytest.raises(DriverError, match="no serial port is set"):
         open_port("", 9600)
 
 
-def test_a_socket_is_closed_though_its_other_end_is_gone():
+def test_a_socket_is_closed_after_its_other_end_has_gone():
     with socket.create_server(("127.0.0.1", 0)) as server:
         channel = open_channel(f"socket://127.0.0.1:{server.getsockname()[1]}", 9600)
-        accepted, _ = server.accept()
-        # With this option closing resets the connection, as a process does that is killed.
-        accepted.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
-        accepted.close()
+        peer, _ = server.accept()
+        # With this option, closing resets the connection, like the end of a killed process.
+        peer.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+        peer.close()
         connection = channel._serial._socket
         select.select([connection], [], [], 5.0)
         channel.close()
@@ -469,11 +461,11 @@ def test_a_socket_works_with_a_warning(caplog):
     with socket.create_server(("127.0.0.1", 0)) as server:
         port = open_port(f"socket://127.0.0.1:{server.getsockname()[1]}", 9600)
         assert "authenticated" in caplog.text
-        accepted, _ = server.accept()
-        with accepted:
+        peer, _ = server.accept()
+        with peer:
             port.write(b"\0\0")
-            assert accepted.recv(10) == b"\0\0"
-            accepted.sendall(b"hello")
+            assert peer.recv(10) == b"\0\0"
+            peer.sendall(b"hello")
             assert read_all(port, 5) == b"hello"
             assert port.read() == b""
             assert port.waiting() == 0

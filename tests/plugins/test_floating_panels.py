@@ -1,4 +1,4 @@
-"""A panel whose dock floats by itself still reaches the window."""
+"""The buttons of a floating panel still call the main window."""
 
 import pytest
 
@@ -6,18 +6,18 @@ PANELS = ("comparison",)
 
 
 @pytest.mark.parametrize(
-    ("panel", "button", "asks"),
+    ("panel", "button", "method"),
     [
         ("trajectory", "load", "ask_trajectory"),
         ("comparison", "open", "ask_record"),
         ("comparison", "save", "ask_save"),
     ],
 )
-def test_buttons_of_a_floating_panel_reach_the_window(window, monkeypatch, panel, button, asks):
-    asked = []
-    monkeypatch.setattr(window, asks, lambda *_, **__: asked.append(asks))
+def test_buttons_of_a_floating_panel_call_the_window(window, monkeypatch, panel, button, method):
+    calls = []
+    monkeypatch.setattr(window, method, lambda *_, **__: calls.append(method))
     window.docks[panel].setFloating(True)
-    pressed = getattr(window.panels[panel], button)
-    pressed.setEnabled(True)
-    pressed.click()
-    assert asked == [asks]
+    pressed_button = getattr(window.panels[panel], button)
+    pressed_button.setEnabled(True)
+    pressed_button.click()
+    assert calls == [method]

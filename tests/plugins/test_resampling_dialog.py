@@ -1,11 +1,12 @@
-"""Resampling in the window: what comes out is shown before it is accepted."""
+"""Resampling in the window, with a preview before it is accepted."""
 
 import numpy as np
 import pytest
 from PySide6.QtWidgets import QDialogButtonBox
 
 from rotemina.plugins.trajectory.resampling import ResamplingDialog
-from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.messages import number_text
+from rotemina.sim.records import Record, Tap
 
 TIME_S = np.arange(5) * 0.1
 RAMP = Record.from_signals(TIME_S, {("x", Tap.CMD): 0.02 + 0.001 * TIME_S}, {"x": "m"})
@@ -16,38 +17,57 @@ def dialog(qtbot, window):
     return ResamplingDialog(RAMP, window)
 
 
-def ok(dialog):
+@pytest.fixture
+def decimal_comma():
+    number_text.use_decimal_sign(",")
+    yield
+    number_text.use_decimal_sign(number_text.POINT)
+
+
+def get_ok_button(dialog):
     return dialog.buttons.button(QDialogButtonBox.StandardButton.Ok)
 
 
-def test_the_induced_speed_is_shown_for_every_method(qtbot, dialog):
-    assert dialog.outcome.text() == "X: 1 → 100 mm/s"  # a held step within one millisecond
+def test_the_resulting_speed_is_shown_for_every_method(qtbot, dialog):
+    # The default method holds values, so each step takes one millisecond.
+    assert dialog.outcome.text() == "X: 1 → 100 mm/s"
     dialog.method.setCurrentIndex(1)
     qtbot.waitUntil(lambda: dialog.outcome.text() == "X: 1 → 1 mm/s", timeout=5000)
     assert len(dialog.resampled.time_s) == 401
 
 
-def test_a_rate_that_is_none_cannot_be_accepted(qtbot, dialog):
+def test_an_invalid_rate_cannot_be_accepted(qtbot, dialog):
     for text in ("", "abc", "-5", "0"):
         dialog.rate.setText(text)
-        assert not ok(dialog).isEnabled()
+        assert not get_ok_button(dialog).isEnabled()
         qtbot.waitUntil(lambda: dialog.resampled is None, timeout=5000)
-        assert not ok(dialog).isEnabled()
+        assert not get_ok_button(dialog).isEnabled()
         assert dialog.outcome.text()
     dialog.rate.setText("250")
-    qtbot.waitUntil(ok(dialog).isEnabled, timeout=5000)
+    qtbot.waitUntil(get_ok_button(dialog).isEnabled, timeout=5000)
+
+
+def test_the_rate_is_read_with_the_decimal_sign_in_use(dialog, decimal_comma):
+    dialog.rate.setText("12,5")
+    dialog._update_preview()
+    assert dialog.resampled.time_s[1] - dialog.resampled.time_s[0] == pytest.approx(0.08)
+    for text in ("1.000,5", "nan", "1_000", "abc"):
+        dialog.rate.setText(text)
+        dialog._update_preview()
+        assert dialog.resampled is None
+        assert f"{text!r} is not a number" in dialog.outcome.text()
 
 
 def test_the_accepted_trajectory_is_planned(qtbot, window, monkeypatch):
     with qtbot.waitSignal(window.workbench.plan_changed, timeout=30_000):
         window.workbench.plan_trajectory("ramp", RAMP)
 
-    def accept(dialog):
+    def accept_at_once(dialog):
         dialog.method.setCurrentIndex(1)
-        dialog._try()
+        dialog._update_preview()
         dialog.accept()
 
-    monkeypatch.setattr(ResamplingDialog, "show", accept)
+    monkeypatch.setattr(ResamplingDialog, "show", accept_at_once)
     with qtbot.waitSignal(window.workbench.plan_changed, timeout=30_000):
         window.panels["trajectory"].resample.click()
     assert window.workbench.plan.name == "ramp, resampled"

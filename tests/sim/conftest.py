@@ -1,4 +1,4 @@
-"""Real records."""
+"""Fixture for records of real machines."""
 
 import runpy
 import sys
@@ -8,7 +8,7 @@ import pytest
 
 @pytest.fixture(scope="session")
 def real_dir(shared_dir, tmp_path_factory):
-    """The records of real machines, converted by the script that comes with them."""
+    """Folder of the records of real machines, converted by their own script."""
     folder = tmp_path_factory.mktemp("real")
     arguments, sys.argv = sys.argv, ["convert.py", str(folder)]
     try:

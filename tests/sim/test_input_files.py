@@ -1,25 +1,31 @@
-"""Files that are read: no other than regular ones, and none without an end."""
+"""Reading of files: only regular ones, and only up to a maximum size."""
 
 import os
 
 import pytest
 
 from rotemina.sim.errors import InputError
-from rotemina.sim.input_files import open_file, parse_json, parse_toml, read_bytes, read_text
+from rotemina.sim.files import (
+    open_file,
+    parse_json,
+    parse_toml,
+    read_bytes,
+    read_text,
+)
 
 
 class ReadError(InputError):
     pass
 
 
-def test_what_a_file_holds_is_read(tmp_path):
+def test_the_content_of_a_file_is_read(tmp_path):
     path = tmp_path / "a.toml"
     path.write_bytes(b"\xef\xbb\xbf\xc2\xb5m\r\n")
     assert read_bytes(path, ReadError, 8) == b"\xef\xbb\xbf\xc2\xb5m\r\n"
     assert read_text(str(path), ReadError, 8) == "µm\r\n"
 
 
-def test_what_is_no_file_is_not_waited_for(tmp_path):
+def test_paths_that_are_no_regular_file_are_refused_without_waiting(tmp_path):
     os.mkfifo(tmp_path / "pipe")
     for path, reason in (
         (tmp_path / "pipe", "a pipe or a device"),
@@ -34,19 +40,19 @@ def test_what_is_no_file_is_not_waited_for(tmp_path):
             open_file(path, ReadError, advice="name another")
 
 
-def test_a_pipe_that_takes_the_place_of_a_file_is_not_waited_for(tmp_path, monkeypatch):
-    """It is looked at once more when it is open."""
+def test_a_pipe_that_replaces_a_file_is_refused_without_waiting(tmp_path, monkeypatch):
+    """The file is checked again after it was opened."""
     path = tmp_path / "a"
     path.write_bytes(b"")
-    before = path.stat()
+    stat_of_file = path.stat()
     path.unlink()
     os.mkfifo(path)
-    monkeypatch.setattr("pathlib.Path.stat", lambda self: before)
+    monkeypatch.setattr("pathlib.Path.stat", lambda self: stat_of_file)
     with pytest.raises(ReadError, match="a pipe"):
         open_file(path, ReadError)
 
 
-def test_size_is_bounded_even_where_the_system_does_not_tell_it(tmp_path):
+def test_the_size_is_limited_even_if_the_system_does_not_report_it(tmp_path):
     path = tmp_path / "a"
     path.write_bytes(b"12345")
     with pytest.raises(ReadError, match="larger than 4 bytes"):
@@ -56,7 +62,7 @@ def test_size_is_bounded_even_where_the_system_does_not_tell_it(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("a = ", "not valid TOML"),
         (".".join(["a"] * 50_000) + " = 1", "nested more than"),
@@ -65,27 +71,27 @@ def test_size_is_bounded_even_where_the_system_does_not_tell_it(tmp_path):
         ("a = " + "9" * 400, "400 digits"),
     ],
 )
-def test_toml_that_is_none_is_refused(text, said):
-    with pytest.raises(ReadError, match=f"^it: .*{said}"):
+def test_invalid_toml_is_refused(text, message):
+    with pytest.raises(ReadError, match=f"^it: .*{message}"):
         parse_toml(text, "it", ReadError)
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("{", "1: not valid JSON"),
         (b"\xff", "not valid JSON"),
         ("[" * 60 + "]" * 60, "nested more than"),
         ("[" * 100_000, "nested more than"),
-        ("[NaN]", "NaN is no number"),
+        ("[NaN]", "NaN is not a JSON number"),
     ],
 )
-def test_json_that_is_none_is_refused(text, said):
-    with pytest.raises(ReadError, match=f"^it:.*{said}"):
+def test_invalid_json_is_refused(text, message):
+    with pytest.raises(ReadError, match=f"^it:.*{message}"):
         parse_json(text, "it", ReadError)
 
 
-def test_whole_numbers_stay_whole_as_far_as_a_float_holds_them():
-    read = parse_json("[3, 1" + "0" * 400 + "]", "it", ReadError)
-    assert read == [3, float("inf")]
-    assert isinstance(read[0], int)
+def test_integers_stay_integers_unless_a_float_overflows():
+    values = parse_json("[3, 1" + "0" * 400 + "]", "it", ReadError)
+    assert values == [3, float("inf")]
+    assert isinstance(values[0], int)

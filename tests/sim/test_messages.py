@@ -1,40 +1,39 @@
-"""Messages as data: whoever shows one says it in a language."""
+"""Messages as data, which are translated where they are shown."""
 
 from pathlib import Path
 
 import pytest
 
 from rotemina.sim.messages import (
-    LONGEST_VALUE,
-    LONGEST_WORD,
     AxisName,
     EffectName,
-    Listed,
-    Wording,
-    lines,
+    FieldList,
+    MessageWording,
+    join_lines,
     message,
 )
+from rotemina.sim.messages.messages import MAX_VALUE_LENGTH, MAX_WORD_LENGTH
 
 
-def test_a_message_is_rendered_by_whoever_shows_it():
-    class Loud(Wording):
-        def text(self, context, template):
+def test_a_message_is_formatted_by_the_wording_of_its_display():
+    class UpperCaseWording(MessageWording):
+        def localize_text(self, context, template):
             return f"[{context}] {template.upper().replace('{WHO}', '{who}')}"
 
-        def axis(self, name):
+        def name_axis(self, name):
             return f"axis {name}"
 
         def conjunction(self, *, one_of_them):
             return "oder" if one_of_them else "und"
 
-    who = Listed((AxisName("x"), EffectName("creep"), "nobody", message("a", "me")), True)
-    said = message("b", "it was {who}").fill(who=who)
-    assert Loud().of(said) == "[b] IT WAS axis x, creep, nobody oder [a] ME"
-    assert str(said) == "it was x, creep, nobody or me"
+    who = FieldList((AxisName("x"), EffectName("creep"), "nobody", message("a", "me")), True)
+    text = message("b", "it was {who}").fill(who=who)
+    assert UpperCaseWording().format_message(text) == "[b] IT WAS axis x, creep, nobody oder [a] ME"
+    assert str(text) == "it was x, creep, nobody or me"
     assert str(message("b", "{e}").fill(e=EffectName("of_a_plugin"))) == "of_a_plugin"
 
 
-def test_a_quoted_value_is_cut_and_the_message_is_not():
+def test_a_long_value_is_cut_but_not_the_message():
     sentence = message("a", "at {where}, " + "long " * 300 + "{value} is wrong")
     text = str(sentence.fill(where="line 1", value=repr("b" * 100_000)))
     end = f"'{'b' * 99} … {'b' * 29}' (100002 characters) is wrong"
@@ -43,36 +42,36 @@ def test_a_quoted_value_is_cut_and_the_message_is_not():
     assert str(nested) == "at x, " + "long " * 300 + "y is wrong; correct it"
 
 
-def test_a_quoted_value_is_whole_up_to_its_bound():
+def test_a_value_is_not_cut_up_to_its_maximum_length():
     names = ", ".join(f"name_{number}" for number in range(100))
-    assert len(names) < LONGEST_VALUE
-    for value in ("c" * LONGEST_WORD, names):
+    assert len(names) < MAX_VALUE_LENGTH
+    for value in ("c" * MAX_WORD_LENGTH, names):
         assert str(message("a", "{value}").fill(value=value)) == value
-    for value in ("c" * (LONGEST_WORD + 1), f"see {'c' * 5000}.", "c " * LONGEST_VALUE):
+    for value in ("c" * (MAX_WORD_LENGTH + 1), f"see {'c' * 5000}.", "c " * MAX_VALUE_LENGTH):
         text = str(message("a", "{value}").fill(value=value))
         assert " characters)" in text
         assert len(text) < 180
 
 
 @pytest.mark.parametrize("value", ["a\nb", "a\rb", "\x1b[31m", "\x9b", "\u202e", "\ud800", "\0"])
-def test_no_control_character_of_a_value_reaches_the_terminal(value):
+def test_control_characters_of_a_value_are_escaped(value):
     quote = message("a", "{value}")
-    for field in (value, Path(value), Listed((value, "b")), quote.fill(value=value)):
+    for field in (value, Path(value), FieldList((value, "b")), quote.fill(value=value)):
         text = str(quote.fill(value=field))
         assert text.isprintable()
         assert "\\" in text
     assert str(quote.fill(value="10\u202fµm")) == "10\u202fµm"
 
 
-def test_sentences_in_lines_are_not_values():
+def test_joined_lines_are_not_cut():
     sentences = ["one " * 500, "two"]
-    assert str(lines(sentences)) == "\n".join(sentences)
+    assert str(join_lines(sentences)) == "\n".join(sentences)
 
 
-def test_a_cut_value_is_worded_in_a_language():
-    class Other(Wording):
-        def text(self, context, template):
+def test_the_length_of_a_cut_value_is_translated():
+    class GermanWording(MessageWording):
+        def localize_text(self, context, template):
             return template.replace("characters", "Zeichen")
 
-    long = message("a", "{value}").fill(value="d" * 300)
-    assert Other().of(long).endswith("(300 Zeichen)")
+    text = message("a", "{value}").fill(value="d" * 300)
+    assert GermanWording().format_message(text).endswith("(300 Zeichen)")

@@ -1,29 +1,30 @@
-"""An import that hangs or ends the process is found out elsewhere, once, and remembered."""
+"""An import that hangs or ends the process is detected once in another process and cached."""
 
 import subprocess
 from importlib.metadata import EntryPoint, entry_points
 
 import pytest
 
-from rotemina.sim import plugin_import
-from rotemina.sim.plugin_import import import_fault
+from rotemina.sim.plugin_points import find_import_fault, trial_import as plugin_import
 
 GROUP = "rotemina.effects"
 
 
 @pytest.fixture
-def kept_in(tmp_path):
+def cache_file(tmp_path):
     return tmp_path / "cache" / "plugin_imports.json"
 
 
 @pytest.fixture
-def point_of(tmp_path, monkeypatch):
-    """Install a package ``tried_plugin`` with this text, and return its entry point."""
+def install_plugin(tmp_path, monkeypatch):
+    """Return a function that installs ``tried_plugin`` with a text and returns its entry point."""
     site = tmp_path / "site"
-    about = site / "tried_plugin-1.0.dist-info"
-    about.mkdir(parents=True)
-    (about / "METADATA").write_text("Metadata-Version: 2.1\nName: tried-plugin\nVersion: 1.0\n")
-    (about / "entry_points.txt").write_text(f"[{GROUP}]\ntried = tried_plugin:THING\n")
+    metadata_dir = site / "tried_plugin-1.0.dist-info"
+    metadata_dir.mkdir(parents=True)
+    (metadata_dir / "METADATA").write_text(
+        "Metadata-Version: 2.1\nName: tried-plugin\nVersion: 1.0\n"
+    )
+    (metadata_dir / "entry_points.txt").write_text(f"[{GROUP}]\ntried = tried_plugin:THING\n")
 
     def install(text):
         (site / "tried_plugin.py").write_text(text)
@@ -35,7 +36,9 @@ def point_of(tmp_path, monkeypatch):
 
 
 @pytest.fixture
-def no_process(monkeypatch):
+def forbid_process(monkeypatch):
+    """Return a function that makes each later attempt to start a process fail."""
+
     def forbid():
         def run(*_, **__):
             raise AssertionError("it was tried again")
@@ -45,63 +48,78 @@ def no_process(monkeypatch):
     return forbid
 
 
-def test_an_import_that_ends_is_allowed_and_not_tried_again(point_of, kept_in, no_process):
-    point = point_of("THING = 1")
-    assert import_fault(point, kept_in=kept_in) is None
-    no_process()
-    assert import_fault(point, kept_in=kept_in) is None
+def test_an_import_that_succeeds_is_allowed_and_not_repeated(
+    install_plugin, cache_file, forbid_process
+):
+    point = install_plugin("THING = 1")
+    assert find_import_fault(point, cache_file=cache_file) is None
+    forbid_process()
+    assert find_import_fault(point, cache_file=cache_file) is None
 
 
-def test_an_import_that_hangs_is_refused_and_not_tried_again(point_of, kept_in, no_process):
-    point = point_of("import threading; threading.Event().wait()")
-    assert "did not end within 0.5 s" in import_fault(point, limit_s=0.5, kept_in=kept_in)
-    no_process()
-    assert "did not end within 0.5 s" in import_fault(point, kept_in=kept_in)
+def test_an_import_that_hangs_is_refused_and_not_repeated(
+    install_plugin, cache_file, forbid_process
+):
+    point = install_plugin("import threading; threading.Event().wait()")
+    assert "did not end within 0.5 s" in find_import_fault(
+        point, limit_s=0.5, cache_file=cache_file
+    )
+    forbid_process()
+    assert "did not end within 0.5 s" in find_import_fault(point, cache_file=cache_file)
 
 
-def test_an_import_that_ends_the_process_is_refused(point_of, kept_in):
-    point = point_of("import os; os._exit(0)")
-    assert "ends the whole process (status 0)" in import_fault(point, kept_in=kept_in)
+def test_an_import_that_ends_the_process_is_refused(install_plugin, cache_file):
+    point = install_plugin("import os; os._exit(0)")
+    assert "ends the whole process (status 0)" in find_import_fault(point, cache_file=cache_file)
 
 
 @pytest.mark.parametrize("text", ["raise RuntimeError", "raise SystemExit(3)", "not Python"])
-def test_what_an_import_raises_is_left_to_the_program(point_of, kept_in, text):
-    assert import_fault(point_of(text), kept_in=kept_in) is None
+def test_an_import_that_raises_is_no_fault(install_plugin, cache_file, text):
+    assert find_import_fault(install_plugin(text), cache_file=cache_file) is None
 
 
-def test_a_thread_that_the_import_starts_does_not_count_as_hanging(point_of, kept_in):
+def test_a_thread_started_by_the_import_is_no_fault(install_plugin, cache_file):
     text = "import threading; threading.Thread(target=threading.Event().wait).start()"
-    assert import_fault(point_of(text), kept_in=kept_in) is None
+    assert find_import_fault(install_plugin(text), cache_file=cache_file) is None
 
 
-def test_a_changed_file_is_tried_again(point_of, kept_in):
-    assert import_fault(point_of("import os; os._exit(0)"), kept_in=kept_in) is not None
-    assert import_fault(point_of("THING = 'repaired'"), kept_in=kept_in) is None
-    assert kept_in.read_text().count("tried_plugin:THING") == 1
+def test_a_changed_file_is_imported_again(install_plugin, cache_file):
+    assert (
+        find_import_fault(install_plugin("import os; os._exit(0)"), cache_file=cache_file)
+        is not None
+    )
+    assert find_import_fault(install_plugin("THING = 'repaired'"), cache_file=cache_file) is None
+    assert cache_file.read_text().count("tried_plugin:THING") == 1
 
 
-def test_it_is_tried_anew_when_that_is_asked_for(point_of, kept_in, no_process):
-    point = point_of("THING = 1")
-    assert import_fault(point, kept_in=kept_in) is None
-    no_process()
+def test_an_import_is_repeated_on_request(install_plugin, cache_file, forbid_process):
+    point = install_plugin("THING = 1")
+    assert find_import_fault(point, cache_file=cache_file) is None
+    forbid_process()
     with pytest.raises(AssertionError, match="tried again"):
-        import_fault(point, kept_in=kept_in, anew=True)
+        find_import_fault(point, cache_file=cache_file, again=True)
 
 
-@pytest.mark.parametrize("spoilt", ["", "[1]", '{"a": 1}', "\x00"])
-def test_a_spoilt_cache_holds_nothing(point_of, kept_in, spoilt):
-    kept_in.parent.mkdir()
-    kept_in.write_text(spoilt)
-    assert import_fault(point_of("import os; os._exit(0)"), kept_in=kept_in) is not None
+@pytest.mark.parametrize("content", ["", "[1]", '{"a": 1}', "\x00"])
+def test_a_damaged_cache_is_ignored(install_plugin, cache_file, content):
+    cache_file.parent.mkdir()
+    cache_file.write_text(content)
+    assert (
+        find_import_fault(install_plugin("import os; os._exit(0)"), cache_file=cache_file)
+        is not None
+    )
 
 
-def test_a_cache_that_cannot_be_written_does_no_harm(point_of, tmp_path):
+def test_a_cache_that_cannot_be_written_is_ignored(install_plugin, tmp_path):
     (tmp_path / "file").write_text("")
-    assert import_fault(point_of("THING = 1"), kept_in=tmp_path / "file" / "cache") is None
+    assert (
+        find_import_fault(install_plugin("THING = 1"), cache_file=tmp_path / "file" / "cache")
+        is None
+    )
 
 
-def test_our_own_and_what_belongs_to_no_package_are_not_tried(monkeypatch, kept_in):
-    monkeypatch.setattr(plugin_import, "_tried", lambda *_: "tried")
-    ours = next(point for point in entry_points(group=GROUP) if point.name == "delay")
-    for point in (ours, EntryPoint("own", "no_such_module:X", GROUP)):
-        assert import_fault(point, kept_in=kept_in) is None
+def test_built_in_plugins_and_those_without_package_are_not_tried(monkeypatch, cache_file):
+    monkeypatch.setattr(plugin_import, "_try_import", lambda *_: "tried")
+    built_in = next(point for point in entry_points(group=GROUP) if point.name == "delay")
+    for point in (built_in, EntryPoint("own", "no_such_module:X", GROUP)):
+        assert find_import_fault(point, cache_file=cache_file) is None

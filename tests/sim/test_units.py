@@ -2,11 +2,10 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from rotemina.sim import units
-from rotemina.sim.units import UnitError
+from rotemina.sim.errors import UnitError
+from rotemina.sim.units import units
 
 ALL_UNITS = [unit for si in ("m", "rad", "V", "s") for unit in units.units_of(si)]
 
@@ -16,7 +15,7 @@ ALL_UNITS = [unit for si in ("m", "rad", "V", "s") for unit in units.units_of(si
 def test_a_decimal_unit_gives_the_nearest_float64(text: str, unit: str, exponent: int) -> None:
     mantissa, _, power = text.partition("e")
     nearest = float(f"{mantissa}e{int(power or 0) + exponent}")
-    # The text itself is rounded once to a float64, the division rounds a second time.
+    # The text is rounded to a float64, and the division rounds a second time.
     assert abs(units.from_unit(float(text), unit) - nearest) <= math.ulp(nearest)
     if float(text).is_integer():
         assert units.from_unit(float(text), unit) == nearest
@@ -31,12 +30,12 @@ def test_an_si_unit_changes_no_bit(unit: str, value: float) -> None:
 
 @pytest.mark.parametrize("unit", ALL_UNITS)
 @given(value=st.floats(-1e290, 1e290))
-def test_there_and_back_is_within_two_ulp(unit: str, value: float) -> None:
-    back = float(units.from_unit(units.to_unit(value, unit), unit))
-    assert abs(back - value) <= 2 * math.ulp(value)
+def test_a_value_is_restored_within_two_ulp(unit: str, value: float) -> None:
+    restored = float(units.from_unit(units.to_unit(value, unit), unit))
+    assert abs(restored - value) <= 2 * math.ulp(value)
 
 
-def test_angles_convert_by_their_definition() -> None:
+def test_angles_are_converted_by_their_definition() -> None:
     assert units.from_unit(180.0, "deg") == pytest.approx(math.pi, rel=1e-15)
     assert units.from_unit(3600.0, "arcsec") == pytest.approx(math.radians(1.0), rel=1e-15)
     assert units.to_unit(1e-3, "mrad") == 1.0
@@ -47,18 +46,18 @@ def test_arrays_keep_their_shape() -> None:
 
 
 @pytest.mark.parametrize("spelling", ["um", "µm", "μm"])
-def test_micro_may_be_spelt_three_ways(spelling: str) -> None:
-    assert units.canonical(spelling) == "um"
-    assert units.symbol(spelling) == "\N{MICRO SIGN}m"
+def test_micro_can_be_spelled_in_three_ways(spelling: str) -> None:
+    assert units.parse_unit(spelling) == "um"
+    assert units.display_symbol_of(spelling) == "\N{MICRO SIGN}m"
 
 
 @pytest.mark.parametrize("unit", ["", "M", "mV", "km", "um ", "inch", "Rad"])
-def test_an_unknown_unit_is_refused_with_what_there_is(unit: str) -> None:
+def test_an_unknown_unit_is_refused_with_the_known_ones(unit: str) -> None:
     with pytest.raises(UnitError, match=r"unknown unit .* use one of m mm um nm"):
-        units.quantity(unit)
+        units.si_unit_of(unit)
 
 
-def test_a_menu_begins_with_the_si_unit() -> None:
+def test_a_list_of_units_begins_with_the_si_unit() -> None:
     assert units.units_of("m") == ("m", "mm", "um", "nm")
     assert units.units_of("rad")[0] == "rad"
     with pytest.raises(UnitError, match="'mm' is not an SI unit"):

@@ -1,160 +1,163 @@
-"""Conditions for arming a penetration."""
+"""Checks and reservation of the axes when a penetration is armed."""
 
 from typing import NamedTuple
 
-from rotemina.app.motion.mailbox import RefusedError
-from rotemina.app.motion.penetration.attempt import Attempt
-from rotemina.app.motion.penetration.parameters import PenetrationError, PenetrationParameters
+from rotemina.app.errors import PenetrationError, RequestRefusedError
+from rotemina.app.motion.penetration.attempt import PenetrationAttempt
+from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.penetration.thrust import ThrustPlan, plan_thrust
 from rotemina.app.motion.session import MotionSession
 from rotemina.drivers.abilities import ProfileRunner, VelocityMover
-from rotemina.sim.messages import AxisName, message
-from rotemina.sim.quantities import exact
-from rotemina.sim.robot.model import Robot
+from rotemina.sim.messages import AxisName
+from rotemina.sim.robot import Robot
+from rotemina.sim.units import format_exact
 
-_NANO = "zn"  # moves along the tip as z does, which so makes up for it
-LEASE_S = 0.15  # of the approach: without a host it ends after that
-_OVERSHOOT_S = 0.2  # of approach: until a contact is sure, seen, and the axis at rest
+# zn moves the tip in the same direction as z, so z can compensate for the motion of zn.
+_NANO_AXIS = "zn"
+# The approach ends after this time if the host no longer renews it.
+APPROACH_LEASE_S = 0.15
+# The approach may continue for this long after a contact, until the contact is certain, the host
+# has received it, and the axis is at rest.
+_APPROACH_OVERRUN_S = 0.2
 
 
 class TravelMargin(NamedTuple):
-    """The travel that a penetration needs at most, and the travel available; m.
+    """Travel that a penetration may need, and travel that is available, m.
 
     Attributes
     ----------
     approach, halt, thrust : float
-        The parts of the way; the thrust as it is commanded.
-    left : float
-        From where the axis stands to the end of its range.
+        Parts of the needed travel. The thrust is that of the commands.
+    available : float
+        From the position of the axis to the end of its range.
     """
 
     approach: float
     halt: float
     thrust: float
-    left: float
+    available: float
 
     @property
     def needed(self) -> float:
-        """The total travel."""
+        """Total travel that the penetration may need."""
         return self.approach + self.halt + self.thrust
 
 
-def armed(session: MotionSession, parameters: PenetrationParameters, owner: str) -> Attempt:
-    """Reserve all axes and return the attempt, with its whole path checked.
+def prepare_attempt(
+    session: MotionSession, parameters: PenetrationParameters, owner: str
+) -> PenetrationAttempt:
+    """Check the whole path, reserve all axes, and return the attempt.
 
     Raises
     ------
     InputError
-        With what is missing, the value, the bound, and what to do; then nothing is reserved.
+        If a condition is not met; then nothing is reserved. The message names the condition, the
+        value, the bound and what to do.
     """
     _check_device(session, parameters)
-    plan = planned(session, parameters)
+    plan = plan_session_thrust(session, parameters)
     session.reservations.reserve(owner)
     try:
         start = session.snapshot().command[parameters.axis]
-        _check_way(session, parameters, plan, start)
+        _check_travel(session, parameters, plan, start)
     except BaseException:
-        session.reservations.set_free(owner)
+        session.reservations.end_reservations(owner)
         raise
-    return Attempt(parameters, plan, start)
+    return PenetrationAttempt(parameters, plan, start)
 
 
-def check_now(
+def check_can_arm(
     session: MotionSession, parameters: PenetrationParameters, plan: ThrustPlan, owner: str
 ) -> None:
-    """Refuse what :func:`armed` would refuse now, by the same checks; nothing is reserved.
+    """Make the same checks as :func:`prepare_attempt`, but reserve nothing.
 
     Raises
     ------
     InputError
-        As :func:`armed`.
+        See :func:`prepare_attempt`.
     """
     _check_device(session, parameters)
     session.reservations.check(owner)
-    _check_way(session, parameters, plan, session.snapshot().command[parameters.axis])
+    _check_travel(session, parameters, plan, session.snapshot().command[parameters.axis])
 
 
-def planned(session: MotionSession, parameters: PenetrationParameters) -> ThrustPlan:
-    """Return the thrust for parameters on this robot, at any position.
+def plan_session_thrust(session: MotionSession, parameters: PenetrationParameters) -> ThrustPlan:
+    """Return the thrust for the session's robot, whatever its position.
 
     Raises
     ------
     InputError
-        If the robot has no such axis, or as :func:`plan_thrust`.
+        If the robot does not have the axis. See also :func:`plan_thrust`.
     """
     _check_axis(session.robot, parameters)
     return plan_thrust(session.robot, parameters, session.setpoint_period_s)
 
 
-def travel_margin(
+def compute_travel_margin(
     robot: Robot, parameters: PenetrationParameters, plan: ThrustPlan, start: float
 ) -> TravelMargin:
-    """Return the room that is needed and left, from a position ``start`` of the axis, m."""
-    low, high = plan.ends
-    ends = robot.axes[parameters.axis].range
+    """Return the needed and the available travel if the axis starts at ``start``, m."""
+    low_thrust, high_thrust = plan.command_range
+    axis_range = robot.axes[parameters.axis].range
     return TravelMargin(
         parameters.approach_distance,
-        parameters.approach_speed * _OVERSHOOT_S,
-        high if parameters.sign > 0.0 else -low,
-        ends[1] - start if parameters.sign > 0.0 else start - ends[0],
+        parameters.approach_speed * _APPROACH_OVERRUN_S,
+        high_thrust if parameters.sign > 0.0 else -low_thrust,
+        axis_range[1] - start if parameters.sign > 0.0 else start - axis_range[0],
     )
 
 
-def prepared(session: MotionSession, parameters: PenetrationParameters) -> dict[str, float]:
-    """Return where the nano stage must be, m, so that a penetration fits in its range.
+def compute_start_targets(
+    session: MotionSession, parameters: PenetrationParameters
+) -> dict[str, float]:
+    """Return where the nano stage must start, m, for a penetration to fit into its range.
 
-    The room that is left over is shared between both ends.
+    The travel that is left over is divided equally between both ends.
 
     Raises
     ------
     PenetrationError
-        If no place of the axis leaves room enough, or it is not ``zn``: only that can move while z
+        If the range is too short, or the axis is not ``zn``, the only axis that can move while z
         holds the tip.
     InputError
-        As :func:`planned`.
+        See :func:`plan_session_thrust`.
     """
-    plan, name = planned(session, parameters), parameters.axis
-    if name != _NANO:
+    plan, axis = plan_session_thrust(session, parameters), parameters.axis
+    if axis != _NANO_AXIS:
         raise PenetrationError(
-            message(
-                "engine",
-                "axis {axis}: only {nano} can be moved back while the tip stays in place; "
-                "move {axis} back manually, or shorten the distance",
-            ).fill(axis=AxisName(name), nano=AxisName(_NANO))
+            "axis {axis}: only {nano} can be moved back while the tip stays in place; "
+            "move {axis} back manually, or shorten the distance",
+            axis=AxisName(axis),
+            nano=AxisName(_NANO_AXIS),
         )
-    low, high = session.robot.axes[name].range
-    needed = travel_margin(session.robot, parameters, plan, low).needed
+    low, high = session.robot.axes[axis].range
+    needed = compute_travel_margin(session.robot, parameters, plan, low).needed
     if needed > high - low:
         raise PenetrationError(
-            message(
-                "engine",
-                "axis {axis}: the run needs {needed}, but the whole range is {range}; "
-                "shorten approach_distance or depth",
-            ).fill(axis=AxisName(name), needed=exact(needed, "m"), range=exact(high - low, "m"))
+            "axis {axis}: the run needs {needed}, but the whole range is {range}; "
+            "shorten approach_distance or depth",
+            axis=AxisName(axis),
+            needed=format_exact(needed, "m"),
+            range=format_exact(high - low, "m"),
         )
-    spare = 0.5 * (high - low - needed)
-    return {name: low + spare if parameters.sign > 0.0 else high - spare}
+    end_clearance = 0.5 * (high - low - needed)
+    return {axis: low + end_clearance if parameters.sign > 0.0 else high - end_clearance}
 
 
 def _check_device(session: MotionSession, parameters: PenetrationParameters) -> None:
     driver = session.driver
     if not isinstance(driver, ProfileRunner):
-        raise RefusedError(
-            message("engine", "driver {driver} cannot execute profiles; a thrust needs that").fill(
-                driver=repr(driver.name)
-            )
+        raise RequestRefusedError(
+            "driver {driver} cannot execute profiles; a thrust needs that", driver=repr(driver.name)
         )
     if not isinstance(driver, VelocityMover):
-        raise RefusedError(
-            message(
-                "engine", "driver {driver} cannot move at a set speed, which the approach needs"
-            ).fill(driver=repr(driver.name))
+        raise RequestRefusedError(
+            "driver {driver} cannot move at a set speed, which the approach needs",
+            driver=repr(driver.name),
         )
-    if parameters.inject_s > 0.0 and session.tool.on is None:
-        raise RefusedError(
-            message("engine", "driver {driver} has no tool for injection; set inject_s to 0").fill(
-                driver=repr(driver.name)
-            )
+    if parameters.inject_s > 0.0 and session.tool.is_on is None:
+        raise RequestRefusedError(
+            "driver {driver} has no tool for injection; set inject_s to 0", driver=repr(driver.name)
         )
 
 
@@ -162,62 +165,57 @@ def _check_axis(robot: Robot, parameters: PenetrationParameters) -> None:
     name = parameters.axis
     if name not in robot.axes:
         raise PenetrationError(
-            message(
-                "engine", "robot {name} has no axis {axis} to penetrate with; it has {axes}"
-            ).fill(name=repr(robot.name), axis=repr(name), axes=", ".join(robot.axes))
+            "robot {name} has no axis {axis} to penetrate with; it has {axes}",
+            name=repr(robot.name),
+            axis=repr(name),
+            axes=", ".join(robot.axes),
         )
     if robot.unit(name) != "m":
         raise PenetrationError(
-            message(
-                "engine", "axis {axis} of {robot} rotates; a penetration needs a linear axis"
-            ).fill(axis=AxisName(name), robot=repr(robot.name))
+            "axis {axis} of {robot} rotates; a penetration needs a linear axis",
+            axis=AxisName(name),
+            robot=repr(robot.name),
         )
     axis = robot.axes[name]
     if axis.max_speed is not None and parameters.approach_speed > axis.max_speed:
         raise PenetrationError(
-            message(
-                "engine",
-                "approach_speed = {approach_speed}: axis {name} moves at {max_speed} at most",
-            ).fill(
-                approach_speed=exact(parameters.approach_speed, "m/s"),
-                name=AxisName(name),
-                max_speed=exact(axis.max_speed, "m/s"),
-            )
+            "approach_speed = {approach_speed}: axis {name} moves at {max_speed} at most",
+            approach_speed=format_exact(parameters.approach_speed, "m/s"),
+            name=AxisName(name),
+            max_speed=format_exact(axis.max_speed, "m/s"),
         )
 
 
-def _check_way(
+def _check_travel(
     session: MotionSession, parameters: PenetrationParameters, plan: ThrustPlan, start: float
 ) -> None:
-    """Refuse a way that leaves the range or the tip's bounds, or a thrust that is too fast."""
-    name, taken = parameters.axis, travel_margin(session.robot, parameters, plan, start)
-    _check_room(parameters, taken)
+    """Refuse a path that leaves the range or the bounds of the tip, or too fast a thrust."""
+    axis, margin = parameters.axis, compute_travel_margin(session.robot, parameters, plan, start)
+    _check_margin(parameters, margin)
     plan.profile.check(session.robot, start)
-    farthest = start + parameters.sign * taken.needed
-    contact = farthest - parameters.sign * taken.thrust
-    session.profiles.check_thrust(name, _sorted(start, farthest), 0.0)
-    session.profiles.check_thrust(name, _sorted(contact, farthest), plan.peak_speed)
+    farthest_position = start + parameters.sign * margin.needed
+    latest_contact = farthest_position - parameters.sign * margin.thrust
+    session.profiles.check_thrust(axis, _sort_pair(start, farthest_position), 0.0)
+    session.profiles.check_thrust(
+        axis, _sort_pair(latest_contact, farthest_position), plan.peak_speed
+    )
 
 
-def _check_room(parameters: PenetrationParameters, taken: TravelMargin) -> None:
-    if taken.needed > taken.left:
+def _check_margin(parameters: PenetrationParameters, margin: TravelMargin) -> None:
+    if margin.needed > margin.available:
         raise PenetrationError(
-            message(
-                "engine",
-                "axis {axis} has {left} of travel left {direction}wards, but the run needs "
-                "{needed} ({approach} to approach, {halt} to halt, {thrust} to thrust); move "
-                "the axis back first, or shorten them",
-            ).fill(
-                axis=AxisName(parameters.axis),
-                left=exact(taken.left, "m"),
-                direction=parameters.direction,
-                needed=exact(taken.needed, "m"),
-                approach=exact(taken.approach, "m"),
-                halt=exact(taken.halt, "m"),
-                thrust=exact(taken.thrust, "m"),
-            )
+            "axis {axis} has {left} of travel left {direction}wards, but the run needs "
+            "{needed} ({approach} to approach, {halt} to halt, {thrust} to thrust); move "
+            "the axis back first, or shorten them",
+            axis=AxisName(parameters.axis),
+            left=format_exact(margin.available, "m"),
+            direction=parameters.direction,
+            needed=format_exact(margin.needed, "m"),
+            approach=format_exact(margin.approach, "m"),
+            halt=format_exact(margin.halt, "m"),
+            thrust=format_exact(margin.thrust, "m"),
         )
 
 
-def _sorted(one: float, other: float) -> tuple[float, float]:
-    return min(one, other), max(one, other)
+def _sort_pair(a: float, b: float) -> tuple[float, float]:
+    return min(a, b), max(a, b)

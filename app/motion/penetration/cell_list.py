@@ -1,4 +1,4 @@
-"""A list of cells to penetrate in turn, with the outcome of each."""
+"""List of cells to penetrate in turn, with the outcome of each."""
 
 import csv
 import io
@@ -6,16 +6,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
-from rotemina.app.motion.penetration.parameters import PenetrationError
-from rotemina.app.motion.penetration.run_log import PenetrationRun, Verdict
-from rotemina.sim.messages import message
-from rotemina.sim.robot.model import Robot
+from rotemina.app.errors import PenetrationError
+from rotemina.app.motion.penetration.run_log import PenetrationRun, PenetrationVerdict
+from rotemina.sim.robot import Robot
 
-MOST_CELLS = 999
+MAX_CELL_COUNT = 999
 
 
-class Outcome(StrEnum):
-    """The outcome of a cell."""
+class CellOutcome(StrEnum):
+    """Outcome of a cell."""
 
     WAITING = "waiting"
     SKIPPED = "skipped"
@@ -25,97 +24,116 @@ class Outcome(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class ListedCell:
-    """One cell; ``number`` from 1 stays its own, ``place`` is of all axes, m and rad.
+    """One cell of the list.
 
-    ``depth`` is how far the thrust went, m; ``started`` and ``reason`` are its run's.
+    Attributes
+    ----------
+    number : int
+        Counts from 1. It never changes, and is not reused after the cell is removed.
+    positions : mapping of str to float
+        Positions of all axes at the cell, m or rad.
+    outcome : CellOutcome
+    depth : float or None
+        Measured depth of the thrust, m.
+    started, reason : str
+        Start time and reason of its penetration run.
     """
 
     number: int
-    place: Mapping[str, float]
-    outcome: Outcome = Outcome.WAITING
+    positions: Mapping[str, float]
+    outcome: CellOutcome = CellOutcome.WAITING
     depth: float | None = None
     started: str = ""
     reason: str = ""
 
 
 class CellList:
-    """The cells in the order in which they were added, and the one that it is at.
+    """Cells in the order in which they were added, and the current cell.
 
-    It moves nothing: who shows it asks for consent, and the session for motion.
+    The list itself moves nothing. The panel that shows the list asks the operator for consent and
+    requests the motion from the session.
     """
 
     def __init__(self) -> None:
         self.cells: tuple[ListedCell, ...] = ()
         self.current: ListedCell | None = None
-        self._last = 0
+        self._last_number = 0
 
-    def add(self, place: Mapping[str, float]) -> ListedCell:
-        """Add a cell at the present position of all axes.
+    def add(self, positions: Mapping[str, float]) -> ListedCell:
+        """Add a cell at the current positions of all axes.
 
         Raises
         ------
         PenetrationError
-            If nobody knows where the axes are, or the list is full.
+            If the positions of the axes are unknown, or the list is full.
         """
-        if not place:
+        if not positions:
             raise PenetrationError(
-                message(
-                    "engine",
-                    "cells: the positions of the axes are unknown; home them, or reconnect",
-                )
+                "cells: the positions of the axes are unknown; home them, or reconnect"
             )
-        if len(self.cells) >= MOST_CELLS:
+        if len(self.cells) >= MAX_CELL_COUNT:
             raise PenetrationError(
-                message("engine", "cells: the list has {most}; remove one").fill(most=MOST_CELLS)
+                "cells: the list is full ({most} cells); remove one", most=MAX_CELL_COUNT
             )
-        self._last += 1
-        cell = ListedCell(self._last, dict(place))
+        self._last_number += 1
+        cell = ListedCell(self._last_number, dict(positions))
         self.cells = (*self.cells, cell)
         return cell
 
     def remove(self, number: int) -> None:
-        """Take a cell from the list; the others keep their numbers."""
-        self.cells = tuple(one for one in self.cells if one.number != number)
+        """Remove a cell from the list; the others keep their numbers."""
+        self.cells = tuple(cell for cell in self.cells if cell.number != number)
         if self.current is not None and self.current.number == number:
             self.current = None
 
-    def following(self) -> ListedCell | None:
-        """Return the first cell that waits behind the present one, or before it; None: no more."""
-        at = self.current.number if self.current is not None else 0
-        waiting = [one for one in self.cells if one.outcome is Outcome.WAITING and one.number != at]
-        return next((one for one in waiting if one.number > at), waiting[0] if waiting else None)
+    def find_next_waiting(self) -> ListedCell | None:
+        """Return the next waiting cell.
 
-    def go_on(self, cell: ListedCell) -> None:
-        """Be at a cell."""
+        The search starts after the current cell and continues from the beginning of the list. None
+        means that no other cell is waiting.
+        """
+        current_number = self.current.number if self.current is not None else 0
+        waiting_cells = [
+            cell
+            for cell in self.cells
+            if cell.outcome is CellOutcome.WAITING and cell.number != current_number
+        ]
+        return next(
+            (cell for cell in waiting_cells if cell.number > current_number),
+            waiting_cells[0] if waiting_cells else None,
+        )
+
+    def set_current(self, cell: ListedCell) -> None:
+        """Make a cell the current one."""
         self.current = cell
 
-    def skip(self) -> None:
-        """Leave the present cell out."""
-        self._become(Outcome.SKIPPED)
+    def skip_current(self) -> None:
+        """Mark the current cell as skipped."""
+        self._set_outcome(CellOutcome.SKIPPED)
 
-    def take(self, number: int, run: PenetrationRun) -> None:
-        """Note the outcome of a cell."""
-        done = run.verdict is Verdict.DONE
+    def note_outcome(self, number: int, run: PenetrationRun) -> None:
+        """Set the outcome of a cell from its run."""
+        is_done = run.verdict is PenetrationVerdict.DONE
         depth = run.thrust.depth if run.thrust is not None else None
-        outcome = Outcome.DONE if done else Outcome.FAILED
-        self._become(outcome, number, depth=depth, started=run.started, reason=run.reason)
+        outcome = CellOutcome.DONE if is_done else CellOutcome.FAILED
+        self._set_outcome(outcome, number, depth=depth, started=run.started, reason=run.reason)
 
-    def as_csv(self, robot: Robot) -> str:
+    def to_csv(self, robot: Robot) -> str:
         """Return the list as CSV: SI units, a decimal point, one line for each cell."""
-        out = io.StringIO()
-        writer = csv.writer(out, lineterminator="\n")
-        places = [f"{axis} [{robot.unit(axis)}]" for axis in robot.axes]
-        writer.writerow(["cell", *places, "outcome", "depth [m]", "started", "reason"])
+        buffer = io.StringIO()
+        writer = csv.writer(buffer, lineterminator="\n")
+        columns = [f"{axis} [{robot.unit(axis)}]" for axis in robot.axes]
+        writer.writerow(["cell", *columns, "outcome", "depth [m]", "started", "reason"])
         for cell in self.cells:
-            place = [repr(cell.place[axis]) for axis in robot.axes]
+            positions = [repr(cell.positions[axis]) for axis in robot.axes]
             depth = "" if cell.depth is None else repr(cell.depth)
-            told = [str(cell.outcome), depth, cell.started, cell.reason]
-            writer.writerow([cell.number, *place, *told])
-        return out.getvalue()
+            result = [str(cell.outcome), depth, cell.started, cell.reason]
+            writer.writerow([cell.number, *positions, *result])
+        return buffer.getvalue()
 
-    def _become(
+    def _set_outcome(
         self,
-        outcome: Outcome,
+        outcome: CellOutcome,
         number: int | None = None,
         *,
         depth: float | None = None,
@@ -125,10 +143,10 @@ class CellList:
         if number is None:
             number = self.current.number if self.current is not None else 0
         self.cells = tuple(
-            replace(one, outcome=outcome, depth=depth, started=started, reason=reason)
-            if one.number == number
-            else one
-            for one in self.cells
+            replace(cell, outcome=outcome, depth=depth, started=started, reason=reason)
+            if cell.number == number
+            else cell
+            for cell in self.cells
         )
         if self.current is not None and self.current.number == number:
-            self.current = next(one for one in self.cells if one.number == number)
+            self.current = next(cell for cell in self.cells if cell.number == number)

@@ -1,29 +1,33 @@
 """Automatic cell penetration: arm, approach, detect the membrane, thrust, and retract.
 
-A stop, a fault or a lost link *holds* the tip where it is: nothing here moves it again until
-someone presses the button again or takes the axes over.
+After a stop, a fault or a lost link the tip is *held*: it stays where it is. Nothing here moves it
+again until the operator presses the button or takes over the axes.
 """
 
 from collections.abc import Callable
 from dataclasses import replace
 from datetime import UTC, datetime
 
-from rotemina.app.motion.mailbox import RefusedError
-from rotemina.app.motion.penetration.arming import armed, check_now
-from rotemina.app.motion.penetration.attempt import Attempt
+from rotemina.app.errors import RequestRefusedError
+from rotemina.app.motion.penetration.arming import check_can_arm, prepare_attempt
+from rotemina.app.motion.penetration.attempt import PenetrationAttempt
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
-from rotemina.app.motion.penetration.run_log import RunLog, Verdict
-from rotemina.app.motion.penetration.sample_feed import AxisFeed
-from rotemina.app.motion.penetration.sequence import OWNER, PenetrationSequence
-from rotemina.app.motion.penetration.status import UNDER_WAY, PenetrationStatus, Phase
+from rotemina.app.motion.penetration.run_log import PenetrationVerdict, RunLog
+from rotemina.app.motion.penetration.sample_feed import AxisSampleQueue
+from rotemina.app.motion.penetration.sequence import PENETRATION_OWNER, PenetrationSequence
+from rotemina.app.motion.penetration.status import (
+    RUNNING_PHASES,
+    PenetrationPhase,
+    PenetrationStatus,
+)
 from rotemina.app.motion.penetration.thrust import ThrustPlan
 from rotemina.app.motion.session import MotionSession
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import marked, message
 
 
-class Penetration(PenetrationSequence):
-    """The state machine; it has no thread: someone calls :meth:`step`, at about 200 Hz.
+class PenetrationController(PenetrationSequence):
+    """State machine of a penetration. It runs no thread: its owner calls :meth:`step` at 200 Hz.
 
     Every method may be called from any thread.
 
@@ -31,9 +35,9 @@ class Penetration(PenetrationSequence):
     ----------
     session : MotionSession
     log : RunLog, optional
-        Where runs are kept.
-    today : callable
-        Return date and time, for the log.
+        Log to which finished runs are appended.
+    wall_clock : callable
+        Returns date and time, for the log.
     """
 
     def __init__(
@@ -41,163 +45,165 @@ class Penetration(PenetrationSequence):
         session: MotionSession,
         log: RunLog | None = None,
         *,
-        today: Callable[[], datetime] = lambda: datetime.now(UTC),
+        wall_clock: Callable[[], datetime] = lambda: datetime.now(UTC),
     ) -> None:
-        super().__init__(session, today)
+        super().__init__(session, wall_clock)
         self._log = log
 
     def arm(self, parameters: PenetrationParameters, now_s: float) -> None:
-        """Check everything, and reserve every axis; nothing moves until the button is pressed.
+        """Check all conditions and reserve every axis; nothing moves until the button is pressed.
 
         Raises
         ------
         InputError
-            If a run is under way or held, the device or robot cannot, the room left in the range
-            or the tip's bounds do not allow it, or someone else drives an axis.
+            If a run is running or held, the device or robot is unsuitable, the range or the tip's
+            bounds leave too little room, or an axis has another owner.
         """
         with self._lock:
-            if (busy := self._busy()) is not None:
-                raise RefusedError(busy)
-            self._release()
+            if (busy_reason := self._find_busy_reason()) is not None:
+                raise RequestRefusedError(busy_reason)
+            self._release_axes()
             permit = self._session.permit()
-            self._attempt = armed(self._session, parameters, OWNER)
-            self._feed = AxisFeed(self._session, parameters.axis)
+            self._attempt = prepare_attempt(self._session, parameters, PENETRATION_OWNER)
+            self._sample_queue = AxisSampleQueue(self._session, parameters.axis)
             self._permit = permit
             self._armed_until_s = now_s + parameters.armed_s
             self.status = PenetrationStatus(
-                Phase.ARMED,
-                armed_left_s=parameters.armed_s,
+                PenetrationPhase.ARMED,
+                armed_remaining_s=parameters.armed_s,
                 run=self.status.run,
                 trace=self.status.trace,
             )
 
-    def why_not(self, parameters: PenetrationParameters, plan: ThrustPlan) -> str | None:
-        """Return why :meth:`arm` would refuse parameters and their plan now; None: it would not.
+    def find_refusal_reason(
+        self, parameters: PenetrationParameters, plan: ThrustPlan
+    ) -> str | None:
+        """Return why :meth:`arm` would now refuse parameters and their plan, or None.
 
-        Nothing is reserved, and nothing waited for.
+        This reserves nothing and never waits.
         """
-        if (busy := self._busy()) is not None:
-            return busy
+        if (busy_reason := self._find_busy_reason()) is not None:
+            return busy_reason
         try:
-            check_now(self._session, parameters, plan, OWNER)
+            check_can_arm(self._session, parameters, plan, PENETRATION_OWNER)
         except InputError as error:
             return str(error)
         return None
 
-    def _busy(self) -> str | None:
+    def _find_busy_reason(self) -> str | None:
         phase = self.status.phase
-        if phase not in UNDER_WAY | {Phase.HELD}:
+        if phase not in RUNNING_PHASES | {PenetrationPhase.HELD}:
             return None
-        return message("engine", "a penetration is {phase}; end it first").fill(phase=phase)
+        return message("engine", "a penetration is in phase {phase}; end it first").fill(
+            phase=phase
+        )
 
     def disarm(self) -> None:
-        """Set the axes free; after a hold, that leaves the tip where it is.
+        """End the reservation of the axes. A held tip stays where it is.
 
         Raises
         ------
-        RefusedError
-            While a run is under way: press the button first.
+        RequestRefusedError
+            If a run is running. The button must be pressed first.
         """
         with self._lock:
-            if self.status.phase in UNDER_WAY:
-                raise RefusedError(
-                    message("engine", "a penetration is in {phase}; stop it first").fill(
-                        phase=self.status.phase
-                    )
+            if self.status.phase in RUNNING_PHASES:
+                raise RequestRefusedError(
+                    "a penetration is in phase {phase}; stop it first", phase=self.status.phase
                 )
-            self._release()
-            self._enter(Phase.DISARMED, 0.0)
+            self._release_axes()
+            self._enter_phase(PenetrationPhase.DISARMED, 0.0)
 
     def close(self) -> None:
-        """Have nothing more to do with the session; a run under way is held where it is."""
+        """Disconnect from the session. The tip of a running penetration is held where it is."""
         with self._lock:
-            if self.status.phase in UNDER_WAY:
+            if self.status.phase in RUNNING_PHASES:
                 self._halt()
-                self._hold_here(marked("engine", "the program released it"), self._since_s)
-            self._release()
-            self._end()
-        self._write()
+                self._hold_position(
+                    marked("engine", "the program released it"), self._phase_began_s
+                )
+            self._release_axes()
+            self._unsubscribe()
+        self._log_runs()
 
-    def press(self, now_s: float) -> None:
-        """Press the button: start when armed, retract during a run or a hold.
+    def press_button(self, now_s: float) -> None:
+        """Press the button.
+
+        An armed run starts, and a running or held one retracts. During the retraction the button
+        holds the tip.
 
         Raises
         ------
         InputError
-            If it is not armed, or the held tip cannot be moved now.
+            If the penetration is not armed, running or held, or the held tip cannot be moved now.
         """
         with self._lock:
             phase, attempt = self.status.phase, self._attempt
-            if attempt is None or phase not in UNDER_WAY | {Phase.ARMED, Phase.HELD}:
-                raise RefusedError(message("engine", "the penetration is not armed; arm it first"))
-            if phase is Phase.ARMED:
-                self._start(attempt, now_s)
-            elif phase is Phase.HELD:
+            if attempt is None or phase not in RUNNING_PHASES | {
+                PenetrationPhase.ARMED,
+                PenetrationPhase.HELD,
+            }:
+                raise RequestRefusedError("the penetration is not armed; arm it first")
+            if phase is PenetrationPhase.ARMED:
+                self._start_run(attempt, now_s)
+            elif phase is PenetrationPhase.HELD:
                 self._retract_held(now_s)
-            elif phase is Phase.RETRACT:
+            elif phase is PenetrationPhase.RETRACT:
                 self._halt()
-                self._hold_here(
+                self._hold_position(
                     message("engine", "the retraction was stopped by the button"), now_s
                 )
             else:
-                self._back(
-                    Verdict.ABORTED,
+                self._begin_retraction(
+                    PenetrationVerdict.ABORTED,
                     message("engine", "stopped by the button in {phase}").fill(phase=phase),
                     now_s,
                 )
 
     def step(self, now_s: float) -> None:
-        """Advance; ``now_s`` is the host's time. Never raises for errors of a device."""
+        """Advance the run to the host time ``now_s``. Errors of the device are not raised."""
         with self._lock:
             phase, attempt = self.status.phase, self._attempt
-            if attempt is not None and phase in self._steps.keys() | {Phase.ARMED}:
-                self._go_on(phase, attempt, now_s)
-        self._write()
+            if attempt is not None and phase in self._phase_steps.keys() | {PenetrationPhase.ARMED}:
+                self._advance(phase, attempt, now_s)
+        self._log_runs()
 
-    def _start(self, attempt: Attempt, now_s: float) -> None:
+    def _start_run(self, attempt: PenetrationAttempt, now_s: float) -> None:
         state = self._session.snapshot()
-        broken = self._broken(state)
-        if broken is not None:
-            raise RefusedError(
-                message("engine", "the penetration cannot start: {broken}").fill(broken=broken)
-            )
+        interruption = self._find_interruption(state)
+        if interruption is not None:
+            raise RequestRefusedError("the penetration cannot start: {broken}", broken=interruption)
         if state.command[attempt.parameters.axis] != attempt.start:
-            raise RefusedError(
-                message("engine", "the axis has moved since it was armed; arm it again")
-            )
-        attempt.began_s, attempt.started = now_s, self._today().isoformat()
+            raise RequestRefusedError("the axis has moved since it was armed; arm it again")
+        attempt.began_s, attempt.started = now_s, self._wall_clock().isoformat()
         self._refusals.clear()
-        self._renewed_s = float("-inf")
-        self._enter(Phase.APPROACH, now_s)
+        self._lease_renewed_s = float("-inf")
+        self._enter_phase(PenetrationPhase.APPROACH, now_s)
 
     def _retract_held(self, now_s: float) -> None:
         permit = self._session.permit()
         state = self._session.snapshot()
-        if state.locked is not None:
-            raise RefusedError(
-                message("engine", "the tip cannot be moved: {locked}").fill(locked=state.locked)
-            )
-        if not self._session.reservations.held_by(OWNER):
-            raise RefusedError(
-                message("engine", "the penetration no longer owns the axes; move them manually")
-            )
+        if state.lock_reason is not None:
+            raise RequestRefusedError("the tip cannot be moved: {locked}", locked=state.lock_reason)
+        if not self._session.reservations.is_reserved_by(PENETRATION_OWNER):
+            raise RequestRefusedError("the penetration no longer owns the axes; move them manually")
         self._permit = permit
         self._outcome = (
-            Verdict.ABORTED,
+            PenetrationVerdict.ABORTED,
             message("engine", "retracted by the button; before: {reason}").fill(
                 reason=self.status.reason
             ),
         )
         self._refusals.clear()
-        self._enter(Phase.RETRACT, now_s)
+        self._enter_phase(PenetrationPhase.RETRACT, now_s)
 
-    def _write(self) -> None:
-        """Log an ended run; a full disk is reported, and stops nothing."""
-        while self._unwritten:
-            run = self._unwritten.popleft()
+    def _log_runs(self) -> None:
+        """Log the runs that have ended. A full disk is only reported."""
+        while self._unlogged_runs:
+            run = self._unlogged_runs.popleft()
             try:
                 if self._log is not None:
                     self._log.append(run)
             except InputError as error:
                 with self._lock:
-                    self.status = replace(self.status, problem=str(error))
+                    self.status = replace(self.status, log_problem=str(error))

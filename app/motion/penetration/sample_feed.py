@@ -1,24 +1,33 @@
-"""The samples of one axis, from the session's worker to a penetration."""
+"""Samples of one axis, passed from the session's worker to a penetration."""
 
 from collections import deque
 from dataclasses import dataclass, fields
 
 import numpy as np
 
-from rotemina.app.motion.live_models import ModelOutputs
+from rotemina.app.motion.model import ModelOutputs
 from rotemina.app.motion.session import MotionSession
-from rotemina.drivers.samples import Samples
+from rotemina.drivers.contract import DeviceSamples
 from rotemina.sim.arrays import BoolArray, FloatArray
 
-_MOST_PORTIONS = 2000
+_MAX_BATCH_COUNT = 2000
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class AxisSamples:
-    """Samples of one axis, (n,) each: device time, command, reading, and reading − model.
+    """Samples of one axis.
 
-    ``residual`` uses the model in use, without effects that may be a contact in its records;
-    ``nominal`` uses the nominal model.
+    Attributes
+    ----------
+    time_s : (n,)
+        Device time.
+    command, measured : (n,)
+        Command and sensor reading, m.
+    residual : (n,)
+        Reading minus the output of the model in use, m, without effects that the model may have
+        learned from a contact.
+    nominal : (n,)
+        Reading minus the output of the nominal model, m.
     """
 
     time_s: FloatArray
@@ -30,52 +39,54 @@ class AxisSamples:
     def __len__(self) -> int:
         return len(self.time_s)
 
-    def since(self, time_s: float) -> "AxisSamples":
-        """Return those that are later."""
-        return self.part(self.time_s > time_s)
+    def select_later(self, time_s: float) -> "AxisSamples":
+        """Return the samples after a device time."""
+        return self.select(self.time_s > time_s)
 
-    def part(self, kept: BoolArray) -> "AxisSamples":
-        """Return some of them."""
-        return AxisSamples(*(getattr(self, name)[kept] for name in _NAMES))
-
-
-_NAMES = tuple(one.name for one in fields(AxisSamples))
-NONE = AxisSamples(*(np.empty(0) for _ in _NAMES))
+    def select(self, mask: BoolArray) -> "AxisSamples":
+        """Return the samples that a mask (n,) selects."""
+        return AxisSamples(*(getattr(self, name)[mask] for name in _FIELD_NAMES))
 
 
-def joined(parts: list[AxisSamples]) -> AxisSamples:
-    """Return consecutive samples as one."""
-    if not parts:
-        return NONE
-    return AxisSamples(*(np.concatenate([getattr(p, name) for p in parts]) for name in _NAMES))
+_FIELD_NAMES = tuple(field.name for field in fields(AxisSamples))
+NO_SAMPLES = AxisSamples(*(np.empty(0) for _ in _FIELD_NAMES))
 
 
-class AxisFeed:
-    """Keeps the samples of an axis until they are taken; two threads share it."""
+def join_samples(batches: list[AxisSamples]) -> AxisSamples:
+    """Return consecutive batches of samples as one."""
+    if not batches:
+        return NO_SAMPLES
+    return AxisSamples(
+        *(np.concatenate([getattr(batch, name) for batch in batches]) for name in _FIELD_NAMES)
+    )
+
+
+class AxisSampleQueue:
+    """Queue of the samples of one axis, shared by two threads."""
 
     def __init__(self, session: MotionSession, axis: str) -> None:
         self._column = session.driver.axes.index(axis)
-        self._portions: deque[AxisSamples] = deque(maxlen=_MOST_PORTIONS)
-        self.end = session.tap(self._take)
+        self._batches: deque[AxisSamples] = deque(maxlen=_MAX_BATCH_COUNT)
+        self.unsubscribe = session.tap(self._on_samples)
 
-    def _take(self, samples: Samples, answers: ModelOutputs) -> None:
+    def _on_samples(self, samples: DeviceSamples, model_outputs: ModelOutputs) -> None:
         column = self._column
         measured = samples.measured[:, column]
-        self._portions.append(
+        self._batches.append(
             AxisSamples(
                 samples.device_time_s,
                 samples.command[:, column],
                 measured,
-                measured - answers.cautious[:, column],
-                measured - answers.nominal[:, column],
+                measured - model_outputs.without_contact_effects[:, column],
+                measured - model_outputs.nominal[:, column],
             )
         )
 
-    def taken(self) -> AxisSamples:
-        """Return the samples since the last call, without those that the model cannot answer."""
-        parts = []
-        while self._portions:
-            parts.append(self._portions.popleft())
-        found = joined(parts)
-        sound = np.isfinite(found.residual) & np.isfinite(found.nominal)
-        return found if sound.all() else found.part(sound)
+    def take(self) -> AxisSamples:
+        """Return the samples since the last call, except those without a finite model output."""
+        batches = []
+        while self._batches:
+            batches.append(self._batches.popleft())
+        samples = join_samples(batches)
+        is_finite = np.isfinite(samples.residual) & np.isfinite(samples.nominal)
+        return samples if is_finite.all() else samples.select(is_finite)

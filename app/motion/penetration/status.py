@@ -1,4 +1,4 @@
-"""The status of a penetration for the operator."""
+"""Phases and status of a penetration, as shown to the operator."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -7,8 +7,8 @@ from rotemina.app.motion.penetration.run_log import PenetrationRun
 from rotemina.app.motion.penetration.thrust import ThrustTrace
 
 
-class Phase(StrEnum):
-    """How far a penetration is."""
+class PenetrationPhase(StrEnum):
+    """Phase of a penetration."""
 
     DISARMED = "disarmed"
     ARMED = "armed"
@@ -22,54 +22,57 @@ class Phase(StrEnum):
     DONE = "done"
     ABORTED = "aborted"
     FAILED = "failed"
-    HELD = "held"  # by a stop, a fault or a lost link: it stays where it is until somebody decides
+    # A stop, a fault or a lost link ended the run; the tip stays where it is until the operator
+    # decides what to do.
+    HELD = "held"
 
 
 #: Phases in which a run is under way.
-UNDER_WAY = frozenset(
+RUNNING_PHASES = frozenset(
     {
-        Phase.APPROACH,
-        Phase.CONTACT,
-        Phase.THRUST,
-        Phase.HOLD,
-        Phase.INJECT,
-        Phase.HOLD_AFTER,
-        Phase.RETRACT,
+        PenetrationPhase.APPROACH,
+        PenetrationPhase.CONTACT,
+        PenetrationPhase.THRUST,
+        PenetrationPhase.HOLD,
+        PenetrationPhase.INJECT,
+        PenetrationPhase.HOLD_AFTER,
+        PenetrationPhase.RETRACT,
     }
 )
 
 
 @dataclass(frozen=True, slots=True)
 class PenetrationStatus:
-    """The state of a penetration at one moment.
+    """State of a penetration at one moment.
 
     Attributes
     ----------
-    phase : Phase
+    phase : PenetrationPhase
     reason : str
-        Why it is in this phase, or what it waits for; empty where the phase says all.
-    armed_left_s : float or None
-        Until it disarms by itself.
-    way : float or None
-        How far the axis is commanded from where the run began, m.
+        Why the penetration is in this phase, or what it waits for. Empty if there is no reason.
+    armed_remaining_s : float or None
+        Time until the penetration is disarmed automatically.
+    travel : float or None
+        Distance of the commanded position from the start of the run, m.
     deviation : float or None
-        Change of ``meas − model`` since the run began, against the motion, m.
+        Change of ``meas − model`` since the run began, m, positive against the motion.
     load : float or None
-        How far the axis is from where it should be, m; ``overload`` of the parameters ends the run.
+        Change of ``meas − command`` since the contact, or before it since the start, m. The run
+        ends if this exceeds the parameter ``overload``.
     run : PenetrationRun or None
         The latest run that has ended.
     trace : ThrustTrace or None
-        Of the latest thrust that could be compared with its profile.
-    problem : str
-        Why the latest run could not be logged; empty if it was.
+        Trace of the latest thrust that could be compared with its profile.
+    log_problem : str
+        Why the latest run could not be logged. Empty if it was logged.
     """
 
-    phase: Phase = Phase.DISARMED
+    phase: PenetrationPhase = PenetrationPhase.DISARMED
     reason: str = ""
-    armed_left_s: float | None = None
-    way: float | None = None
+    armed_remaining_s: float | None = None
+    travel: float | None = None
     deviation: float | None = None
     load: float | None = None
     run: PenetrationRun | None = None
     trace: ThrustTrace | None = None
-    problem: str = ""
+    log_problem: str = ""

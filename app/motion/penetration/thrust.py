@@ -1,4 +1,4 @@
-"""The thrust: its profile as executed by a board, and how the axis followed it."""
+"""The thrust: its plan, the profile that a board executes, and its measured motion."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -7,32 +7,44 @@ from typing import NamedTuple
 import numpy as np
 import scipy
 
+from rotemina.app.errors import PenetrationError
 from rotemina.app.motion.penetration.parameters import (
-    PenetrationError,
+    InputShaping,
     PenetrationParameters,
-    Shaping,
     ThrustShape,
 )
-from rotemina.drivers.profile import MOST_SEGMENTS, Profile, ProfileSegment
-from rotemina.sim.arrays import FloatArray, read_only
-from rotemina.sim.messages import AxisName, message
-from rotemina.sim.modes.vibration import damped_modes
-from rotemina.sim.quantities import rounded
-from rotemina.sim.robot.model import Robot
-from rotemina.sim.shaping.cubic_segments import as_cubics
-from rotemina.sim.shaping.feed_forward import inverse_of, led
-from rotemina.sim.shaping.impulses import shaped, zero_vibration
-from rotemina.sim.shaping.move_shape import Shape
-from rotemina.sim.shaping.moves import minimum_jerk, s_curve_in, tabled
+from rotemina.drivers.abilities import (
+    MAX_SEGMENTS,
+    MotionProfile,
+    ProfileSegment,
+)
+from rotemina.sim.arrays import FloatArray, make_read_only
+from rotemina.sim.messages import AxisName, format_rounded
+from rotemina.sim.modes import compute_damped_modes
+from rotemina.sim.robot import Robot
+from rotemina.sim.shaping import (
+    MoveShape,
+    apply_lead,
+    apply_shaper,
+    fit_cubics,
+    interpolate_table,
+    invert_axis,
+    make_minimum_jerk,
+    make_s_curve,
+    make_zero_vibration_shaper,
+)
 
-_ORDERS = {Shaping.ZV: 1, Shaping.ZVD: 2, Shaping.ZVDD: 3}
-_FIT = 1e-3  # of the depth, by which cubics may miss the profile
-_MOST_DELAY_S = 0.1
-_BEFORE = 10  # samples, of which the mean is where the thrust began
+_SHAPER_ORDERS = {InputShaping.ZV: 1, InputShaping.ZVD: 2, InputShaping.ZVDD: 3}
+# The cubics may differ from the profile by this fraction of the depth.
+_FIT_TOLERANCE_RATIO = 1e-3
+# Largest delay between profile and measured motion.
+_MAX_DELAY_S = 0.1
+# The start position of the thrust is the mean of this many samples before it.
+_START_SAMPLE_COUNT = 10
 
 
-class Resonance(NamedTuple):
-    """Frequency, Hz, and damping ratio of an axis."""
+class AxisResonance(NamedTuple):
+    """Frequency, Hz, and damping ratio of an axis' resonance."""
 
     frequency_hz: float
     damping_ratio: float
@@ -40,58 +52,59 @@ class Resonance(NamedTuple):
 
 @dataclass(frozen=True)
 class ThrustPlan:
-    """A thrust.
+    """Plan of a thrust.
 
     Attributes
     ----------
-    wanted : Shape
-        The profile that the tip is to follow: shaped, where input shaping is on.
-    profile : Profile
-        What the board runs: the same, or with the model's inverse before it.
+    target_shape : MoveShape
+        The desired motion of the tip, including input shaping if it is used.
+    profile : MotionProfile
+        The motion that the board executes: the target shape, or the target shape filtered by the
+        inverse of the axis model.
     fit_error : float
-        Greatest difference of its cubics from what was to be commanded, m.
+        Largest difference between the cubics of the profile and the planned command, m.
     """
 
-    wanted: Shape
-    profile: Profile
+    target_shape: MoveShape
+    profile: MotionProfile
     fit_error: float
 
     @property
     def average_speed(self) -> float:
-        """m/s."""
-        return self.wanted.average_speed
+        """Depth divided by duration, m/s."""
+        return self.target_shape.average_speed
 
     @cached_property
     def peak_speed(self) -> float:
-        """Greatest instantaneous speed, m/s."""
-        return self.wanted.greatest(1)
+        """Highest instantaneous speed, m/s."""
+        return self.target_shape.max_magnitude(1)
 
     @cached_property
-    def ends(self) -> tuple[float, float]:
-        """The lowest and the highest commanded position, from its start, m."""
-        at, places = 0.0, [0.0]
+    def command_range(self) -> tuple[float, float]:
+        """Lowest and highest commanded position, relative to the start, m."""
+        segment_start, positions = 0.0, [0.0]
         for segment in self.profile.segments:
-            places += [at + extreme for extreme in segment.extremes()]
-            at += segment.length
-        return min(places), max(places)
+            positions += [segment_start + extreme for extreme in segment.find_extremes()]
+            segment_start += segment.displacement
+        return min(positions), max(positions)
 
 
 @dataclass(frozen=True, slots=True)
-class ThrustMeasured:
-    """The measured motion of the axis in a thrust, by its own sensor.
+class MeasuredThrust:
+    """Motion of the axis in a thrust, as measured by its own sensor.
 
     Attributes
     ----------
     depth : float
-        How far it went, m.
+        Depth that was reached, m.
     error : float
-        Greatest distance from the profile, m, after a constant delay is taken off.
+        Largest distance from the profile, m, after a constant delay has been removed.
     delay_s : float
-        That delay, as it fits best: of the hold, the axis and the sampling together.
+        The delay that fits best. Holding of commands, the axis and the sampling contribute to it.
     average_speed, peak_speed : float
-        m/s; the peak is over five samples.
+        Speeds in m/s. The peak is measured over five samples.
     rate_hz : float
-        Of the samples that tell it.
+        Rate of the samples.
     """
 
     depth: float
@@ -104,164 +117,165 @@ class ThrustMeasured:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ThrustTrace:
-    """The axis' sensor readings of a thrust, for plotting.
+    """Sensor readings of the axis during a thrust, for plots.
 
     Attributes
     ----------
-    time_s, way : (n,)
-        Since the profile began, s, the constant delay taken off; and from where it began, m.
+    time_s, travel : (n,)
+        Time since the profile began minus the constant delay, s; distance from the start, m.
     plan : ThrustPlan
-        What it was to do.
+        Plan of this thrust.
     """
 
     time_s: FloatArray
-    way: FloatArray
+    travel: FloatArray
     plan: ThrustPlan
 
 
-def resonance_of(robot: Robot, axis: str) -> Resonance | None:
-    """Return the lightly damped mode that an axis carries most of; None where it has none."""
+def find_resonance(robot: Robot, axis: str) -> AxisResonance | None:
+    """Return the underdamped mode that an axis dominates, or None."""
     if robot.axes[axis].static:
         return None
-    modes = damped_modes(robot)
+    modes = compute_damped_modes(robot)
     for number, dominant in enumerate(modes.dominant):
         ratio = float(modes.damping_ratio[number])
         if dominant == axis and 0.0 <= ratio < 1.0 and modes.frequency_hz[number] > 0.0:
-            return Resonance(float(modes.frequency_hz[number]), ratio)
+            return AxisResonance(float(modes.frequency_hz[number]), ratio)
     return None
 
 
 def plan_thrust(robot: Robot, parameters: PenetrationParameters, hold_s: float) -> ThrustPlan:
-    """Return the thrust for parameters; ``hold_s`` is the hold time of each command.
+    """Plan the thrust for parameters; the device holds each command for ``hold_s``.
 
     Raises
     ------
     PenetrationError
-        If the axis has no resonance to shape for, or the shaper leaves no time to move.
+        If the robot file has no resonance of the axis, or the shaper leaves no time to move.
     ShapingError
-        If a table is none, or 16 cubics miss the profile.
+        If a table is invalid, or 16 cubics cannot match the profile.
     """
     depth = parameters.sign * parameters.depth
-    order = _ORDERS.get(parameters.shaping, 0)
-    resonance = resonance_of(robot, parameters.axis)
-    if resonance is None and parameters.shaping is not Shaping.NONE:
+    order = _SHAPER_ORDERS.get(parameters.shaping, 0)
+    resonance = find_resonance(robot, parameters.axis)
+    if resonance is None and parameters.shaping is not InputShaping.NONE:
         raise PenetrationError(
-            message(
-                "engine",
-                "shaping = {shaping}: axis {axis} of {robot} has no resonance in its "
-                "robot file; choose 'none'",
-            ).fill(
-                shaping=repr(str(parameters.shaping)),
-                axis=AxisName(parameters.axis),
-                robot=robot.name,
-            )
+            "shaping = {shaping}: axis {axis} of {robot} has no resonance in its "
+            "robot file; choose 'none'",
+            shaping=repr(str(parameters.shaping)),
+            axis=AxisName(parameters.axis),
+            robot=robot.name,
         )
     if resonance is None:
-        wanted = commanded = _plain(parameters, depth, parameters.duration_s)
+        target_shape = command_shape = _make_unshaped_thrust(
+            parameters, depth, parameters.duration_s
+        )
     elif order:
-        shaper = zero_vibration(*resonance, order)
-        left_s = parameters.duration_s - shaper.duration_s
-        if left_s < 0.25 * parameters.duration_s:
+        shaper = make_zero_vibration_shaper(*resonance, order)
+        move_s = parameters.duration_s - shaper.duration_s
+        if move_s < 0.25 * parameters.duration_s:
             raise PenetrationError(
-                message(
-                    "engine",
-                    "duration_s = {duration} s: input shaping {shaping} takes {taken} s of "
-                    "it; use at least {least} s, or another shaping",
-                ).fill(
-                    duration=rounded(parameters.duration_s, 6),
-                    shaping=repr(str(parameters.shaping)),
-                    taken=rounded(shaper.duration_s, 3),
-                    least=rounded(shaper.duration_s / 0.75, 3),
-                )
+                "duration_s = {duration} s: input shaping {shaping} takes {taken} s of "
+                "it; use at least {least} s, or another shaping",
+                duration=format_rounded(parameters.duration_s, 6),
+                shaping=repr(str(parameters.shaping)),
+                taken=format_rounded(shaper.duration_s, 3),
+                least=format_rounded(shaper.duration_s / 0.75, 3),
             )
-        wanted = commanded = shaped(_plain(parameters, depth, left_s), shaper)
+        target_shape = command_shape = apply_shaper(
+            _make_unshaped_thrust(parameters, depth, move_s), shaper
+        )
     else:
-        wanted = commanded = _plain(parameters, depth, parameters.duration_s)
-        if parameters.shaping is Shaping.INVERSE:
-            commanded = led(wanted, inverse_of(*resonance, hold_s))
-    fit = as_cubics(commanded, MOST_SEGMENTS, _FIT * parameters.depth)
-    return ThrustPlan(wanted, Profile(parameters.axis, _segments(fit.shape)), fit.error)
+        target_shape = command_shape = _make_unshaped_thrust(
+            parameters, depth, parameters.duration_s
+        )
+        if parameters.shaping is InputShaping.INVERSE:
+            command_shape = apply_lead(target_shape, invert_axis(*resonance, hold_s))
+    fit = fit_cubics(command_shape, MAX_SEGMENTS, _FIT_TOLERANCE_RATIO * parameters.depth)
+    return ThrustPlan(
+        target_shape, MotionProfile(parameters.axis, _to_segments(fit.shape)), fit.error
+    )
 
 
-def thrust_response(
+def evaluate_thrust(
     plan: ThrustPlan, time_s: FloatArray, measured: FloatArray, begin_s: float
-) -> ThrustMeasured:
-    """Return how readings (n,) followed a thrust that was triggered at about ``begin_s``.
+) -> MeasuredThrust:
+    """Measure the thrust in readings (n,); it was triggered at about ``begin_s``.
 
     Raises
     ------
     PenetrationError
-        If there are no samples before or after it.
+        If there are no samples before or after the thrust.
     """
-    wanted = plan.wanted
-    way = _way(time_s, measured, begin_s)
+    target_shape = plan.target_shape
+    travel = _compute_travel(time_s, measured, begin_s)
 
-    def squares(delay_s: float) -> float:
-        return float(np.sum((way - wanted.position(time_s - begin_s - delay_s)) ** 2))
+    def compute_misfit(delay_s: float) -> float:
+        return float(np.sum((travel - target_shape.position(time_s - begin_s - delay_s)) ** 2))
 
-    # The sum is smooth, but flat far away: looked at coarsely first.
-    coarse = np.linspace(0.0, _MOST_DELAY_S, 101)
-    near_s = float(coarse[np.argmin([squares(one) for one in coarse])])
-    bounds = (near_s - coarse[1], near_s + coarse[1])
-    delay_s = float(scipy.optimize.minimize_scalar(squares, bounds=bounds, method="bounded").x)
-    error = np.abs(way - wanted.position(time_s - begin_s - delay_s)).max()
-    after = way[time_s > begin_s + delay_s + wanted.duration_s]
-    if not len(after):
+    # The misfit is smooth, but flat far from its minimum, so a coarse search comes first.
+    grid_s = np.linspace(0.0, _MAX_DELAY_S, 101)
+    coarse_delay_s = float(grid_s[np.argmin([compute_misfit(delay) for delay in grid_s])])
+    bounds = (coarse_delay_s - grid_s[1], coarse_delay_s + grid_s[1])
+    delay_s = float(
+        scipy.optimize.minimize_scalar(compute_misfit, bounds=bounds, method="bounded").x
+    )
+    error = np.abs(travel - target_shape.position(time_s - begin_s - delay_s)).max()
+    final_travel = travel[time_s > begin_s + delay_s + target_shape.duration_s]
+    if not len(final_travel):
         raise PenetrationError(
-            message("engine", "thrust: none of {count} samples lies after it").fill(
-                count=len(time_s)
-            )
+            "thrust: no sample was taken after it (samples: {count})", count=len(time_s)
         )
-    depth = float(np.mean(after))
+    depth = float(np.mean(final_travel))
     rate_hz = (len(time_s) - 1) / float(time_s[-1] - time_s[0])
-    span = min(5, len(way) - 1)
-    speeds = np.abs(way[span:] - way[:-span]) / (time_s[span:] - time_s[:-span])
-    return ThrustMeasured(
+    sample_span = min(5, len(travel) - 1)
+    speeds = np.abs(travel[sample_span:] - travel[:-sample_span]) / (
+        time_s[sample_span:] - time_s[:-sample_span]
+    )
+    return MeasuredThrust(
         abs(depth),
         float(error),
         delay_s,
-        abs(depth) / wanted.duration_s,
+        abs(depth) / target_shape.duration_s,
         float(speeds.max()),
         rate_hz,
     )
 
 
-def thrust_trace(
+def make_thrust_trace(
     plan: ThrustPlan, time_s: FloatArray, measured: FloatArray, begin_s: float, delay_s: float
 ) -> ThrustTrace:
-    """Return readings (n,) and the profile that they followed by ``delay_s``; as `followed`."""
-    since_s = read_only(np.asarray(time_s - begin_s - delay_s))
-    return ThrustTrace(since_s, read_only(_way(time_s, measured, begin_s)), plan)
+    """Return the trace of readings (n,) of a thrust, with the delay ``delay_s`` removed."""
+    since_s = make_read_only(np.asarray(time_s - begin_s - delay_s))
+    return ThrustTrace(since_s, make_read_only(_compute_travel(time_s, measured, begin_s)), plan)
 
 
-def _way(time_s: FloatArray, measured: FloatArray, begin_s: float) -> FloatArray:
-    """Return readings (n,) from where the thrust began, m."""
-    before = measured[time_s <= begin_s][-_BEFORE:]
-    if not len(before):
+def _compute_travel(time_s: FloatArray, measured: FloatArray, begin_s: float) -> FloatArray:
+    """Return readings (n,) relative to the start of the thrust, m."""
+    start_readings = measured[time_s <= begin_s][-_START_SAMPLE_COUNT:]
+    if not len(start_readings):
         raise PenetrationError(
-            message("engine", "thrust: none of {count} samples lies before it").fill(
-                count=len(time_s)
-            )
+            "thrust: no sample was taken before it (samples: {count})", count=len(time_s)
         )
-    return np.asarray(measured - float(np.mean(before)))
+    return np.asarray(measured - float(np.mean(start_readings)))
 
 
-def _plain(parameters: PenetrationParameters, depth: float, duration_s: float) -> Shape:
+def _make_unshaped_thrust(
+    parameters: PenetrationParameters, depth: float, duration_s: float
+) -> MoveShape:
     if parameters.shape is ThrustShape.MINIMUM_JERK:
-        return minimum_jerk(depth, duration_s)
+        return make_minimum_jerk(depth, duration_s)
     if parameters.shape is ThrustShape.TABLE:
-        times, shares = np.array(parameters.table).T
-        return tabled(duration_s * times, depth * shares)
-    return s_curve_in(depth, duration_s, ramp=parameters.ramp)
+        time_fractions, depth_fractions = np.array(parameters.table).T
+        return interpolate_table(duration_s * time_fractions, depth * depth_fractions)
+    return make_s_curve(depth, duration_s, ramp=parameters.ramp)
 
 
-def _segments(shape: Shape) -> tuple[ProfileSegment, ...]:
-    """Return a move of cubics as a board's segments."""
-    spans = np.diff(shape.breaks_s)
-    rows = np.zeros((4, len(spans)))
+def _to_segments(shape: MoveShape) -> tuple[ProfileSegment, ...]:
+    durations_s = np.diff(shape.breaks_s)
+    rows = np.zeros((4, len(durations_s)))
     rows[4 - len(shape.coefficients) :] = shape.coefficients
-    scaled = rows[:3] * spans ** np.array([[3.0], [2.0], [1.0]])
+    scaled_rows = rows[:3] * durations_s ** np.array([[3.0], [2.0], [1.0]])
     return tuple(
-        ProfileSegment(float(span), float(c1), float(c2), float(c3))
-        for span, (c3, c2, c1) in zip(spans, scaled.T, strict=True)
+        ProfileSegment(float(duration_s), float(c1), float(c2), float(c3))
+        for duration_s, (c3, c2, c1) in zip(durations_s, scaled_rows.T, strict=True)
     )

@@ -1,34 +1,35 @@
-"""The queue of entries to be written, filled by any thread and emptied by the writer."""
+"""Queue of entries to be written; any thread adds entries, and the writer takes them."""
 
 import threading
 from dataclasses import dataclass
 
 import numpy as np
 
-from rotemina.drivers.samples import Samples
+from rotemina.drivers.contract import DeviceSamples
 from rotemina.sim.arrays import FloatArray
 
-_ROW_BYTES = 400  # what an event or a row of a channel takes, about
+# Approximate memory of an event or of a channel's row.
+_ENTRY_BYTES = 400
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Block:
-    """Samples of one connection with their host times (n,) and the model's answers (n, axes)."""
+class SampleBlock:
+    """Samples of one connection, their host times (n,) and the model outputs (n, axes)."""
 
     connection: int
     host_time_s: FloatArray
-    samples: Samples
+    samples: DeviceSamples
     model: FloatArray
 
     @property
     def size(self) -> int:
-        """Bytes that it takes."""
+        """Memory of the samples, bytes."""
         return 8 * (3 * len(self.samples) + 4 * self.model.size)
 
 
 @dataclass(frozen=True, slots=True)
 class RecordedEvent:
-    """Something that happened at a host time.
+    """An event at a host time.
 
     Attributes
     ----------
@@ -36,9 +37,9 @@ class RecordedEvent:
         ``connection``, ``state``, ``fault``, ``refused``, ``stop``, ``playback_begin``,
         ``playback_end``, ``action``, ``note``, ``log`` or ``recorder``.
     text : str
-        For people.
+        Message for display.
     details : str
-        For programs: a JSON object.
+        JSON object for evaluation by programs.
     """
 
     host_time_s: float
@@ -48,7 +49,7 @@ class RecordedEvent:
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class ChannelRow:
     """Named values of one channel at a host time."""
 
     channel: str
@@ -56,53 +57,53 @@ class Row:
     values: dict[str, float]
 
 
-Entry = Block | RecordedEvent | Row
+BacklogEntry = SampleBlock | RecordedEvent | ChannelRow
 
 
 @dataclass(frozen=True, slots=True)
-class Lost:
-    """What found no room: samples, other entries, and since which host time."""
+class BacklogLoss:
+    """Numbers of samples and other entries lost for lack of room, and host time of the first."""
 
     samples: int = 0
     others: int = 0
     since_s: float = float(np.inf)
 
 
-class Backlog:
-    """A bounded queue that never blocks; it counts items without room."""
+class RecordingBacklog:
+    """Bounded queue that never blocks; entries that find no room are lost and counted."""
 
     def __init__(self, capacity_bytes: int) -> None:
-        self._capacity = capacity_bytes
-        self._entries: list[Entry] = []
-        self._size = 0
-        self._lost = Lost()
+        self._capacity_bytes = capacity_bytes
+        self._entries: list[BacklogEntry] = []
+        self._size_bytes = 0
+        self._loss = BacklogLoss()
         self._lock = threading.Lock()
 
-    def add(self, entry: Entry) -> None:
+    def add(self, entry: BacklogEntry) -> None:
         """Queue an entry, or count it as lost."""
-        size = entry.size if isinstance(entry, Block) else _ROW_BYTES
+        size = entry.size if isinstance(entry, SampleBlock) else _ENTRY_BYTES
         with self._lock:
-            if self._size + size > self._capacity:
-                self._lost = _more(self._lost, entry)
+            if self._size_bytes + size > self._capacity_bytes:
+                self._loss = _add_loss(self._loss, entry)
                 return
             self._entries.append(entry)
-            self._size += size
+            self._size_bytes += size
 
-    def take(self) -> list[Entry]:
-        """Return everything that waits, oldest first; the room is free again."""
+    def take_entries(self) -> list[BacklogEntry]:
+        """Return all waiting entries, oldest first, and free their room."""
         with self._lock:
-            entries, self._entries, self._size = self._entries, [], 0
+            entries, self._entries, self._size_bytes = self._entries, [], 0
         return entries
 
-    def take_lost(self) -> Lost:
+    def take_lost(self) -> BacklogLoss:
         """Return the losses since the last call."""
         with self._lock:
-            lost, self._lost = self._lost, Lost()
-        return lost
+            loss, self._loss = self._loss, BacklogLoss()
+        return loss
 
 
-def _more(lost: Lost, entry: Entry) -> Lost:
-    if not isinstance(entry, Block):
-        return Lost(lost.samples, lost.others + 1, min(lost.since_s, entry.host_time_s))
-    since_s = min(lost.since_s, float(entry.host_time_s[0]))
-    return Lost(lost.samples + len(entry.samples), lost.others, since_s)
+def _add_loss(loss: BacklogLoss, entry: BacklogEntry) -> BacklogLoss:
+    if not isinstance(entry, SampleBlock):
+        return BacklogLoss(loss.samples, loss.others + 1, min(loss.since_s, entry.host_time_s))
+    since_s = min(loss.since_s, float(entry.host_time_s[0]))
+    return BacklogLoss(loss.samples + len(entry.samples), loss.others, since_s)

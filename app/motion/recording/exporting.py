@@ -1,4 +1,4 @@
-"""Export of recordings as records or playable trajectories."""
+"""Export of recordings as records or as playable trajectories."""
 
 from collections.abc import Iterator
 from contextlib import suppress
@@ -8,22 +8,19 @@ from pathlib import Path
 
 import numpy as np
 
-from rotemina.app.motion.recording.errors import RecordingError
+from rotemina.app.errors import RecordingError
 from rotemina.app.motion.recording.recording_reader import RecordedSamples, Recording
 from rotemina.sim.arrays import BoolArray, FloatArray
-from rotemina.sim.messages import message
-from rotemina.sim.quantities import fixed
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.records.writing import write_pieces
-from rotemina.sim.robot.model import Robot
-from rotemina.sim.trajectory.checked_trajectory import CheckedTrajectory
-from rotemina.sim.trajectory.dry_run import dry_run, mode_of
+from rotemina.sim.messages import format_fixed, message
+from rotemina.sim.records import Record, Tap, write_pieces
+from rotemina.sim.robot import Robot
+from rotemina.sim.trajectory import CheckedTrajectory, dry_run, find_mode
 
-# Device times are told apart to this many parts of a second: the rounding of a late device time
-# must not make every interval a different one.
-_PER_SECOND = 1e9
-#: Metadata of a recording that stand in what is exported of it as well.
-_CARRIED = (
+# Device times are rounded to this many steps per second. Otherwise floating-point rounding of large
+# device times would make the intervals slightly different.
+_TIME_STEPS_PER_S = 1e9
+#: Metadata that an exported record copies from its recording.
+_EXPORTED_METADATA_KEYS = (
     "began",
     "robot_sha256",
     "machine_kind",
@@ -33,100 +30,100 @@ _CARRIED = (
     "operator",
     "sample",
 )
-_REST_S = 0.02  # for so long an axis must stand to count as at rest
+# An axis counts as at rest if its command is constant for this long.
+_MIN_REST_S = 0.02
 
 
-def export(
+def export_record(
     recording: Recording, path: Path, begin_s: float = -np.inf, end_s: float = np.inf
 ) -> int:
-    """Write the samples between two host times as an ASCII record; return their number.
+    """Write the samples between two host times to an ASCII record; return their number.
 
     Raises
     ------
     RecordError
         If the file cannot be written.
     RecordingError
-        If there are no samples, or the device was connected again in between.
+        If there are no samples, or the device was reconnected in between.
     """
-    count = 0
+    sample_count = 0
 
-    def counted() -> Iterator[Record]:
-        nonlocal count
-        for piece in record_pieces(recording, begin_s, end_s):
-            count += len(piece.time_s)
+    def count_samples() -> Iterator[Record]:
+        nonlocal sample_count
+        for piece in make_record_pieces(recording, begin_s, end_s):
+            sample_count += len(piece.time_s)
             yield piece
 
-    write_pieces(counted(), path)
-    return count
+    write_pieces(count_samples(), path)
+    return sample_count
 
 
-def record_of(recording: Recording, begin_s: float = -np.inf, end_s: float = np.inf) -> Record:
+def make_record(recording: Recording, begin_s: float = -np.inf, end_s: float = np.inf) -> Record:
     """Return the samples between two host times as a record.
 
-    It has ``cmd``, ``u`` (where the device told it throughout) and ``meas`` of all axes, on the
-    device's time from 0.
+    The record contains ``cmd`` and ``meas`` of all axes, and ``u`` of the axes for which the device
+    always sent it. Its time is the device time, shifted to begin at 0.
 
     Raises
     ------
     RecordingError
-        As :func:`export`.
+        See :func:`export_record`.
     """
-    span = _span(recording, begin_s, end_s)
-    return _record(recording, span, recording.samples(begin_s, end_s))
+    section = _read_section(recording, begin_s, end_s)
+    return _to_record(recording, section, recording.read_samples(begin_s, end_s))
 
 
-def record_pieces(
+def make_record_pieces(
     recording: Recording, begin_s: float = -np.inf, end_s: float = np.inf
 ) -> Iterator[Record]:
-    """Give the record of :func:`record_of` in pieces, one behind the other.
+    """Yield the record that :func:`make_record` returns, in consecutive pieces.
 
     Raises
     ------
     RecordingError
-        As :func:`export`.
+        See :func:`export_record`.
     """
-    span = _span(recording, begin_s, end_s)
-    for piece in recording.pieces(begin_s, end_s):
-        yield _record(recording, span, piece)
+    section = _read_section(recording, begin_s, end_s)
+    for piece in recording.read_pieces(begin_s, end_s):
+        yield _to_record(recording, section, piece)
 
 
-def trajectory(
+def make_trajectory(
     recording: Recording,
     begin_s: float,
     end_s: float,
     period_s: float,
     robot: Robot | None = None,
 ) -> CheckedTrajectory:
-    """Return the commands between two host times, to be played again.
+    """Return the commands between two host times as a trajectory that can be played again.
 
-    They are those of the axes that moved, on lines between samples, every ``period_s``, at which
-    the device that shall play them applies set-points; checked by a dry run.
+    The trajectory contains the axes that moved, with set-points every ``period_s`` that are
+    interpolated linearly between the samples. A dry run checks the trajectory.
 
     Parameters
     ----------
     recording : Recording
     begin_s, end_s : float
-        Between two moments at which every axis stood.
+        Host times at which every axis stands still.
     period_s : float
+        Set-point period of the device that will play the trajectory.
     robot : Robot, optional
-        Whose limits are asked; the recorded one by default.
+        Robot whose limits apply; by default the recorded one.
 
     Raises
     ------
     RecordingError
-        If nothing moved, an axis moves at the begin or end, samples are missing in between, or as
-        :func:`export`.
+        If no axis moves, an axis moves at the start or end, samples are missing in between, or
+        :func:`export_record` would raise it.
     OutOfLimitsError, TrajectoryError
-        If the robot must not play it.
+        If the robot cannot play the trajectory.
     """
-    _span(recording, begin_s, end_s)
-    samples = recording.samples(begin_s, end_s)
-    moving = np.flatnonzero(np.ptp(samples.command, axis=0) > 0.0)
-    if not len(moving):
+    _read_section(recording, begin_s, end_s)
+    samples = recording.read_samples(begin_s, end_s)
+    moving_axes = np.flatnonzero(np.ptp(samples.command, axis=0) > 0.0)
+    if not len(moving_axes):
         raise RecordingError(
-            message("engine", "{path}: no axis was commanded to move in this section").fill(
-                path=recording.path
-            )
+            "{path}: no axis was commanded to move in this section", path=recording.path
         )
     _check_gaps(recording, samples)
     _check_rest(recording, samples)
@@ -135,7 +132,7 @@ def trajectory(
     grid_s = period_s * np.arange(rows, dtype=np.float64)
     signals = {
         (recording.axes[axis], Tap.CMD): np.interp(grid_s, time_s, samples.command[:, axis])
-        for axis in moving
+        for axis in moving_axes
     }
     metadata = {"trajectory": f"{recording.path.stem} again", "recording": recording.path.name}
     record = Record.from_signals(grid_s, signals, dict(recording.units), metadata)
@@ -143,111 +140,118 @@ def trajectory(
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Span:
-    """The common data of the pieces of a record: its start, and the axes with ``u``."""
-
-    first_s: float
-    told: BoolArray
+class _RecordedSection:
+    start_s: float
+    has_input: BoolArray
     metadata: dict[str, str]
 
 
-def _span(recording: Recording, begin_s: float, end_s: float) -> _Span:
+def _read_section(recording: Recording, begin_s: float, end_s: float) -> _RecordedSection:
     first: RecordedSamples | None = None
-    told = np.ones(len(recording.axes), dtype=np.bool_)
-    for piece in recording.pieces(begin_s, end_s):
+    has_input = np.ones(len(recording.axes), dtype=np.bool_)
+    for piece in recording.read_pieces(begin_s, end_s):
         first = piece if first is None else first
-        changed = np.flatnonzero(piece.connection != first.connection[0])
-        if len(changed):
-            at_s = piece.host_time_s[changed[0]] - recording.began_s
+        reconnected_rows = np.flatnonzero(piece.connection != first.connection[0])
+        if len(reconnected_rows):
+            reconnected_s = piece.host_time_s[reconnected_rows[0]] - recording.began_s
             raise RecordingError(
-                message(
-                    "engine",
-                    "{path}: the device was reconnected {at_s} s after the start, with a new "
-                    "clock; choose a section before or after that",
-                ).fill(path=recording.path, at_s=fixed(at_s, 3))
+                "{path}: the device was reconnected {at_s} s after the start, with a new "
+                "clock; choose a section before or after that",
+                path=recording.path,
+                at_s=format_fixed(reconnected_s, 3),
             )
-        told &= np.isfinite(piece.inputs).all(axis=0)
+        has_input &= np.isfinite(piece.inputs).all(axis=0)
     if first is None:
-        whole_s = recording.ended_s - recording.began_s
+        duration_s = recording.ended_s - recording.began_s
         raise RecordingError(
-            message(
-                "engine", "{path}: no samples in this section; the recording lasts {whole_s} s"
-            ).fill(path=recording.path, whole_s=fixed(whole_s, 3))
+            "{path}: no samples in this section; the recording lasts {whole_s} s",
+            path=recording.path,
+            whole_s=format_fixed(duration_s, 3),
         )
-    return _Span(float(first.device_time_s[0]), told, _metadata(recording, first))
+    return _RecordedSection(
+        float(first.device_time_s[0]), has_input, _make_metadata(recording, first)
+    )
 
 
-def _metadata(recording: Recording, first: RecordedSamples) -> dict[str, str]:
-    said = dict(recording.metadata)
-    since_s = float(first.host_time_s[0]) - recording.began_s
-    if said.get("began"):
+def _make_metadata(recording: Recording, first: RecordedSamples) -> dict[str, str]:
+    metadata = dict(recording.metadata)
+    section_start_s = float(first.host_time_s[0]) - recording.began_s
+    if metadata.get("began"):
         with suppress(ValueError):
-            began = datetime.fromisoformat(said["began"]) + timedelta(seconds=since_s)
-            said["began"] = began.isoformat(timespec="milliseconds")
+            began = datetime.fromisoformat(metadata["began"]) + timedelta(seconds=section_start_s)
+            metadata["began"] = began.isoformat(timespec="milliseconds")
     return {
-        "mode": mode_of(recording.robot, recording.axes),
-        # What the machine remembers from before the first row is not in the record.
+        "mode": find_mode(recording.robot, recording.axes),
+        # The motion of the machine before the first row is not in the record.
         "history": "unknown",
-        "robot": said.get("robot", ""),
-        "driver": said.get("driver", ""),
-        **{key: said[key] for key in _CARRIED if said.get(key)},
+        "robot": metadata.get("robot", ""),
+        "driver": metadata.get("driver", ""),
+        **{key: metadata[key] for key in _EXPORTED_METADATA_KEYS if metadata.get(key)},
         "recording": recording.path.name,
-        "recording_id": said["id"],
-        "recording_from_s": f"{since_s:.6f}",
+        "recording_id": metadata["id"],
+        "recording_from_s": f"{section_start_s:.6f}",
     }
 
 
-def _record(recording: Recording, span: _Span, samples: RecordedSamples) -> Record:
-    time_s = np.rint((samples.device_time_s - span.first_s) * _PER_SECOND) / _PER_SECOND
+def _to_record(recording: Recording, section: _RecordedSection, samples: RecordedSamples) -> Record:
+    time_s = (
+        np.rint((samples.device_time_s - section.start_s) * _TIME_STEPS_PER_S) / _TIME_STEPS_PER_S
+    )
     signals: dict[tuple[str, Tap], FloatArray] = {}
     for column, axis in enumerate(recording.axes):
         signals[axis, Tap.CMD] = samples.command[:, column]
-        if span.told[column]:
+        if section.has_input[column]:
             signals[axis, Tap.U] = samples.inputs[:, column]
         signals[axis, Tap.MEAS] = samples.measured[:, column]
-    return Record.from_signals(time_s, signals, dict(recording.units), span.metadata)
+    return Record.from_signals(time_s, signals, dict(recording.units), section.metadata)
 
 
 def _check_rest(recording: Recording, samples: RecordedSamples) -> None:
+    """Refuse samples in which an axis moves at the start or at the end."""
     time_s = samples.device_time_s
-    ends = {
-        "start": (time_s <= time_s[0] + _REST_S, "an earlier start"),
-        "end": (time_s >= time_s[-1] - _REST_S, "a later end"),
-    }
-    for end, (rows, advice) in ends.items():
-        moves = np.flatnonzero(np.ptp(samples.command[rows], axis=0) > 0.0)
-        if len(moves):
+    ends = (
+        (
+            time_s <= time_s[0] + _MIN_REST_S,
+            message(
+                "engine",
+                "{path}: axis {axis} moves at the start; every axis must rest there for {rest_s} "
+                "s: choose an earlier start",
+            ),
+        ),
+        (
+            time_s >= time_s[-1] - _MIN_REST_S,
+            message(
+                "engine",
+                "{path}: axis {axis} moves at the end; every axis must rest there for {rest_s} s: "
+                "choose a later end",
+            ),
+        ),
+    )
+    for rows, objection in ends:
+        moving_axes = np.flatnonzero(np.ptp(samples.command[rows], axis=0) > 0.0)
+        if len(moving_axes):
             raise RecordingError(
-                message(
-                    "engine",
-                    "{path}: axis {axes} moves at the {end}; every axis must rest there for "
-                    "{rest_s} s: choose {advice}",
-                ).fill(
+                objection.fill(
                     path=recording.path,
-                    axes=recording.axes[moves[0]],
-                    end=end,
-                    rest_s=_REST_S,
-                    advice=advice,
+                    axis=recording.axes[moving_axes[0]],
+                    rest_s=_MIN_REST_S,
                 )
             )
 
 
 def _check_gaps(recording: Recording, samples: RecordedSamples) -> None:
-    steps_s = np.diff(samples.device_time_s)
-    moved = (np.diff(samples.command, axis=0) != 0.0).any(axis=1)
-    wide = np.flatnonzero(moved & (steps_s > _REST_S))
-    if len(wide):
-        at_s = samples.host_time_s[wide[0]] - recording.began_s
+    """Refuse samples that are missing during a move."""
+    intervals_s = np.diff(samples.device_time_s)
+    has_moved = (np.diff(samples.command, axis=0) != 0.0).any(axis=1)
+    gaps = np.flatnonzero(has_moved & (intervals_s > _MIN_REST_S))
+    if len(gaps):
+        gap_start_s = samples.host_time_s[gaps[0]] - recording.began_s
         raise RecordingError(
-            message(
-                "engine",
-                "{path}: {steps_s} ms of samples are missing during a move {at_s} s after "
-                "the start, at most {rest_s} ms are permitted; choose a section before or "
-                "after that",
-            ).fill(
-                path=recording.path,
-                steps_s=fixed(1000.0 * steps_s[wide[0]], 0),
-                at_s=fixed(at_s, 3),
-                rest_s=fixed(1000.0 * _REST_S, 0),
-            )
+            "{path}: {steps_s} ms of samples are missing during a move {at_s} s after "
+            "the start, at most {rest_s} ms are permitted; choose a section before or "
+            "after that",
+            path=recording.path,
+            steps_s=format_fixed(1000.0 * intervals_s[gaps[0]], 0),
+            at_s=format_fixed(gap_start_s, 3),
+            rest_s=format_fixed(1000.0 * _MIN_REST_S, 0),
         )

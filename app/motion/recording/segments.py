@@ -1,8 +1,8 @@
-"""The append-only file of a running recording: segments, each either complete or ignored.
+"""The append-only file of a running recording: a sequence of segments.
 
-A segment is a header (magic, number, length, CRC-32 of number, length and content) and its
-content. A file that was cut off anywhere, or whose last writing failed, ends with its last whole
-segment.
+A segment consists of a header (magic, number, length, CRC-32 of number, length and content) and its
+content. Only complete segments count. If the file is truncated, or the last write failed, reading
+ends with the last complete segment.
 """
 
 import errno
@@ -15,33 +15,37 @@ from contextlib import suppress
 from pathlib import Path
 from typing import BinaryIO, NamedTuple, Self
 
-from rotemina.app.files import Opener, new_file, write_all
-from rotemina.app.motion.recording.errors import RecordingError
-from rotemina.sim.input_files import open_file
-from rotemina.sim.messages import message
+from rotemina.app.errors import RecordingError
+from rotemina.app.settings import (
+    FileOpener,
+    open_new_file,
+    write_all,
+)
+from rotemina.sim.files import open_file
 
-if os.name == "nt":  # pragma: no cover - the other system's half
+if os.name == "nt":  # pragma: no cover - runs on Windows only
     import msvcrt
 
-    _BEHIND = 1 << 62  # a byte that nobody writes: Windows keeps others from locked ones
+    # On Windows other programs cannot read locked bytes, so a byte that is never written is locked.
+    _LOCK_OFFSET = 1 << 62
 
-    def locked(file: BinaryIO) -> bool:
-        """Lock a file until it is closed; return False if someone else has."""
-        at = file.tell()
-        file.seek(_BEHIND)
+    def try_lock(file: BinaryIO) -> bool:
+        """Lock a file until it is closed; return False if another program has locked it."""
+        position = file.tell()
+        file.seek(_LOCK_OFFSET)
         try:
             msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)  # type: ignore[attr-defined,unused-ignore]
         except OSError:
             return False
         finally:
-            file.seek(at)
+            file.seek(position)
         return True
 
 else:
     import fcntl
 
-    def locked(file: BinaryIO) -> bool:
-        """Lock a file until it is closed; return False if someone else has."""
+    def try_lock(file: BinaryIO) -> bool:
+        """Lock a file until it is closed; return False if another program has locked it."""
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError:
@@ -49,160 +53,157 @@ else:
         return True
 
 
-MAGIC = b"RTMSEG01"
-_PROGRAM = MAGIC[:6]
-_HEADER = struct.Struct("<8sQQI")
-_COUNTED = struct.Struct("<QQ")
-_MOST_UNCONFIRMED = 64_000_000  # bytes
+SEGMENT_MAGIC = b"RTMSEG01"
+_PROGRAM_MAGIC = SEGMENT_MAGIC[:6]
+_HEADER_FORMAT = struct.Struct("<8sQQI")
+_CRC_FIELDS_FORMAT = struct.Struct("<QQ")
+_MAX_UNCONFIRMED_BYTES = 64_000_000
 
 
 class ByteRange(NamedTuple):
-    """Where in a file the content of a segment lies, bytes."""
+    """Offset and length of a segment's content in its file, bytes."""
 
     offset: int
     length: int
 
 
 class SegmentFile:
-    """Appends segments. They survive the process once appended, and the machine once synced.
+    """File to which segments are appended.
 
-    :meth:`append` and :meth:`sync` may run on two threads: a disk that confirms slowly delays no
-    append. Unconfirmed data stay in memory, to be written again if the disk reports a failure.
+    Segments survive a crash of the process once they are appended, and a power cut once they are
+    synced. :meth:`append` and :meth:`sync` may run on two threads, so that a slow disk does not
+    delay an append. Segments stay in memory until the disk has confirmed them. They are written
+    again if the disk reports a failure.
 
-    The file is locked, so that nobody recovers it while it is written; the lock ends with the
-    process.
+    The file is locked until it is closed or the process ends. No other program can recover it while
+    it is written.
 
     Raises
     ------
     RecordingError
-        If the file exists or cannot be made.
+        If the file exists or cannot be created.
     """
 
-    def __init__(self, path: Path, opener: Opener = new_file) -> None:
+    def __init__(self, path: Path, opener: FileOpener = open_new_file) -> None:
         self.path = path
-        #: Bytes of whole segments.
+        #: Length of the complete segments, bytes.
         self.size = 0
-        self._number = 0
-        self._unconfirmed: list[bytes] = []  # contents
-        self._again: list[bytes] = []  # contents that were lost when a sync failed
+        self._next_number = 0
+        self._unconfirmed_contents: list[bytes] = []
+        # Contents of segments that were lost when a sync failed. The next append rewrites them.
+        self._lost_contents: list[bytes] = []
         self._lock = threading.Lock()
         try:
             self._file = opener(path)
         except FileExistsError as error:
             raise RecordingError(
-                message(
-                    "engine",
-                    "{path} already exists, being recorded or left by a crash; record to "
-                    "another name, or recover it",
-                ).fill(path=path)
+                "{path} already exists, being recorded or left by a crash; record to "
+                "another name, or recover it",
+                path=path,
             ) from error
         except OSError as error:
             raise RecordingError(
-                message(
-                    "engine", "{path}: cannot be created ({reason}); choose another folder"
-                ).fill(path=path, reason=str(error.strerror or error))
+                "{path}: cannot be created ({reason}); choose another folder",
+                path=path,
+                reason=str(error.strerror or error),
             ) from error
-        if not locked(self._file):
+        if not try_lock(self._file):
             self._file.close()
             raise RecordingError(
-                message("engine", "{path}: in use by another program; record to another name").fill(
-                    path=path
-                )
+                "{path}: in use by another program; record to another name", path=path
             )
 
     def append(self, *contents: bytes) -> None:
-        """Write segments.
+        """Write segments at the end of the file.
 
         Raises
         ------
         OSError
-            If it cannot; nothing of them counts then, and they may be tried again.
+            If the write fails. Then no segment was appended, and the caller may try again.
         """
         with self._lock:
-            if sum(map(len, self._unconfirmed)) > _MOST_UNCONFIRMED:
+            if sum(map(len, self._unconfirmed_contents)) > _MAX_UNCONFIRMED_BYTES:
                 raise OSError(errno.ETIMEDOUT, "the disk does not confirm what was written")
-            due = [*self._again, *contents]
-            written = b"".join(
-                piece
-                for number, content in enumerate(due, self._number)
-                for piece in (_header(number, content), content)
+            new_contents = [*self._lost_contents, *contents]
+            data = b"".join(
+                header_or_content
+                for number, content in enumerate(new_contents, self._next_number)
+                for header_or_content in (_make_header(number, content), content)
             )
             try:
                 self._file.seek(self.size)
-                write_all(self._file, written)
+                write_all(self._file, data)
             except OSError:
-                with suppress(OSError):  # what is left is no whole segment, or will be written over
+                # If this fails, the bytes left over are not a complete segment, or are overwritten.
+                with suppress(OSError):
                     self._file.truncate(self.size)
                 raise
-            self.size += len(written)
-            self._number += len(due)
-            self._again = []
-            self._unconfirmed += due
+            self.size += len(data)
+            self._next_number += len(new_contents)
+            self._lost_contents = []
+            self._unconfirmed_contents += new_contents
 
     def sync(self) -> None:
-        """Wait until the disk has all earlier appends.
+        """Wait until the disk has confirmed all earlier appends.
 
         Raises
         ------
         OSError
-            If it has failed; what it did not confirm is written again by the next `append`.
+            If the disk has failed. The next :meth:`append` writes the unconfirmed segments again.
         """
         with self._lock:
-            count = len(self._unconfirmed)
-        if not count:
+            confirmed_count = len(self._unconfirmed_contents)
+        if not confirmed_count:
             return
         try:
             os.fsync(self._file.fileno())
         except OSError:
             with self._lock:
-                lost, self._unconfirmed = self._unconfirmed, []
-                self._again = lost + self._again
-                self._number -= len(lost)
-                self.size -= sum(_HEADER.size + len(content) for content in lost)
+                lost, self._unconfirmed_contents = self._unconfirmed_contents, []
+                self._lost_contents = lost + self._lost_contents
+                self._next_number -= len(lost)
+                self.size -= sum(_HEADER_FORMAT.size + len(content) for content in lost)
             raise
         with self._lock:
-            del self._unconfirmed[:count]
+            del self._unconfirmed_contents[:confirmed_count]
 
     def close(self) -> None:
         """Release the file; safe to call twice."""
         self._file.close()
 
 
-def _header(number: int, content: bytes) -> bytes:
-    return _HEADER.pack(MAGIC, number, len(content), _crc(number, content))
+def _make_header(number: int, content: bytes) -> bytes:
+    return _HEADER_FORMAT.pack(SEGMENT_MAGIC, number, len(content), _compute_crc(number, content))
 
 
-def _crc(number: int, content: bytes) -> int:
-    return zlib.crc32(content, zlib.crc32(_COUNTED.pack(number, len(content))))
+def _compute_crc(number: int, content: bytes) -> int:
+    return zlib.crc32(content, zlib.crc32(_CRC_FIELDS_FORMAT.pack(number, len(content))))
 
 
-class WholeSegments:
-    """The complete segments of a file that is no longer written.
+class SegmentReader:
+    """Reader of the complete segments of a file that is no longer written.
 
     Raises
     ------
     RecordingError
-        If it is no such file, is of another version, or is being recorded.
+        If the file is not an interrupted recording, has another version, or is being recorded.
     """
 
     def __init__(self, path: Path) -> None:
-        open_file(path, RecordingError).close()  # a pipe would be waited for
+        # This refuses a pipe, which would block when opened.
+        open_file(path, RecordingError).close()
         try:
             self._file = path.open("r+b")
         except OSError as error:
             raise RecordingError(
-                message("engine", "{path}: cannot be read ({reason})").fill(
-                    path=path, reason=str(error.strerror or error)
-                )
+                "{path}: cannot be read ({reason})", path=path, reason=str(error.strerror or error)
             ) from error
         try:
-            if not locked(self._file):
+            if not try_lock(self._file):
                 raise RecordingError(
-                    message("engine", "{path}: still being recorded; end the recording first").fill(
-                        path=path
-                    )
+                    "{path}: still being recorded; end the recording first", path=path
                 )
-            _check_kind(path, self._file.read(len(MAGIC)))
+            _check_magic(path, self._file.read(len(SEGMENT_MAGIC)))
         except BaseException:
             self._file.close()
             raise
@@ -214,49 +215,49 @@ class WholeSegments:
         self._file.close()
 
     def __iter__(self) -> Iterator[tuple[ByteRange, bytes]]:
-        """Yield range and content of each segment, up to the first incomplete one."""
-        at = number = 0
+        """Yield the range and the content of each segment before the first incomplete one."""
+        offset = number = 0
         while True:
-            self._file.seek(at)
-            head = self._file.read(_HEADER.size)
-            if len(head) < _HEADER.size:
+            self._file.seek(offset)
+            header = self._file.read(_HEADER_FORMAT.size)
+            if len(header) < _HEADER_FORMAT.size:
                 return
-            magic, found, length, crc = _HEADER.unpack(head)
-            if magic != MAGIC or found != number or length > self._left():
+            magic, stored_number, length, crc = _HEADER_FORMAT.unpack(header)
+            if (
+                magic != SEGMENT_MAGIC
+                or stored_number != number
+                or length > self._count_remaining_bytes()
+            ):
                 return
-            byte_range = ByteRange(at + _HEADER.size, length)
+            byte_range = ByteRange(offset + _HEADER_FORMAT.size, length)
             content = self.read(byte_range)
-            if _crc(number, content) != crc:
+            if _compute_crc(number, content) != crc:
                 return
             yield byte_range, content
-            at, number = byte_range.offset + length, number + 1
+            offset, number = byte_range.offset + length, number + 1
 
     def read(self, byte_range: ByteRange) -> bytes:
-        """Return the content at a range that was given before."""
+        """Return the content of a segment; ``byte_range`` is one that the iteration yielded."""
         self._file.seek(byte_range.offset)
         return self._file.read(byte_range.length)
 
-    def _left(self) -> int:
+    def _count_remaining_bytes(self) -> int:
         return os.fstat(self._file.fileno()).st_size - self._file.tell()
 
 
-def _check_kind(path: Path, head: bytes) -> None:
-    if head == MAGIC:
+def _check_magic(path: Path, first_bytes: bytes) -> None:
+    if first_bytes == SEGMENT_MAGIC:
         return
-    if MAGIC.startswith(head):
+    if SEGMENT_MAGIC.startswith(first_bytes):
         raise RecordingError(
-            message("engine", "{path}: interrupted before anything was recorded; delete it").fill(
-                path=path
-            )
+            "{path}: interrupted before anything was recorded; delete it", path=path
         )
-    if head.startswith(_PROGRAM):
+    if first_bytes.startswith(_PROGRAM_MAGIC):
         raise RecordingError(
-            message(
-                "engine",
-                "{path}: version {version}, but this program reads version {known}; recover "
-                "it with the program that recorded it",
-            ).fill(path=path, version=head[6:].decode("ascii", "replace"), known=MAGIC[6:].decode())
+            "{path}: version {version}, but this program reads version {known}; recover "
+            "it with the program that recorded it",
+            path=path,
+            version=first_bytes[6:].decode("ascii", "replace"),
+            known=SEGMENT_MAGIC[6:].decode(),
         )
-    raise RecordingError(
-        message("engine", "{path}: not an interrupted recording of this program").fill(path=path)
-    )
+    raise RecordingError("{path}: not an interrupted recording of this program", path=path)

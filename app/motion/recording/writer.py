@@ -1,4 +1,4 @@
-"""The writer thread of a recording."""
+"""Writes a recording on its own threads."""
 
 import json
 import threading
@@ -12,37 +12,47 @@ from uuid import uuid4
 
 import numpy as np
 
-from rotemina.app.files import Opener, new_file
+from rotemina.app.errors import RecordingError
+from rotemina.app.motion.device import Ticker
 from rotemina.app.motion.recording.arrow_tables import (
-    CLOCK,
-    header,
-    prepare,
-    samples_schema,
-    streams,
+    CLOCK_CHANNEL,
+    encode_header,
+    encode_streams,
+    load_arrow,
+    make_samples_schema,
 )
-from rotemina.app.motion.recording.backlog import Backlog, Block, Lost, RecordedEvent, Row
-from rotemina.app.motion.recording.errors import RecordingError
-from rotemina.app.motion.recording.recovery import UNFINISHED, merged
+from rotemina.app.motion.recording.backlog import (
+    BacklogLoss,
+    ChannelRow,
+    RecordedEvent,
+    RecordingBacklog,
+    SampleBlock,
+)
+from rotemina.app.motion.recording.recovery import UNFINISHED_SUFFIX, merge_segments
 from rotemina.app.motion.recording.segments import SegmentFile
-from rotemina.app.motion.ticker import Ticker
-from rotemina.drivers.clock import Clock
-from rotemina.drivers.samples import Samples
+from rotemina.app.settings import FileOpener, open_new_file
+from rotemina.drivers.contract import Clock, DeviceSamples
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.messages import marked, message
-from rotemina.sim.quantities import fixed
+from rotemina.sim.messages import format_fixed, marked, message
 
-SEGMENT_S = 0.25  # what a crash can lose, with the time that it takes to write so much
-SLOW_S = 0.7  # a disk that takes longer for a segment endangers the promise of one second
-CAPACITY_BYTES = 64_000_000  # of what waits: 14 s at 20 kHz and 24 channels, 5 min at 1 kHz
-_PORTIONS = 512  # eight seconds of them: a clock that is 50 ppm off drifts by 0.4 ms meanwhile
-_LONGEST_S = 60.0  # that a close waits for a disk that hangs
+# A crash loses at most the data of this period and of the time that writing them takes.
+SEGMENT_PERIOD_S = 0.25
+# If a disk takes longer than this for a segment, a crash may lose more than the documented second.
+SLOW_WRITE_S = 0.7
+# Memory for unwritten data: 14 s at 20 kHz and 24 channels, or 5 min at 1 kHz.
+BACKLOG_CAPACITY_BYTES = 64_000_000
+# The clock is fitted over about eight seconds. In this time a clock with an error of 50 ppm drifts
+# by 0.4 ms.
+_CLOCK_WINDOW_BATCHES = 512
+# Longest time for which ``close`` waits for a disk that does not respond.
+_MAX_CLOSE_S = 60.0
 
 
 class ClockFit(NamedTuple):
-    """``host_time_s`` = device time + ``offset_s``.
+    """Offset of a device clock: ``host_time_s`` = device time + ``offset_s``.
 
-    ``uncertainty_s`` is how much later than the soonest samples typically come in. A delay that
-    all of them share cannot be told from the offset: it is not in there.
+    ``uncertainty_s`` is the median delay of the samples behind the fastest ones. It does not
+    contain a delay common to all samples, which cannot be distinguished from the offset.
     """
 
     offset_s: float
@@ -50,53 +60,54 @@ class ClockFit(NamedTuple):
 
 
 class DeviceClock:
-    """Follows the clock of a device through one connection.
+    """Estimates the offset of a device's clock during one connection.
 
-    No sample comes in before it was taken, so the least of (host time of arrival) − (device time)
-    over the last seconds is the best guess of the offset.
+    No sample arrives before it was taken. The best estimate of the offset is therefore the minimum
+    of (host time of arrival) − (device time) over the last seconds.
     """
 
     def __init__(self) -> None:
-        self._delays_s: deque[float] = deque(maxlen=_PORTIONS)
+        self._delays_s: deque[float] = deque(maxlen=_CLOCK_WINDOW_BATCHES)
 
     def observe(self, received_s: float, device_time_s: float) -> ClockFit:
-        """Take in that the sample of a device time came in at a host time; return the fit."""
+        """Add the device time of a sample and the host time of its arrival; return the fit."""
         self._delays_s.append(received_s - device_time_s)
-        least_s = min(self._delays_s)
-        return ClockFit(least_s, median(self._delays_s) - least_s)
+        offset_s = min(self._delays_s)
+        return ClockFit(offset_s, median(self._delays_s) - offset_s)
 
 
 class RecordingWriter:
-    """Writes data to ``PATH.part``, one segment at a time, and merges it on close.
+    """Appends segments to ``PATH.part``, and merges them on close.
 
-    ``add`` and ``record`` may be called from any thread and return at once. :meth:`run_once` writes
-    waiting data; :meth:`start` uses two threads: one writes, one waits for the disk.
+    :meth:`add` and :meth:`add_row` may be called from any thread and return at once.
+    :meth:`run_once` writes waiting data. :meth:`start` starts two threads that do this: one writes,
+    and one waits for the disk.
 
-    If the disk is full, or fails, the operator is told once and the segment is retried each turn:
-    new data wait in memory as far as there is room, then count as lost. When writing succeeds
-    again, an event in the recording reports the loss.
+    If the disk is full or fails, the operator is notified once, and the writer tries the segment
+    again in every period. Meanwhile new data wait in memory; data that exceed the capacity are
+    lost. When writing succeeds again, an event in the recording reports the loss.
 
     Parameters
     ----------
     path : Path
-        Of the finished recording.
+        Path of the finished recording.
     units : mapping axis -> "m" or "rad"
         The axes, in the order of the samples' columns.
     metadata : mapping str -> str
-        What holds for the whole recording.
+        Metadata of the whole recording.
     clock : callable
-        The host's monotonic time, s.
-    tell : callable
-        Gets what the operator must know, on the thread that writes; motion is unaffected.
+        Returns the host's monotonic time, s.
+    notify : callable
+        Called with messages for the operator, on the writer thread.
     capacity_bytes : int
-        Of what may wait to be written.
+        Capacity for data that wait to be written.
     opener : callable
-        How the file is made.
+        Creates the file.
 
     Raises
     ------
     RecordingError
-        If there is a file already, or none can be made.
+        If the file exists already or cannot be created.
     """
 
     def __init__(
@@ -106,117 +117,118 @@ class RecordingWriter:
         metadata: Mapping[str, str],
         *,
         clock: Clock = time.monotonic,
-        tell: Callable[[str], None] = lambda _: None,
-        capacity_bytes: int = CAPACITY_BYTES,
-        opener: Opener = new_file,
+        notify: Callable[[str], None] = lambda _: None,
+        capacity_bytes: int = BACKLOG_CAPACITY_BYTES,
+        opener: FileOpener = open_new_file,
     ) -> None:
         if path.exists():
-            raise RecordingError(
-                message("engine", "{path} already exists; record to another name").fill(path=path)
-            )
+            raise RecordingError("{path} already exists; record to another name", path=path)
         self.path = path
-        self._schema = samples_schema(units)
-        prepare()  # neither motion nor the first second is to wait for that
-        #: Host time, s.
+        self._schema = make_samples_schema(units)
+        # Loading Arrow takes a while. It must not delay motion or the first second of data.
+        load_arrow()
+        #: Host time at which the recording began, s.
         self.began_s = clock()
         self._clock = clock
-        self._tell = tell
-        self._backlog = Backlog(capacity_bytes)
-        self._waiting: list[bytes] = []  # a segment that the disk has not taken yet
-        #: Why nothing can be written at present.
+        self._notify = notify
+        self._backlog = RecordingBacklog(capacity_bytes)
+        # Contents of segments that are not written yet.
+        self._pending_segments: list[bytes] = []
+        #: Why nothing can be written at present; None if writing works.
         self.failure: str | None = None
-        self._gap = ""  # what is missing and was not told yet
-        self._slow = False
-        self._closed = False
+        # Message about lost data that the operator has not seen yet.
+        self._loss_message = ""
+        self._has_reported_slow_disk = False
+        self._is_closed = False
         self._connection = 0
         self._device_clock = DeviceClock()
-        self._device_time_s = self._host_time_s = float("-inf")
-        self._writing = threading.Lock()
+        self._last_device_time_s = self._last_host_time_s = float("-inf")
+        self._write_lock = threading.Lock()
         self._tickers = (
-            Ticker("recorder", SEGMENT_S, self._write),
-            Ticker("recorder sync", SEGMENT_S, self._sync),
+            Ticker("recorder", SEGMENT_PERIOD_S, self._write_pending),
+            Ticker("recorder sync", SEGMENT_PERIOD_S, self._sync),
         )
-        about = {
+        header_metadata = {
             "id": uuid4().hex,
             "began_s": repr(self.began_s),
             "units": json.dumps(dict(units)),
             **metadata,
         }
-        self._file = SegmentFile(path.with_name(path.name + UNFINISHED), opener)
+        self._file = SegmentFile(path.with_name(path.name + UNFINISHED_SUFFIX), opener)
         try:
-            self._file.append(header(about))
+            self._file.append(encode_header(header_metadata))
         except OSError as error:
             self._file.close()
             self._file.path.unlink(missing_ok=True)
             raise RecordingError(
-                message(
-                    "engine",
-                    "{path}: cannot be written ({reason}); make room, or choose another folder",
-                ).fill(path=path, reason=str(error.strerror or error))
+                "{path}: cannot be written ({reason}); make room, or choose another folder",
+                path=path,
+                reason=str(error.strerror or error),
             ) from error
 
     @property
     def bytes_written(self) -> int:
-        """How much the disk holds."""
+        """Size of the file, bytes."""
         return self._file.size
 
     def start(self) -> None:
-        """Write on separate threads from now on."""
+        """Start the threads that write and sync."""
         for ticker in self._tickers:
             ticker.start()
 
-    def connected(self) -> None:
-        """Note that the device's time has restarted."""
+    def start_connection(self) -> None:
+        """Begin a new connection, because the device's time has restarted."""
         self._connection += 1
         self._device_clock = DeviceClock()
-        self._device_time_s = float("-inf")
+        self._last_device_time_s = float("-inf")
 
-    def add(self, samples: Samples, model: FloatArray, received_s: float) -> None:
-        """Take samples of a machine and the model's answers (n, axes); by one thread at a time.
+    def add(self, samples: DeviceSamples, model: FloatArray, received_s: float) -> None:
+        """Add samples of a machine and the model outputs (n, axes), from one thread at a time.
 
-        ``received_s`` is the host time at which the last of them came in.
+        ``received_s`` is the host time at which the last sample was received.
         """
-        if not len(samples) or self._closed:
+        if not len(samples) or self._is_closed:
             return
-        if samples.device_time_s[0] <= self._device_time_s:  # nobody said that it begins anew
-            self.connected()
-        self._device_time_s = float(samples.device_time_s[-1])
-        fit = self._device_clock.observe(received_s, self._device_time_s)
-        # A better estimate must not make what is later earlier.
-        host_time_s = np.maximum(samples.device_time_s + fit.offset_s, self._host_time_s)
-        self._host_time_s = float(host_time_s[-1])
-        self._backlog.add(Block(self._connection, host_time_s, samples, model))
+        # The device's time has restarted, although the caller did not announce a new connection.
+        if samples.device_time_s[0] <= self._last_device_time_s:
+            self.start_connection()
+        self._last_device_time_s = float(samples.device_time_s[-1])
+        fit = self._device_clock.observe(received_s, self._last_device_time_s)
+        # A better estimate of the offset must not make the host time decrease.
+        host_time_s = np.maximum(samples.device_time_s + fit.offset_s, self._last_host_time_s)
+        self._last_host_time_s = float(host_time_s[-1])
+        self._backlog.add(SampleBlock(self._connection, host_time_s, samples, model))
         values = {
             "connection": float(self._connection),
-            "device_time_s": self._device_time_s,
+            "device_time_s": self._last_device_time_s,
             "offset_s": fit.offset_s,
             "uncertainty_s": fit.uncertainty_s,
         }
-        self._backlog.add(Row(CLOCK, received_s, values))
+        self._backlog.add(ChannelRow(CLOCK_CHANNEL, received_s, values))
 
-    def record(self, channel: str, host_time_s: float, values: Mapping[str, float]) -> None:
-        """Take named numbers of a channel at a host time.
+    def add_row(self, channel: str, host_time_s: float, values: Mapping[str, float]) -> None:
+        """Add named values of a channel at a host time.
 
-        Other names than before add columns; a value that a row lacks is read back as NaN.
+        New names add columns. A value that a row lacks is read back as NaN.
         """
-        if not self._closed:
-            self._backlog.add(Row(channel, host_time_s, dict(values)))
+        if not self._is_closed:
+            self._backlog.add(ChannelRow(channel, host_time_s, dict(values)))
 
-    def event(
+    def add_event(
         self,
         kind: str,
         text: str,
         details: Mapping[str, object] | None = None,
         host_time_s: float | None = None,
     ) -> None:
-        """Take an event, of now or of a host time; ``details`` must be what JSON can hold."""
-        if not self._closed:
-            at_s = self._clock() if host_time_s is None else host_time_s
-            self._backlog.add(RecordedEvent(at_s, kind, text, json.dumps(details or {})))
+        """Add an event at a host time, by default now; ``details`` must be valid as JSON."""
+        if not self._is_closed:
+            event_s = self._clock() if host_time_s is None else host_time_s
+            self._backlog.add(RecordedEvent(event_s, kind, text, json.dumps(details or {})))
 
     def run_once(self) -> None:
-        """Write what waits, and wait until the disk has it; nothing happens after `close`."""
-        self._write()
+        """Write waiting data, and wait until they are on the disk; does nothing after a close."""
+        self._write_pending()
         self._sync()
 
     def close(self) -> Path:
@@ -225,70 +237,70 @@ class RecordingWriter:
         Raises
         ------
         RecordingError
-            If that cannot be done; what was recorded stays in ``PATH.part`` to be recovered.
+            If the file cannot be finished. The data stay in ``PATH.part`` and can be recovered.
         """
-        if self._closed:
+        if self._is_closed:
             return self.path
         for ticker in self._tickers:
-            ticker.close(_LONGEST_S)
-        for _ in range(2):  # what the first writes may have something to tell
+            ticker.close(_MAX_CLOSE_S)
+        # The first pass may add events, which the second one writes.
+        for _ in range(2):
             self.run_once()
-        self._closed = True
+        self._is_closed = True
         self._file.close()
         if self.failure is not None:
-            self._tell(
+            self._notify(
                 message(
                     "engine", "{name}: the end of the recording could not be written ({failure})"
                 ).fill(name=self.path.name, failure=self.failure)
             )
-        return merged(self._file.path, self.path)
+        return merge_segments(self._file.path, self.path)
 
-    def _write(self) -> None:
-        """Have what waits outlive this process."""
-        with self._writing:
-            if not self._closed and (not self._waiting or self._append()):
+    def _write_pending(self) -> None:
+        """Write waiting data to the file, so that they survive a crash of this process."""
+        with self._write_lock:
+            if not self._is_closed and (not self._pending_segments or self._append_pending()):
                 self._write_backlog()
 
     def _sync(self) -> None:
-        """Make written data survive a power cut; the disk may take its time."""
-        if self._closed:
+        """Wait until the written data are on the disk, so that they survive a power cut."""
+        if self._is_closed:
             return
         began_s = self._clock()
         try:
             self._file.sync()
         except OSError as error:
-            with self._writing:
-                self._note_failure(error.strerror or str(error))
-        self._note_speed(self._clock() - began_s)
+            with self._write_lock:
+                self._handle_failure(error.strerror or str(error))
+        self._check_duration(self._clock() - began_s)
 
     def _write_backlog(self) -> None:
-        entries = self._backlog.take()
-        lost = self._backlog.take_lost()
-        if lost != Lost():
-            self._gap = message(
+        entries = self._backlog.take_entries()
+        loss = self._backlog.take_lost()
+        if loss != BacklogLoss():
+            self._loss_message = message(
                 "engine", "{samples} samples and {others} other entries are missing"
-            ).fill(samples=lost.samples, others=lost.others)
-            details = json.dumps({"samples": lost.samples, "others": lost.others})
-            entries.append(RecordedEvent(lost.since_s, "recorder", self._gap, details))
-        self._waiting = streams(entries, self._schema)
-        if not self._waiting or self._append():
-            self._note_success()
+            ).fill(samples=loss.samples, others=loss.others)
+            details = json.dumps({"samples": loss.samples, "others": loss.others})
+            entries.append(RecordedEvent(loss.since_s, "recorder", self._loss_message, details))
+        self._pending_segments = encode_streams(entries, self._schema)
+        if not self._pending_segments or self._append_pending():
+            self._handle_success()
 
-    def _append(self) -> bool:
-        """Write the segment that waits; return whether the disk has taken it."""
+    def _append_pending(self) -> bool:
         began_s = self._clock()
         try:
-            self._file.append(*self._waiting)
+            self._file.append(*self._pending_segments)
         except OSError as error:
-            self._note_failure(error.strerror or str(error))
+            self._handle_failure(error.strerror or str(error))
             return False
-        self._waiting = []
-        self._note_speed(self._clock() - began_s)
+        self._pending_segments = []
+        self._check_duration(self._clock() - began_s)
         return True
 
-    def _note_failure(self, reason: str) -> None:
+    def _handle_failure(self, reason: str) -> None:
         if self.failure is None:
-            self._notice(
+            self._record_and_notify(
                 message(
                     "engine",
                     "{name}: the recording has failed ({reason}); the data so far are safe in "
@@ -297,28 +309,28 @@ class RecordingWriter:
             )
         self.failure = reason
 
-    def _note_success(self) -> None:
-        gap, self._gap = self._gap, ""
-        if self.failure is not None or gap:
+    def _handle_success(self) -> None:
+        loss_message, self._loss_message = self._loss_message, ""
+        if self.failure is not None or loss_message:
             self.failure = None
-            what = gap or marked("engine", "nothing is missing")
-            self._notice(
+            summary = loss_message or marked("engine", "nothing is missing")
+            self._record_and_notify(
                 message("engine", "{file}: the recording continues; {what}").fill(
-                    file=self.path.name, what=what
+                    file=self.path.name, what=summary
                 )
             )
 
-    def _note_speed(self, took_s: float) -> None:
-        if took_s > SLOW_S and not self._slow:
-            self._slow = True
-            self._notice(
+    def _check_duration(self, duration_s: float) -> None:
+        if duration_s > SLOW_WRITE_S and not self._has_reported_slow_disk:
+            self._has_reported_slow_disk = True
+            self._record_and_notify(
                 message(
                     "engine",
                     "{name}: the disk took {took_s} s for a segment: a crash or a power cut now "
-                    "could lose more than a second; record to a faster one",
-                ).fill(name=self.path.name, took_s=fixed(took_s, 1))
+                    "could lose more than a second; record to a faster disk",
+                ).fill(name=self.path.name, took_s=format_fixed(duration_s, 1))
             )
 
-    def _notice(self, message: str) -> None:
-        self.event("recorder", message)
-        self._tell(message)
+    def _record_and_notify(self, text: str) -> None:
+        self.add_event("recorder", text)
+        self._notify(text)

@@ -1,49 +1,50 @@
-"""The contact force at the stick: a force on the virtual mass, bounded to stay passive.
+"""Contact force feedback: a force on the virtual mass, limited so that the mechanism stays passive.
 
-A contact is told by the deviation of the real position from the model's (m or rad), or by the force
-on the tip (N), either below 0 where it pushes back against positive motion. A gain g makes a force
-of it, with a soft dead band for what is noise, and a greatest force::
+The contact signal s is the deviation of the real position from that of the model (m or rad), or the
+force on the tip (N). It is negative if the contact pushes back against positive motion. The force
+is s times a gain g, with a soft dead band for noise, and limited to a maximum::
 
-    R = clip(g (|s| − noise)⁺ sgn s, ±most)
+    R = clip(g (|s| − noise)⁺ sgn s, ±max_force)
 
-**Passivity.** The contact itself, a monotone function of the present position, gives no more energy
-than it took. What is fed in is older: known for d s when a step of T s begins, and held over it.
-With the slope k = g · |∂s/∂x| it differs from the present one by at most k ∫|v| over that age, so
-that, by |v v'| ≤ (v² + v'²)/2, it adds at most ``k (d + T/2) ∫ v² dt``. The damper takes
-``D ∫ v² dt``. Hence the mechanism stays passive if::
+**Passivity.** The contact itself is a monotonic function of the current position and returns no
+more energy than it received. The reading that is fed back is older: it is d seconds old when a step
+of T seconds begins, and it is held during the step. With the slope k = g · |∂s/∂x|, the force that
+is fed back differs from the current one by at most k ∫|v| over this age. Because of
+|v v'| ≤ (v² + v'²)/2, this adds at most the energy ``k (d + T/2) ∫ v² dt``. The damper dissipates
+``D ∫ v² dt``. So the mechanism stays passive if::
 
     g · |∂s/∂x| · (d + T/2) ≤ D
 
-(for d = 0 the bound of J. E. Colgate and G. G. Schenkel, *J. Robotic Systems* 14 (1997) 37, for a
-virtual wall without a damper of its own).
+For d = 0 this is the bound of J. E. Colgate and G. G. Schenkel, *J. Robotic Systems* 14 (1997) 37,
+for a virtual wall without damping.
 """
 
 from dataclasses import dataclass
 from math import copysign, isfinite
 
-from rotemina.app.motion.teleoperation.reference import ScalingError
+from rotemina.app.errors import ScalingError
 from rotemina.app.motion.teleoperation.virtual_impedance import VirtualImpedance
-from rotemina.sim.messages import message
-from rotemina.sim.quantities import rounded
+from rotemina.sim.messages import format_rounded
 
 
 @dataclass(frozen=True, slots=True)
-class Contact:
-    """How a contact is reflected.
+class ContactFeedback:
+    """Gain and bounds with which a contact is fed back to the virtual mass.
 
     Attributes
     ----------
     gain : float
-        Force on the virtual mass per unit of what tells of the contact: N/m of deviation, or N/N.
+        Force on the virtual mass per unit of the contact signal: N/m for a deviation, N/N for a
+        force.
     noise : float
-        Dead band of what tells of it, m (rad) or N: at least what it strays without a contact.
-    most : float
-        Greatest force on the virtual mass, N.
+        Dead band of the contact signal, m (rad) or N. It must cover the noise of a free tip.
+    max_force : float
+        Maximum force on the virtual mass, N.
     slope : float
-        How much of what tells of it comes with each metre (or radian) of motion into the contact:
-        1 of a deviation, the contact's stiffness in N/m of a force.
-    longest_step_s, delay_s : float
-        The longest step of the law; how old the reading may be at the step's beginning.
+        Change of the contact signal per metre (or radian) of motion into the contact: 1 for a
+        deviation, the stiffness of the contact in N/m for a force.
+    max_step_s, delay_s : float
+        Longest step of the law, and maximum age of the reading when the step begins.
 
     Raises
     ------
@@ -53,60 +54,52 @@ class Contact:
 
     gain: float
     noise: float
-    most: float
+    max_force: float
     slope: float = 1.0
-    longest_step_s: float = 0.01
+    max_step_s: float = 0.01
     delay_s: float = 0.01
 
     def __post_init__(self) -> None:
-        values = self.gain, self.noise, self.most, self.slope, self.longest_step_s, self.delay_s
+        values = self.gain, self.noise, self.max_force, self.slope, self.max_step_s, self.delay_s
         if not all(map(isfinite, values)) or min(values) < 0.0 or min(values[3:5]) == 0.0:
             raise ScalingError(
-                message(
-                    "engine",
-                    "contact: gain {gain}, noise {noise}, greatest force {most}, slope {slope}, "
-                    "step {longest_step_s} s, delay {delay_s} s: all must be finite and not below "
-                    "0, slope and step above 0",
-                ).fill(
-                    gain=self.gain,
-                    noise=self.noise,
-                    most=self.most,
-                    slope=self.slope,
-                    longest_step_s=self.longest_step_s,
-                    delay_s=self.delay_s,
-                )
+                "contact: gain {gain}, noise {noise}, greatest force {most}, slope {slope}, "
+                "step {longest_step_s} s, delay {delay_s} s: all must be finite and not below "
+                "0, slope and step above 0",
+                gain=self.gain,
+                noise=self.noise,
+                most=self.max_force,
+                slope=self.slope,
+                longest_step_s=self.max_step_s,
+                delay_s=self.delay_s,
             )
 
-    def force(self, sensed: float) -> float:
-        """Return the force on the virtual mass, N."""
-        size = self.gain * max(abs(sensed) - self.noise, 0.0)
-        return copysign(min(size, self.most), sensed)
+    def compute_force(self, contact_signal: float) -> float:
+        """Return the force on the virtual mass for a contact signal, N."""
+        magnitude = self.gain * max(abs(contact_signal) - self.noise, 0.0)
+        return copysign(min(magnitude, self.max_force), contact_signal)
 
-    def greatest_gain(self, impedance: VirtualImpedance) -> float:
-        """Return the greatest gain at which an impedance stays passive."""
-        return impedance.damping / (self.slope * (self.delay_s + 0.5 * self.longest_step_s))
+    def compute_max_gain(self, impedance: VirtualImpedance) -> float:
+        """Return the highest gain with which an impedance stays passive."""
+        return impedance.damping / (self.slope * (self.delay_s + 0.5 * self.max_step_s))
 
-    def check(self, impedance: VirtualImpedance) -> None:
-        """Refuse a gain at which an impedance might give more energy than it was given.
+    def check_passivity(self, impedance: VirtualImpedance) -> None:
+        """Refuse a gain with which an impedance might release more energy than it received.
 
         Raises
         ------
         ScalingError
-            With the greatest gain that is allowed.
+            If the gain is too high. The message names the highest permitted gain.
         """
-        most = self.greatest_gain(impedance)
-        if self.gain > most * (1.0 + 1e-9):
+        max_gain = self.compute_max_gain(impedance)
+        if self.gain > max_gain * (1.0 + 1e-9):
             raise ScalingError(
-                message(
-                    "engine",
-                    "contact: with gain {gain} the stick's mechanism might release more "
-                    "energy than it received: at most {most} is permitted with a damping of "
-                    "{damping} N s/m and readings {delay_s} ms old; lower the gain or raise "
-                    "the damping",
-                ).fill(
-                    gain=rounded(self.gain, 6),
-                    most=rounded(most, 6),
-                    damping=rounded(impedance.damping, 6),
-                    delay_s=rounded(1000.0 * self.delay_s, 3),
-                )
+                "contact: with gain {gain} the stick's mechanism might release more "
+                "energy than it received: at most {most} is permitted with a damping of "
+                "{damping} N s/m and readings {delay_s} ms old; lower the gain or raise "
+                "the damping",
+                gain=format_rounded(self.gain, 6),
+                most=format_rounded(max_gain, 6),
+                damping=format_rounded(impedance.damping, 6),
+                delay_s=format_rounded(1000.0 * self.delay_s, 3),
             )

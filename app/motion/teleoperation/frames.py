@@ -1,9 +1,10 @@
-"""Frames: the mapping of an operator's coordinates to joints, in one mode.
+"""Frames: mappings of the operator's coordinates to joints, one for each mode.
 
-A frame is anchored at the joints where its mode begins: its coordinates there are its ``start``,
-and :meth:`Frame.joints` of them are the very joints. So to switch modes moves nothing: begin the
-new frame at the present commands, and the laws at its ``start`` with the speed that
-:meth:`Frame.velocities` tells.
+A frame is anchored at the joint positions where its mode begins. Its coordinates there are its
+``start``, and :meth:`SteeringFrame.compute_joints` maps ``start`` exactly to these joints.
+Therefore a change of modes does not move the machine: the new frame begins at the current commands,
+and the laws begin at its ``start`` with the speeds from
+:meth:`SteeringFrame.compute_coordinate_speeds`.
 """
 
 from abc import ABC, abstractmethod
@@ -12,90 +13,93 @@ from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Self
 
-from rotemina.app.motion.teleoperation.reference import Bounds
-from rotemina.sim.errors import InputError
-from rotemina.sim.messages import AxisName, joined, message
-from rotemina.sim.robot.model import Robot
-from rotemina.sim.trajectory.setpoint_limits import SetpointLimits
+from rotemina.app.errors import FrameError
+from rotemina.app.motion.teleoperation.reference import CoordinateBounds
+from rotemina.sim.messages import (
+    AxisName,
+    join_messages,
+)
+from rotemina.sim.robot import Robot
+from rotemina.sim.trajectory import SetpointLimits
 
-Values = Mapping[str, float]
-
-
-class FrameError(InputError):
-    """A mode that a robot cannot have, or joints that it cannot begin at."""
+NamedValues = Mapping[str, float]
 
 
 @dataclass(frozen=True, slots=True)
-class Coordinate:
-    """One degree of freedom of a mode: its name, m or rad, its bounds, where the mode began."""
+class FrameCoordinate:
+    """Coordinate of a mode: name, unit (m or rad), bounds, and value where the mode begins."""
 
     name: str
     unit: str
-    bounds: Bounds
+    bounds: CoordinateBounds
     start: float
 
     @classmethod
-    def of(cls, name: str, unit: str, bounds: Bounds, start: float) -> Self:
-        """Return a coordinate whose range holds its start, which rounding may put beside it."""
+    def including_start(cls, name: str, unit: str, bounds: CoordinateBounds, start: float) -> Self:
+        """Return a coordinate whose range includes its start in spite of rounding errors."""
         low, high = min(bounds.low, start), max(bounds.high, start)
         return cls(name, unit, replace(bounds, low=low, high=high), start)
 
 
-class Frame(ABC):
-    """What coordinates mean for joints.
+class SteeringFrame(ABC):
+    """Mapping of the coordinates of a mode to joints.
 
     Attributes
     ----------
     name : str
-        Of the mode.
-    coordinates : mapping of str to Coordinate
-        In the order in which the axes x, y, z of a stick move them, unless a profile says
-        otherwise.
+        Name of the mode.
+    coordinates : mapping of str to FrameCoordinate
+        Coordinates by name. The axes x, y, z of a stick move them in this order, unless a profile
+        says otherwise.
     axes : tuple of str
-        The robot's axes that the mode moves; the others stay.
+        The robot's axes that the mode moves. The others stand still.
     """
 
     def __init__(
-        self, name: str, coordinates: tuple[Coordinate, ...], axes: tuple[str, ...]
+        self, name: str, coordinates: tuple[FrameCoordinate, ...], axes: tuple[str, ...]
     ) -> None:
         self.name = name
-        self.coordinates = MappingProxyType({one.name: one for one in coordinates})
+        self.coordinates = MappingProxyType(
+            {coordinate.name: coordinate for coordinate in coordinates}
+        )
         self.axes = axes
 
     @property
     def start(self) -> dict[str, float]:
-        """The coordinates where the mode began."""
-        return {name: one.start for name, one in self.coordinates.items()}
+        """The coordinates at which the mode began."""
+        return {name: coordinate.start for name, coordinate in self.coordinates.items()}
 
     @abstractmethod
-    def joints(self, coordinates: Values) -> dict[str, float]:
-        """Return where the axes are, m or rad, for all coordinates; inside their ranges."""
+    def compute_joints(self, coordinates: NamedValues) -> dict[str, float]:
+        """Return the axis positions for given coordinates, m or rad, clipped to the ranges."""
 
     @abstractmethod
-    def speeds(self, coordinates: Values, velocities: Values) -> dict[str, float]:
-        """Return how fast the axes go where the coordinates change so fast, per s."""
+    def compute_axis_speeds(
+        self, coordinates: NamedValues, velocities: NamedValues
+    ) -> dict[str, float]:
+        """Return the axis speeds for given coordinates and their velocities, per s."""
 
     @abstractmethod
-    def velocities(self, speeds: Values) -> dict[str, float]:
-        """Return how fast the coordinates change at the start when axes go so fast.
+    def compute_coordinate_speeds(self, speeds: NamedValues) -> dict[str, float]:
+        """Return the velocities of the coordinates at the start for given axis speeds.
 
-        What the axes do that no coordinate describes is left out; it has to be braked.
+        Motion that no coordinate describes is left out; the caller must stop it.
         """
 
-    def reserve(self, coordinates: Values) -> float | None:
-        """Return how much of its range a piezo still has: 1 in the middle, 0 at an end.
+    def compute_reserve(self, coordinates: NamedValues) -> float | None:
+        """Return the remaining range of the piezos: 1 in mid-range, 0 at an end.
 
-        None where no piezo shares the motion.
+        Return None if no piezo takes part in the motion.
         """
         return None
 
-    def tilt(self, coordinates: Values) -> float | None:
-        """Return by how much the tool has been turned since the start, rad; None: not by this."""
+    def compute_tilt(self, coordinates: NamedValues) -> float | None:
+        """Return the angle by which the mode has turned the tool, rad; None if it never turns."""
         return None
 
 
-class AxesFrame(Frame):
-    """Each coordinate is an axis: the frame of one stage.
+class AxesFrame(SteeringFrame):
+    """Frame of one stage, in which each coordinate is an axis.
 
     Parameters
     ----------
@@ -103,55 +107,60 @@ class AxesFrame(Frame):
     name : str
     axes : tuple of str
     joints : mapping of str to float
-        Where the axes are, m or rad.
+        Current axis positions, m or rad.
 
     Raises
     ------
     FrameError
-        If the place of an axis is not known.
+        If the position of an axis is not known.
     """
 
-    def __init__(self, robot: Robot, name: str, axes: tuple[str, ...], joints: Values) -> None:
-        check_known(axes, joints)
-        bounds = axis_bounds(robot)
+    def __init__(self, robot: Robot, name: str, axes: tuple[str, ...], joints: NamedValues) -> None:
+        check_positions_known(axes, joints)
+        bounds = find_axis_bounds(robot)
         coordinates = tuple(
-            Coordinate(axis, robot.unit(axis) or "m", bounds[axis], bounds[axis].clip(joints[axis]))
+            FrameCoordinate(
+                axis, robot.unit(axis) or "m", bounds[axis], bounds[axis].clip(joints[axis])
+            )
             for axis in axes
         )
         super().__init__(name, coordinates, axes)
 
-    def joints(self, coordinates: Values) -> dict[str, float]:
-        """Return the coordinates themselves."""
-        return {a: self.coordinates[a].bounds.clip(coordinates[a]) for a in self.axes}
+    def compute_joints(self, coordinates: NamedValues) -> dict[str, float]:
+        """Return the coordinates, clipped to the ranges of the axes."""
+        return {axis: self.coordinates[axis].bounds.clip(coordinates[axis]) for axis in self.axes}
 
-    def speeds(self, coordinates: Values, velocities: Values) -> dict[str, float]:
+    def compute_axis_speeds(
+        self, coordinates: NamedValues, velocities: NamedValues
+    ) -> dict[str, float]:
         """Return the velocities themselves."""
         return {axis: velocities[axis] for axis in self.axes}
 
-    def velocities(self, speeds: Values) -> dict[str, float]:
+    def compute_coordinate_speeds(self, speeds: NamedValues) -> dict[str, float]:
         """Return the speeds themselves."""
         return {axis: speeds.get(axis, 0.0) for axis in self.axes}
 
 
-def axis_bounds(robot: Robot) -> dict[str, Bounds]:
-    """Return the bounds of each axis as the devices keep them, also where none are declared."""
+def find_axis_bounds(robot: Robot) -> dict[str, CoordinateBounds]:
+    """Return the bounds that devices apply to each axis, even if the robot file declares none."""
     limits = SetpointLimits.of(robot)
     rows = zip(limits.low, limits.high, limits.speed, limits.acceleration, strict=True)
-    return {axis: Bounds(*map(float, row)) for axis, row in zip(robot.axes, rows, strict=True)}
+    return {
+        axis: CoordinateBounds(*map(float, row)) for axis, row in zip(robot.axes, rows, strict=True)
+    }
 
 
-def check_known(axes: tuple[str, ...], joints: Values) -> None:
-    """Refuse to begin a mode at joints of which one is not known.
+def check_positions_known(axes: tuple[str, ...], joints: NamedValues) -> None:
+    """Refuse to begin a mode if the position of an axis is not known.
 
     Raises
     ------
     FrameError
-        With the axes that are missing.
+        If positions are missing. The message names their axes.
     """
     missing = [axis for axis in axes if axis not in joints]
     if missing:
         raise FrameError(
-            message(
-                "engine", "mode: the position of axis {names} is not known; connect and home first"
-            ).fill(names=joined(map(AxisName, missing), ", "))
+            "mode: the position of axis {names} is not known; connect and home first",
+            names=join_messages(map(AxisName, missing), ", "),
         )

@@ -1,27 +1,28 @@
-"""Linear laws: the robot's coordinate, or its speed, is the stick's deflection times a scale.
+"""Linear laws: a coordinate, or its speed, is proportional to the deflection of the stick.
 
-    x_R = x_0 + α φ          (the paper's x_R,i = α_i φ_j,i, from an anchor x_0)
-    ẋ_R = α φ                with the coordinate's greatest acceleration on the way to that speed
+    x_R = x_0 + α φ          (x_R,i = α_i φ_j,i of the paper, from an anchor x_0)
+    ẋ_R = α φ                reached at the maximum acceleration of the coordinate
 
-The anchor is such that starting moves nothing, whatever the deflection: so a clutch does.
+The anchor is chosen so that the start of a law moves nothing, whatever the deflection. A clutch
+works in the same way.
 """
 
 from math import isfinite
 from typing import ClassVar
 
-from rotemina.app.motion.teleoperation.reference import Bounds, Motion, ScalingError
+from rotemina.app.errors import ScalingError
+from rotemina.app.motion.teleoperation.reference import CoordinateBounds, ReferenceMotion
 from rotemina.app.motion.teleoperation.scaling import ScalingLaw
-from rotemina.sim.messages import message
 
 
 class LinearLaw(ScalingLaw):
-    """A law with a scale; a negative one turns the direction round.
+    """Law with a scale. A negative scale reverses the direction.
 
     Parameters
     ----------
-    bounds : Bounds
+    bounds : CoordinateBounds
     scale : float
-        α, for full deflection.
+        α, the distance or speed at full deflection.
 
     Raises
     ------
@@ -31,62 +32,60 @@ class LinearLaw(ScalingLaw):
 
     name: ClassVar[str]
 
-    def __init__(self, bounds: Bounds, scale: float) -> None:
+    def __init__(self, bounds: CoordinateBounds, scale: float) -> None:
         super().__init__(bounds)
         if not isfinite(scale) or scale == 0.0:
             raise ScalingError(
-                message("engine", "{what}: scale {scale} must be finite and not 0").fill(
-                    what=self.name, scale=scale
-                )
+                "{what}: scale {scale} must be finite and not 0", what=self.name, scale=scale
             )
         self.scale = scale
 
     @property
-    def _asked(self) -> float:
+    def _scaled_deflection(self) -> float:
         return self.factor * self.scale * self._deflection
 
 
-class LinearPosition(LinearLaw):
-    """Follow the stick as fast as the bounds allow, without passing where it points.
+class LinearPositionLaw(LinearLaw):
+    """Law in which the deflection sets a target, which the coordinate follows without overshoot.
 
-    The scale is the way of the coordinate, m or rad.
+    The scale is a distance, m or rad.
     """
 
     name = "linear position"
 
-    def __init__(self, bounds: Bounds, scale: float) -> None:
+    def __init__(self, bounds: CoordinateBounds, scale: float) -> None:
         super().__init__(bounds, scale)
         self._origin = self._motion.position
 
     @property
     def target(self) -> float:
-        """Where the stick points, inside the range."""
-        return self.bounds.clip(self._origin + self._asked)
+        """Target that the stick sets, clipped to the range."""
+        return self.bounds.clip(self._origin + self._scaled_deflection)
 
-    def _anchor(self) -> None:
-        # A motion under way ends where it can, and does not come back from there.
-        self._origin = self.bounds.stopping_place(self._motion) - self._asked
+    def _set_anchor(self) -> None:
+        # The target is where the current motion can stop, so that it does not reverse.
+        self._origin = self.bounds.find_stopping_position(self._motion) - self._scaled_deflection
 
-    def _step(self, dt: float, reaction: float) -> Motion:
-        return self.bounds.toward(self._motion, self.target, dt)
+    def _step(self, dt: float, reaction: float) -> ReferenceMotion:
+        return self.bounds.step_toward(self._motion, self.target, dt)
 
     def _rescale(self, factor: float) -> None:
-        self._origin += self._asked * (1.0 - factor / self.factor)
+        self._origin += self._scaled_deflection * (1.0 - factor / self.factor)
 
 
-class LinearRate(LinearLaw):
-    """Go at the speed that the stick asks for; in the middle it halts.
+class LinearRateLaw(LinearLaw):
+    """Law in which the deflection sets the speed; with the stick centred the coordinate halts.
 
     The scale is a speed, m/s or rad/s.
     """
 
     name = "linear rate"
 
-    def _anchor(self) -> None:
-        """Nothing: a speed has no index."""
+    def _set_anchor(self) -> None:
+        """Do nothing, because a speed has no anchor."""
 
-    def _step(self, dt: float, reaction: float) -> Motion:
-        return self.bounds.at_speed(self._motion, self._asked, dt)
+    def _step(self, dt: float, reaction: float) -> ReferenceMotion:
+        return self.bounds.step_at_speed(self._motion, self._scaled_deflection, dt)
 
     def _rescale(self, factor: float) -> None:
-        """Nothing: the acceleration bound makes the change smooth."""
+        """Do nothing, because the acceleration bound makes the change smooth."""

@@ -1,44 +1,40 @@
-"""A reference within range, speed and acceleration that the machine can follow.
+"""A reference within limits of range, speed and acceleration, so that the machine can follow it.
 
-Between two steps the reference is some motion whose acceleration stays within its bound ``a``. That
-is so where the change of speed Δv over a step dt, and the way, satisfy::
+Between two steps, the acceleration of the reference stays within its limit ``a``. Such a motion
+exists if the change of speed Δv and the distance Δx over a step dt satisfy::
 
-    |Δv| ≤ a dt,      |way − (v + v')/2 · dt| ≤ (a² dt² − Δv²) / (4 a)
+    |Δv| ≤ a dt,      |Δx − (v + v')/2 · dt| ≤ (a² dt² − Δv²) / (4 a)
 
-and it can always still stop inside the range: ``x + v²/(2a) ≤ high`` and likewise at the low end.
-Both hold whatever is wished, and however the steps vary. Source: reachable set of the double
-integrator, e.g. A. E. Bryson and Y.-C. Ho, *Applied Optimal Control* (1975).
+In addition, the reference can always stop inside the range: ``x + v²/(2a) ≤ high``, and likewise at
+the low end. Both conditions hold for any target and any sequence of steps. Source: reachable set of
+the double integrator, e.g. A. E. Bryson and Y.-C. Ho, *Applied Optimal Control* (1975).
 
-A target, and an end of the range, is approached no faster than ``gap/T`` as well. The machine is
-told speeds, and each acts until the next one has come over the line: a brisk axis that braked as
-late as it may would be told to stop when it has long gone by.
+A target, or an end of the range, is also approached no faster than ``gap/T``. The machine receives
+speeds, and each one acts until the next one arrives. A fast axis that braked as late as possible
+would receive its stop only after it had passed the target.
 """
 
 from dataclasses import dataclass
 from math import isfinite, sqrt
 from typing import NamedTuple
 
-from rotemina.sim.errors import InputError
-from rotemina.sim.messages import message
-from rotemina.sim.quantities import rounded
+from rotemina.app.errors import ScalingError
+from rotemina.sim.messages import format_rounded
 
-APPROACH_S = 0.05  # T: several steps of the loop and turns of the line
-
-
-class ScalingError(InputError):
-    """A law or its parameters that an axis cannot be driven by."""
+# This is T. It covers several steps of the loop and several exchanges with the device.
+APPROACH_TIME_CONSTANT_S = 0.05
 
 
-class Motion(NamedTuple):
-    """Where a reference is, m or rad, and how fast it goes, per s."""
+class ReferenceMotion(NamedTuple):
+    """Position of a reference, m or rad, and its velocity, per s."""
 
     position: float
     velocity: float
 
 
 @dataclass(frozen=True, slots=True)
-class Bounds:
-    """What a coordinate's reference keeps to: m or rad, per s, per s².
+class CoordinateBounds:
+    """Limits of a coordinate's reference: range, m or rad, speed, per s, and acceleration, per s².
 
     Raises
     ------
@@ -55,95 +51,108 @@ class Bounds:
         values = self.low, self.high, self.max_speed, self.max_acceleration
         if not all(map(isfinite, values)) or self.low > self.high or min(values[2:]) <= 0.0:
             raise ScalingError(
-                message(
-                    "engine",
-                    "bounds: range {low} to {high}, speed {max_speed}, acceleration "
-                    "{max_acceleration}: they must be finite, the range not empty, speed and "
-                    "acceleration above 0",
-                ).fill(
-                    low=rounded(self.low, 6),
-                    high=rounded(self.high, 6),
-                    max_speed=rounded(self.max_speed, 6),
-                    max_acceleration=rounded(self.max_acceleration, 6),
-                )
+                "bounds: range {low} to {high}, speed {max_speed}, acceleration "
+                "{max_acceleration}: they must be finite, the range not empty, speed and "
+                "acceleration above 0",
+                low=format_rounded(self.low, 6),
+                high=format_rounded(self.high, 6),
+                max_speed=format_rounded(self.max_speed, 6),
+                max_acceleration=format_rounded(self.max_acceleration, 6),
             )
 
     def clip(self, position: float) -> float:
         """Return the nearest position inside the range."""
         return min(max(position, self.low), self.high)
 
-    def begin(self, position: float, velocity: float) -> Motion:
-        """Return the nearest motion that can be gone on with: it may still stop in the range."""
+    def limit_motion(self, position: float, velocity: float) -> ReferenceMotion:
+        """Return the nearest motion that can still stop inside the range."""
         position = self.clip(position)
-        up = sqrt(2.0 * self.max_acceleration * (self.high - position))
-        down = sqrt(2.0 * self.max_acceleration * (position - self.low))
-        fastest = self.max_speed
-        return Motion(position, min(max(velocity, -fastest, -down), fastest, up))
+        max_upward_speed = sqrt(2.0 * self.max_acceleration * (self.high - position))
+        max_downward_speed = sqrt(2.0 * self.max_acceleration * (position - self.low))
+        max_speed = self.max_speed
+        return ReferenceMotion(
+            position,
+            min(max(velocity, -max_speed, -max_downward_speed), max_speed, max_upward_speed),
+        )
 
-    def stopping_place(self, motion: Motion) -> float:
-        """Return where a motion comes to rest under full braking."""
+    def find_stopping_position(self, motion: ReferenceMotion) -> float:
+        """Return the position at which a motion comes to rest under full braking."""
         position, velocity = motion
         return position + velocity * abs(velocity) / (2.0 * self.max_acceleration)
 
-    def speed(self, motion: Motion, wanted: float, dt: float) -> float:
-        """Return the speed after ``dt`` s that is nearest to the wanted."""
+    def limit_speed(self, motion: ReferenceMotion, target_speed: float, dt: float) -> float:
+        """Return the reachable speed after ``dt`` s that is nearest to a target speed."""
         position, velocity = motion
-        most = self.max_acceleration * dt
-        up = self.approach_speed(self.high - position, velocity, dt)
-        down = -self.approach_speed(position - self.low, -velocity, dt)
-        wanted = min(max(wanted, -self.max_speed, down), self.max_speed, up)
-        return min(max(wanted, velocity - most), velocity + most)
+        max_change = self.max_acceleration * dt
+        max_velocity = self.compute_approach_speed(self.high - position, velocity, dt)
+        min_velocity = -self.compute_approach_speed(position - self.low, -velocity, dt)
+        target_speed = min(
+            max(target_speed, -self.max_speed, min_velocity), self.max_speed, max_velocity
+        )
+        return min(max(target_speed, velocity - max_change), velocity + max_change)
 
-    def place(
-        self, motion: Motion, velocity: float, dt: float, wanted: float | None = None
+    def find_position(
+        self, motion: ReferenceMotion, velocity: float, dt: float, target: float | None = None
     ) -> float:
-        """Return the position after ``dt`` s nearest to the wanted, at a speed from :meth:`speed`.
+        """Return the reachable position after ``dt`` s that is nearest to a target.
 
-        Without a wanted the speed changes evenly on the way.
+        ``velocity`` is the velocity at that time, from :meth:`limit_speed`. Without a target the
+        velocity changes linearly over the step.
         """
-        most = self.max_acceleration
-        middle = motion.position + 0.5 * (motion.velocity + velocity) * dt
-        room = (most * dt) ** 2 - (velocity - motion.velocity) ** 2
-        room = max(room, 0.0) / (4.0 * most)
-        braking = velocity**2 / (2.0 * most)
-        place = middle if wanted is None else min(max(wanted, middle - room), middle + room)
-        low = self.low + (braking if velocity < 0.0 else 0.0)
-        high = self.high - (braking if velocity > 0.0 else 0.0)
-        return self.clip(min(max(place, low), high))
+        acceleration = self.max_acceleration
+        uniform_position = motion.position + 0.5 * (motion.velocity + velocity) * dt
+        max_deviation = (acceleration * dt) ** 2 - (velocity - motion.velocity) ** 2
+        max_deviation = max(max_deviation, 0.0) / (4.0 * acceleration)
+        braking_distance = velocity**2 / (2.0 * acceleration)
+        position = (
+            uniform_position
+            if target is None
+            else min(
+                max(target, uniform_position - max_deviation), uniform_position + max_deviation
+            )
+        )
+        low = self.low + (braking_distance if velocity < 0.0 else 0.0)
+        high = self.high - (braking_distance if velocity > 0.0 else 0.0)
+        return self.clip(min(max(position, low), high))
 
-    def at_speed(self, motion: Motion, speed: float, dt: float) -> Motion:
-        """Go over to a speed as fast as allowed."""
-        velocity = self.speed(motion, speed, dt)
-        return Motion(self.place(motion, velocity, dt), velocity)
+    def step_at_speed(self, motion: ReferenceMotion, speed: float, dt: float) -> ReferenceMotion:
+        """Return the motion after a step towards a speed, within the limits."""
+        velocity = self.limit_speed(motion, speed, dt)
+        return ReferenceMotion(self.find_position(motion, velocity, dt), velocity)
 
-    def toward(self, motion: Motion, target: float, dt: float) -> Motion:
-        """Go to a target as fast as it may be approached; not past it where that is possible."""
+    def step_toward(self, motion: ReferenceMotion, target: float, dt: float) -> ReferenceMotion:
+        """Return the motion after a step towards a target, without overshoot if possible."""
         target = self.clip(target)
         gap = target - motion.position
         if gap >= 0.0:
-            wanted = self.approach_speed(gap, motion.velocity, dt)
+            target_speed = self.compute_approach_speed(gap, motion.velocity, dt)
         else:
-            wanted = -self.approach_speed(-gap, -motion.velocity, dt)
-        velocity = self.speed(motion, wanted, dt)
-        if wanted == 0.0 and velocity == 0.0:
-            return Motion(self._landing(motion, target, dt), 0.0)
-        return Motion(self.place(motion, velocity, dt), velocity)
+            target_speed = -self.compute_approach_speed(-gap, -motion.velocity, dt)
+        velocity = self.limit_speed(motion, target_speed, dt)
+        if target_speed == 0.0 and velocity == 0.0:
+            return ReferenceMotion(self._find_end_position(motion, target, dt), 0.0)
+        return ReferenceMotion(self.find_position(motion, velocity, dt), velocity)
 
-    def approach_speed(self, gap: float, velocity: float, dt: float) -> float:
-        """Return the greatest speed after ``dt`` s, per s, at which ``gap`` may be approached.
+    def compute_approach_speed(self, gap: float, velocity: float, dt: float) -> float:
+        """Return the highest speed v' after ``dt`` s at which to approach a target at ``gap``.
 
-        It is the lesser of v' that solves ``(v + v') dt/2 + v'²/(2a) = gap``, from which one still
-        stops within the gap, and that of ``(v + v') dt/2 + v' T = gap``, at which what then is left
-        lasts for T; 0 where the motion must end within the step.
+        It is the smaller of two solutions. With ``(v + v') dt/2 + v'²/(2a) = gap`` the motion can
+        still stop within the gap. With ``(v + v') dt/2 + v' T = gap`` the remaining gap would be
+        covered in T. The speed is 0 if the motion must end within the step.
         """
-        half = 0.5 * self.max_acceleration * dt
-        square = half**2 + self.max_acceleration * (2.0 * gap - velocity * dt)
-        stopping = sqrt(max(square, 0.0)) - half
-        slowing = (gap - 0.5 * velocity * dt) / (APPROACH_S + 0.5 * dt)
-        return max(min(stopping, slowing), 0.0)
+        half_speed_change = 0.5 * self.max_acceleration * dt
+        speed_squared = half_speed_change**2 + self.max_acceleration * (2.0 * gap - velocity * dt)
+        stoppable_speed = sqrt(max(speed_squared, 0.0)) - half_speed_change
+        decaying_speed = (gap - 0.5 * velocity * dt) / (APPROACH_TIME_CONSTANT_S + 0.5 * dt)
+        return max(min(stoppable_speed, decaying_speed), 0.0)
 
-    def _landing(self, motion: Motion, target: float, dt: float) -> float:
-        """Return where a motion that ends within the step does: on the target if it can."""
-        hard = self.stopping_place(motion)
-        soft = motion.position + 0.5 * motion.velocity * dt
-        return self.clip(min(max(target, min(hard, soft)), max(hard, soft)))
+    def _find_end_position(self, motion: ReferenceMotion, target: float, dt: float) -> float:
+        """Return where a motion ends that stops within the step, at the target if possible."""
+        end_of_hard_stop = self.find_stopping_position(motion)
+        end_of_soft_stop = motion.position + 0.5 * motion.velocity * dt
+        return self.clip(
+            min(
+                max(target, min(end_of_hard_stop, end_of_soft_stop)),
+                max(end_of_hard_stop, end_of_soft_stop),
+            )
+        )

@@ -1,99 +1,101 @@
-"""Scaling of a stick's deflection to the motion of a coordinate: the base of all scaling laws.
+"""Base of the scaling laws, which turn the deflection of a stick into motion of a coordinate.
 
-The laws: :mod:`~rotemina.app.motion.teleoperation.linear_laws` and ``impedance``, one instance for
-each degree of freedom. A law is switched by starting the new one with the old one's motion.
+The laws are in :mod:`~rotemina.app.motion.teleoperation.linear_laws` and ``impedance``. Each
+coordinate has its own law object. To change the law, start the new one with the motion of the old
+one.
 """
 
 from abc import ABC, abstractmethod
 from math import isfinite
 from typing import final
 
-from rotemina.app.motion.teleoperation.reference import Bounds, Motion, ScalingError
-from rotemina.sim.messages import message
+from rotemina.app.errors import ScalingError
+from rotemina.app.motion.teleoperation.reference import CoordinateBounds, ReferenceMotion
 
-FINE, COARSE = 0.1, 10.0
-#: Factors on a law's own scale that an operator steps through.
+FINE_FACTOR, COARSE_FACTOR = 0.1, 10.0
+#: Factors by which the operator can multiply the scale of a law.
 STEP_PRESETS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
 
 
-def next_preset(factor: float) -> float:
-    """Return the next greater factor of :data:`STEP_PRESETS`, the least after the greatest."""
-    return next((one for one in STEP_PRESETS if one > factor * (1.0 + 1e-9)), STEP_PRESETS[0])
+def find_next_preset(factor: float) -> float:
+    """Return the next larger factor of :data:`STEP_PRESETS`, or the smallest after the largest."""
+    return next(
+        (preset for preset in STEP_PRESETS if preset > factor * (1.0 + 1e-9)), STEP_PRESETS[0]
+    )
 
 
 class ScalingLaw(ABC):
-    """The motion that a stick makes of one coordinate; it begins at rest at the range's middle.
+    """Law that turns a stick's deflection into the motion of one coordinate.
 
-    Whatever comes in, the motion keeps to the bounds, and starting, switching of scale and holding
-    make no step in position.
+    The motion begins at rest in the middle of the range, and stays within the limits for any input.
+    The position does not jump at a start, a change of scale or a hold.
 
     Parameters
     ----------
-    bounds : Bounds
-        Of the coordinate.
+    bounds : CoordinateBounds
+        Limits of the coordinate.
     """
 
-    def __init__(self, bounds: Bounds) -> None:
+    def __init__(self, bounds: CoordinateBounds) -> None:
         self.bounds = bounds
-        self._motion = Motion(0.5 * (bounds.low + bounds.high), 0.0)
+        self._motion = ReferenceMotion(0.5 * (bounds.low + bounds.high), 0.0)
         self._deflection = 0.0
         self._factor = 1.0
 
     @property
-    def motion(self) -> Motion:
-        """Where the reference is and how fast it goes."""
+    def motion(self) -> ReferenceMotion:
+        """Current position and velocity of the reference."""
         return self._motion
 
     @property
     def factor(self) -> float:
-        """The factor on the law's own scale: fine, coarse, or a step preset."""
+        """Factor by which fine, coarse and the step preset multiply the scale of the law."""
         return self._factor
 
     @final
-    def start(self, position: float, velocity: float, deflection: float) -> Motion:
-        """Continue from a motion, with the stick where it is; also re-indexes after a clutch.
+    def start(self, position: float, velocity: float, deflection: float) -> ReferenceMotion:
+        """Continue from a motion with the stick at a deflection, for example after a clutch.
 
-        A position outside the range counts as its end, a speed that could not be braked in the
-        range is reduced.
+        A position outside the range is moved to the nearest end. A speed from which the motion
+        could not stop inside the range is reduced.
         """
-        self._motion = self.bounds.begin(position, velocity)
-        self._deflection = _deflection(deflection)
-        self._anchor()
+        self._motion = self.bounds.limit_motion(position, velocity)
+        self._deflection = _clip_deflection(deflection)
+        self._set_anchor()
         return self._motion
 
     @final
-    def step(self, deflection: float, dt: float, reaction: float = 0.0) -> Motion:
-        """Advance by ``dt`` s with a deflection of −1 to 1; a dt of 0 leaves all as it is.
+    def step(self, deflection: float, dt: float, reaction: float = 0.0) -> ReferenceMotion:
+        """Advance by ``dt`` s with a deflection of −1 to 1; a ``dt`` of 0 changes nothing.
 
-        ``reaction`` is what a contact is felt by; only the impedance law heeds it.
+        ``reaction`` is the contact signal. Only the impedance law uses it.
 
         Raises
         ------
         ScalingError
-            If deflection or reaction is not finite, or dt is not, or below 0.
+            If an argument is not finite, or ``dt`` is negative.
         """
         if not (isfinite(dt) and isfinite(reaction)) or dt < 0.0:
             raise ScalingError(
-                message(
-                    "engine",
-                    "scaling: step of {dt} s with a reaction of {reaction}: both must be "
-                    "finite, the step 0 or more",
-                ).fill(dt=dt, reaction=reaction)
+                "scaling: step of {dt} s with a reaction of {reaction}: both must be "
+                "finite, the step 0 or more",
+                dt=dt,
+                reaction=reaction,
             )
-        self._deflection = _deflection(deflection)
+        self._deflection = _clip_deflection(deflection)
         if dt > 0.0:
             self._motion = self._step(dt, reaction)
         return self._motion
 
     @final
-    def hold(self, position: float, velocity: float = 0.0) -> Motion:
-        """Note that the machine is only there: the reference does not run ahead of it."""
-        self._motion = self.bounds.begin(position, velocity)
+    def hold_at(self, position: float, velocity: float = 0.0) -> ReferenceMotion:
+        """Set the reference back to the position of the machine, so that it does not run ahead."""
+        self._motion = self.bounds.limit_motion(position, velocity)
         return self._motion
 
     @final
     def rescale(self, factor: float) -> None:
-        """Multiply the law's own scale by a factor, also in mid-move.
+        """Multiply the scale of the law by a factor, also during a motion.
 
         Raises
         ------
@@ -101,32 +103,24 @@ class ScalingLaw(ABC):
             If the factor is not finite or not above 0.
         """
         if not isfinite(factor) or factor <= 0.0:
-            raise ScalingError(
-                message("engine", "scaling: factor {factor} must be finite and above 0").fill(
-                    factor=factor
-                )
-            )
+            raise ScalingError("scaling: factor {factor} must be finite and above 0", factor=factor)
         self._rescale(factor)
         self._factor = factor
 
     @abstractmethod
-    def _anchor(self) -> None:
-        """Index again, for the present motion and deflection."""
+    def _set_anchor(self) -> None:
+        pass
 
     @abstractmethod
-    def _step(self, dt: float, reaction: float) -> Motion:
-        """Return the motion after ``dt``."""
+    def _step(self, dt: float, reaction: float) -> ReferenceMotion:
+        pass
 
     @abstractmethod
     def _rescale(self, factor: float) -> None:
-        """Prepare for another factor; ``factor`` still is the old one."""
+        """Prepare for another factor; ``self.factor`` is still the previous one."""
 
 
-def _deflection(value: float) -> float:
+def _clip_deflection(value: float) -> float:
     if not isfinite(value):
-        raise ScalingError(
-            message("engine", "scaling: the deflection {value} is not a finite number").fill(
-                value=value
-            )
-        )
+        raise ScalingError("scaling: the deflection {value} is not a finite number", value=value)
     return min(max(value, -1.0), 1.0)

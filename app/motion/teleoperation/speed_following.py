@@ -1,4 +1,4 @@
-"""Following of a reference by speeds."""
+"""Control of axes by speed commands so that they follow a reference."""
 
 from bisect import bisect_right
 from collections import deque
@@ -9,103 +9,125 @@ from operator import itemgetter
 import numpy as np
 
 from rotemina.app.motion.state import SessionState
-from rotemina.sim.robot.model import Robot
-from rotemina.sim.trajectory.axis_limits import resolution_of
-from rotemina.sim.trajectory.setpoint_limits import SetpointLimits
+from rotemina.sim.robot import Robot
+from rotemina.sim.trajectory import SetpointLimits, get_command_resolution
 
-GAIN_HZ = 12.0  # 1/s: an error is gone after a few times 0.08 s
-_LAG_S, _LONGEST_LAG_S = 0.008, 0.05  # of an axis behind its reference: at first, and at most
-_LEARNING = 0.02  # of what a lag is off by, each time
-_QUICK = 200.0  # resolutions a second, from which a lag can be told
-_KEPT_S = 0.5
-_AT_REST = 0.5  # of a resolution: what is nearer is there
-_LOST_S = 0.3  # of an axis' greatest speed: what is farther from its reference does not follow
+# An error decays with a time constant of 0.08 s.
+ERROR_GAIN_PER_S = 12.0
+# Initial and maximum lag of an axis behind its reference.
+_INITIAL_LAG_S, _MAX_LAG_S = 0.008, 0.05
+# Fraction of its error by which the lag is corrected in each step.
+_LAG_LEARNING_RATE = 0.02
+# The lag is learned only above this speed.
+_MIN_LEARNING_SPEED_RESOLUTIONS_PER_S = 200.0
+_REFERENCE_HISTORY_S = 0.5
+# An axis has arrived if it is within this many resolutions of its reference.
+_ARRIVAL_RESOLUTION_RATIO = 0.5
+# An axis does not follow if its error exceeds the distance of this time at full speed.
+_MAX_ERROR_S = 0.3
 
 
 @dataclass(slots=True)
-class Lag:
-    """The learned lag of axes behind their references, s."""
+class LearnedLag:
+    """Learned lag of axes behind their references, s."""
 
-    seconds: float = _LAG_S
+    seconds: float = _INITIAL_LAG_S
 
     def learn(self, error: float, speed: float) -> None:
-        """Note an error, m or rad, at a speed of the reference, per s."""
-        off_s = min(max(error / speed, -_LONGEST_LAG_S), _LONGEST_LAG_S)
-        self.seconds = min(max(self.seconds + _LEARNING * off_s, 0.0), _LONGEST_LAG_S)
+        """Correct the lag by an error, m or rad, at a speed of the reference, per s."""
+        correction_s = min(max(error / speed, -_MAX_LAG_S), _MAX_LAG_S)
+        self.seconds = min(max(self.seconds + _LAG_LEARNING_RATE * correction_s, 0.0), _MAX_LAG_S)
 
 
-class Following:
-    """Speeds that carry axes along a reference.
+class ReferenceFollower:
+    """Controller that computes the speeds with which axes follow a reference.
 
-    A speed alone would let errors add up: of rounding, of delays, of a lease that ran out. So a
-    part of the error is added to it, where the error is that of the moment at which the machine
-    last told its command, against the reference of then: ``v = v_ref + g (x_ref(t') − x(t'))``.
-    By how much an axis lags (steps of the loop, line, its own ramp) is learned from its motion, so
-    that a lag that is as it should be is no error: it would be made up for, and overshot.
+    If only the speed of the reference were sent, errors from rounding, delays or expired leases
+    would accumulate. Therefore a part of the error is added: ``v = v_ref + g (x_ref(t') − x(t'))``.
+    The error is taken at the time t' at which the machine last reported its command.
+
+    An axis always lags a little behind, because of the period of the loop, the line and its own
+    ramp. This lag is learned from the motion and does not count as an error. Otherwise the axis
+    would try to catch up and would overshoot.
     """
 
-    def __init__(self, robot: Robot, lag: Lag) -> None:
+    def __init__(self, robot: Robot, lag: LearnedLag) -> None:
         self._lag = lag
         limits = SetpointLimits.of(robot)
-        self._fastest = dict(zip(robot.axes, limits.speed.tolist(), strict=True))
-        self._resolution = {name: resolution_of(axis) for name, axis in robot.axes.items()}
-        self._past: deque[tuple[float, Mapping[str, float]]] = deque()
+        self._max_speeds = dict(zip(robot.axes, limits.speed.tolist(), strict=True))
+        self._resolutions = {
+            name: get_command_resolution(axis) for name, axis in robot.axes.items()
+        }
+        self._reference_history: deque[tuple[float, Mapping[str, float]]] = deque()
 
-    def forget(self) -> None:
-        """Begin with another reference."""
-        self._past.clear()
+    def forget_reference(self) -> None:
+        """Forget the reference before another one follows."""
+        self._reference_history.clear()
 
-    def wanted(self, now_s: float, joints: Mapping[str, float]) -> None:
-        """Note where the axes are to be now, m or rad."""
-        if not self._past or now_s > self._past[-1][0]:
-            self._past.append((now_s, joints))
-        while now_s - self._past[0][0] > _KEPT_S:
-            self._past.popleft()
+    def note_reference(self, now_s: float, joints: Mapping[str, float]) -> None:
+        """Add the reference of the axes at a time, m or rad."""
+        if not self._reference_history or now_s > self._reference_history[-1][0]:
+            self._reference_history.append((now_s, joints))
+        while now_s - self._reference_history[0][0] > _REFERENCE_HISTORY_S:
+            self._reference_history.popleft()
 
-    def speeds(
+    def compute_speeds(
         self, speeds: Mapping[str, float], state: SessionState, driving: bool
     ) -> dict[str, float]:
-        """Return the speeds to send, per s; 0 where an axis has arrived.
+        """Return the speeds to send, per s; 0 for an axis that has arrived.
 
-        While nothing is ``driving`` an axis that is elsewhere was moved by someone else, and is
-        not moved back.
+        If the stick is not ``driving``, something else has moved an axis away from its reference.
+        Such an axis is not moved back.
         """
-        sent = {}
+        sent_speeds = {}
         for axis, speed in speeds.items():
-            error = self.error(axis, state)
-            fastest = self._fastest[axis]
-            resolution = max(self._resolution[axis], 1e-9 * fastest)
-            if abs(speed) > _QUICK * resolution and driving:
+            error = self.compute_error(axis, state)
+            max_speed = self._max_speeds[axis]
+            resolution = max(self._resolutions[axis], 1e-9 * max_speed)
+            if abs(speed) > _MIN_LEARNING_SPEED_RESOLUTIONS_PER_S * resolution and driving:
                 self._lag.learn(error, speed)
             if abs(speed) < resolution:
-                speed = 0.0  # a tail that no one could see
-            there = abs(error) <= _AT_REST * resolution * (1.0 + 1e-6)
-            if speed == 0.0 and (there or not driving):
-                sent[axis] = 0.0
+                # The end of an exponential approach is too slow to be visible.
+                speed = 0.0
+            has_arrived = abs(error) <= _ARRIVAL_RESOLUTION_RATIO * resolution * (1.0 + 1e-6)
+            if speed == 0.0 and (has_arrived or not driving):
+                sent_speeds[axis] = 0.0
             else:
-                sent[axis] = float(np.clip(speed + GAIN_HZ * error, -fastest, fastest))
-        return sent
+                sent_speeds[axis] = float(
+                    np.clip(speed + ERROR_GAIN_PER_S * error, -max_speed, max_speed)
+                )
+        return sent_speeds
 
-    def lost(self, axes: Mapping[str, float], state: SessionState) -> str | None:
-        """Return an axis that does not follow, or None."""
+    def find_lost_axis(self, axes: Mapping[str, float], state: SessionState) -> str | None:
+        """Return an axis that does not follow its reference, or None."""
         for axis in axes:
-            if abs(self.error(axis, state)) > _LOST_S * self._fastest[axis]:
+            if abs(self.compute_error(axis, state)) > _MAX_ERROR_S * self._max_speeds[axis]:
                 return axis
         return None
 
-    def error(self, axis: str, state: SessionState) -> float:
-        """Return how far an axis was from its reference when it last told its command."""
-        if not self._past or axis not in state.command or state.sample_host_time_s is None:
+    def compute_error(self, axis: str, state: SessionState) -> float:
+        """Return the error of an axis, reference minus command, at its latest reported command."""
+        if (
+            not self._reference_history
+            or axis not in state.command
+            or state.sample_host_time_s is None
+        ):
             return 0.0
-        then_s = state.sample_host_time_s - self._lag.seconds
-        after = bisect_right(self._past, then_s, key=itemgetter(0))
-        if after == 0:
-            return 0.0  # told before there was a reference
-        before_s, before = self._past[after - 1]
-        if axis not in before:
+        reference_s = state.sample_host_time_s - self._lag.seconds
+        next_index = bisect_right(self._reference_history, reference_s, key=itemgetter(0))
+        # The command was reported before there was a reference.
+        if next_index == 0:
             return 0.0
-        wanted = before[axis]
-        if after < len(self._past) and axis in self._past[after][1]:
-            next_s, later = self._past[after]
-            wanted += (later[axis] - wanted) * (then_s - before_s) / (next_s - before_s)
-        return wanted - state.command[axis]
+        previous_s, previous_joints = self._reference_history[next_index - 1]
+        if axis not in previous_joints:
+            return 0.0
+        reference = previous_joints[axis]
+        if (
+            next_index < len(self._reference_history)
+            and axis in self._reference_history[next_index][1]
+        ):
+            next_s, next_joints = self._reference_history[next_index]
+            reference += (
+                (next_joints[axis] - reference) * (reference_s - previous_s) / (next_s - previous_s)
+            )
+        return reference - state.command[axis]

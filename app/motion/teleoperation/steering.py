@@ -1,20 +1,21 @@
-"""Steering in one mode: laws on the coordinates of a frame, and the resulting axis motion."""
+"""Steering in one mode: scaling laws on the coordinates of a frame, and the axis motion."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from rotemina.app.motion.teleoperation.frames import Coordinate, Frame
-from rotemina.app.motion.teleoperation.profile_check import DEGREES_OF_FREEDOM
+from rotemina.app.motion.inputs import DEGREES_OF_FREEDOM
+from rotemina.app.motion.teleoperation.frames import FrameCoordinate, SteeringFrame
 from rotemina.app.motion.teleoperation.scales import LawKind
 from rotemina.app.motion.teleoperation.scaling import ScalingLaw
 
-# Where the tip, or in "pivot" the stage above it, would go against the stick by the axis' own sign.
-_AGAINST = frozenset({("nano", "thy"), ("pivot", "thx")})
+# When these coordinates increase, the tip moves opposite to the stick. In "pivot" the stage above
+# the tip does.
+_INVERTED_COORDINATES = frozenset({("nano", "thy"), ("pivot", "thx")})
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
-    """Where the axes are to be now, m or rad, and how fast they are to go, per s."""
+class AxisTargets:
+    """Target positions of the axes, m or rad, and their target speeds, per s."""
 
     joints: Mapping[str, float]
     speeds: Mapping[str, float]
@@ -22,95 +23,129 @@ class Step:
 
 @dataclass(slots=True)
 class SteeredCoordinate:
-    """One coordinate: its law, what of the operator's devices moves it, and whether that may."""
+    """Coordinate with its law, and the degree of freedom of the stick that moves it.
 
-    coordinate: Coordinate
+    Attributes
+    ----------
+    coordinate : FrameCoordinate
+    law : ScalingLaw
+    source : str
+        Degree of freedom of the stick.
+    sign : float
+        Sign of the coordinate's motion for a positive deflection.
+    is_engaged : bool
+        Whether the stick acts on the coordinate. If not, it must first return to its centre.
+    deflection : float
+        Latest deflection that acted on the coordinate.
+    is_suspended : bool
+        Whether the coordinate is decoupled from the stick, because of the clutch or because the
+        stick is not trusted.
+    """
+
+    coordinate: FrameCoordinate
     law: ScalingLaw
     source: str
     sign: float
-    engaged: bool  # else the stick must be seen in the middle first
-    deflection: float = 0.0  # the latest one that counted
-    held: bool = False  # the stick moves without it: clutch, distrust
+    is_engaged: bool
+    deflection: float = 0.0
+    is_suspended: bool = False
 
-    def deflection_in(self, deflections: Mapping[str, float]) -> float | None:
-        """Return the deflection of its axis' or its degree of freedom's stick, in its direction."""
+    def find_deflection(self, deflections: Mapping[str, float]) -> float | None:
+        """Return the deflection that moves this coordinate, with its sign, or None.
+
+        A control that drives the axis by name takes precedence over the stick.
+        """
         name = self.coordinate.name
-        own = name in deflections and name not in DEGREES_OF_FREEDOM
-        told = deflections.get(name if own else self.source)
-        return None if told is None else self.sign * told
+        is_direct = name in deflections and name not in DEGREES_OF_FREEDOM
+        deflection = deflections.get(name if is_direct else self.source)
+        return None if deflection is None else self.sign * deflection
 
-    def step(self, told: float | None, dt: float, reaction: float, *, indexed: bool) -> None:
-        """Advance by ``dt`` s; without a deflection, halt. ``indexed``: of a law with an index."""
+    def step(
+        self, deflection: float | None, dt: float, reaction: float, *, has_anchor: bool
+    ) -> None:
+        """Advance by ``dt`` s, or halt without a deflection.
+
+        ``reaction`` is the contact signal, see :meth:`ScalingLaw.step`. ``has_anchor`` says whether
+        the law is relative to the deflection at its start.
+        """
         law = self.law
-        if told is None:
-            halted = law.bounds.at_speed(law.motion, 0.0, dt)
-            law.start(*halted, self.deflection if indexed else 0.0)
-            self.held, self.engaged = True, indexed
+        if deflection is None:
+            halting_motion = law.bounds.step_at_speed(law.motion, 0.0, dt)
+            law.start(*halting_motion, self.deflection if has_anchor else 0.0)
+            self.is_suspended, self.is_engaged = True, has_anchor
             return
-        if self.held:
-            self.held = False
-            if indexed:
-                law.start(*law.motion, told)
-        self.engaged = self.engaged or told == 0.0
-        self.deflection = told if self.engaged else 0.0
+        if self.is_suspended:
+            self.is_suspended = False
+            if has_anchor:
+                law.start(*law.motion, deflection)
+        self.is_engaged = self.is_engaged or deflection == 0.0
+        self.deflection = deflection if self.is_engaged else 0.0
         law.step(self.deflection, dt, reaction)
 
 
-class Steering:
-    """Laws of one kind on one frame.
+class FrameSteering:
+    """Laws of one kind on all coordinates of one frame.
 
-    The position law may be entered with the stick anywhere: it is indexed there. With the others a
-    stick that is deflected when a mode begins does nothing until it was seen in the middle.
+    The position law may start with the stick at any deflection, which becomes its anchor. With
+    other laws, a stick that is deflected when a mode begins does nothing until it has returned to
+    its centre.
 
     Parameters
     ----------
-    frame : Frame
+    frame : SteeringFrame
     kind : LawKind
-    make : callable
+    make_law : callable
         Makes the law of a coordinate.
     engaged : bool
-        Whether sticks count at once: the laws are exchanged in a mode that continues.
+        Whether the sticks act at once, because only the laws change and the mode continues.
     """
 
     def __init__(
         self,
-        frame: Frame,
+        frame: SteeringFrame,
         kind: LawKind,
-        make: Callable[[Coordinate], ScalingLaw],
+        make_law: Callable[[FrameCoordinate], ScalingLaw],
         *,
         engaged: bool = False,
     ) -> None:
         self.frame = frame
         self.kind = kind
-        self._indexed = kind is LawKind.POSITION
-        self.steered = {
+        self._has_anchor = kind is LawKind.POSITION
+        self.steered_coordinates = {
             name: SteeredCoordinate(
                 coordinate,
-                make(coordinate),
-                source_of(frame, name),
-                -1.0 if (frame.name, name) in _AGAINST else 1.0,
-                engaged or self._indexed,
-                held=not engaged,
+                make_law(coordinate),
+                find_stick_axis(frame, name),
+                -1.0 if (frame.name, name) in _INVERTED_COORDINATES else 1.0,
+                engaged or self._has_anchor,
+                is_suspended=not engaged,
             )
             for name, coordinate in frame.coordinates.items()
         }
-        for name, one in self.steered.items():
-            one.law.start(frame.coordinates[name].start, 0.0, 0.0)
+        for name, steered in self.steered_coordinates.items():
+            steered.law.start(frame.coordinates[name].start, 0.0, 0.0)
 
     @property
     def coordinates(self) -> dict[str, float]:
-        """Where the coordinates are to be."""
-        return {name: one.law.motion.position for name, one in self.steered.items()}
+        """Target values of the coordinates."""
+        return {
+            name: steered.law.motion.position for name, steered in self.steered_coordinates.items()
+        }
 
     @property
     def velocities(self) -> dict[str, float]:
-        """How fast the coordinates are to go, per s."""
-        return {name: one.law.motion.velocity for name, one in self.steered.items()}
+        """Target velocities of the coordinates, per s."""
+        return {
+            name: steered.law.motion.velocity for name, steered in self.steered_coordinates.items()
+        }
 
     @property
-    def released(self) -> bool:
-        """Whether every stick was in the middle when it was last looked at."""
-        return all(one.engaged and one.deflection == 0.0 for one in self.steered.values())
+    def is_released(self) -> bool:
+        """Whether all sticks were centred in the latest step."""
+        return all(
+            steered.is_engaged and steered.deflection == 0.0
+            for steered in self.steered_coordinates.values()
+        )
 
     def begin(
         self,
@@ -118,54 +153,63 @@ class Steering:
         velocities: Mapping[str, float],
         deflections: Mapping[str, float],
     ) -> None:
-        """Continue from a motion of the coordinates, with the sticks where they are."""
-        for name, one in self.steered.items():
-            told = one.deflection_in(deflections)
-            seen = told if told is not None and one.engaged else 0.0
-            one.deflection = seen
-            one.held = told is None
-            one.law.start(positions[name], velocities.get(name, 0.0), seen)
+        """Continue from a motion of the coordinates, with the sticks at given deflections."""
+        for name, steered in self.steered_coordinates.items():
+            deflection = steered.find_deflection(deflections)
+            acting_deflection = deflection if deflection is not None and steered.is_engaged else 0.0
+            steered.deflection = acting_deflection
+            steered.is_suspended = deflection is None
+            steered.law.start(positions[name], velocities.get(name, 0.0), acting_deflection)
 
     def rescale(self, factor: float) -> None:
-        """Multiply all scales by a factor, in mid-move too."""
-        for one in self.steered.values():
-            if one.law.factor != factor:
-                one.law.rescale(factor)
+        """Multiply all scales by a factor, also during a motion."""
+        for steered in self.steered_coordinates.values():
+            if steered.law.factor != factor:
+                steered.law.rescale(factor)
 
     def step(
         self,
         deflections: Mapping[str, float],
         dt: float,
         *,
-        free: bool = True,
+        is_coupled: bool = True,
         reactions: Mapping[str, float],
-    ) -> Step:
-        """Advance by ``dt`` s; without ``free`` the sticks move and the machine does not."""
-        for name, one in self.steered.items():
-            told = one.deflection_in(deflections) if free else None
-            one.step(told, dt, reactions.get(name, 0.0), indexed=self._indexed)
-        return self.now()
+    ) -> AxisTargets:
+        """Advance by ``dt`` s.
 
-    def now(self) -> Step:
-        """Return what the axes are to do now."""
+        If the sticks are not coupled to the machine, the machine halts. ``reactions`` are the
+        contact signals by coordinate.
+        """
+        for name, steered in self.steered_coordinates.items():
+            deflection = steered.find_deflection(deflections) if is_coupled else None
+            steered.step(deflection, dt, reactions.get(name, 0.0), has_anchor=self._has_anchor)
+        return self.compute_targets()
+
+    def compute_targets(self) -> AxisTargets:
+        """Return the current targets of the axes."""
         coordinates = self.coordinates
-        speeds = self.frame.speeds(coordinates, self.velocities)
-        return Step(self.frame.joints(coordinates), speeds)
+        speeds = self.frame.compute_axis_speeds(coordinates, self.velocities)
+        return AxisTargets(self.frame.compute_joints(coordinates), speeds)
 
-    def hold_back(self, before: Mapping[str, float], share: float) -> None:
-        """Note that the machine went only this share of the way from ``before``, 0 to 1."""
-        for name, one in self.steered.items():
-            position, velocity = one.law.motion
-            begin = before[name]
-            one.law.hold(begin + share * (position - begin), share * velocity)
+    def hold_at_fraction(self, previous: Mapping[str, float], share: float) -> None:
+        """Set the references back to a fraction, 0 to 1, of the way from ``previous`` values."""
+        for name, steered in self.steered_coordinates.items():
+            position, velocity = steered.law.motion
+            previous_position = previous[name]
+            steered.law.hold_at(
+                previous_position + share * (position - previous_position), share * velocity
+            )
 
 
-def source_of(frame: Frame, coordinate: str) -> str:
-    """Return the degree of freedom of a stick that moves a coordinate: by name, else in order."""
-    for degree, axes in DEGREES_OF_FREEDOM.items():
+def find_stick_axis(frame: SteeringFrame, coordinate: str) -> str:
+    """Return the degree of freedom of the stick that moves a coordinate.
+
+    They are matched by name, or else by their order.
+    """
+    for stick_axis, axes in DEGREES_OF_FREEDOM.items():
         if coordinate in axes:
-            return degree
-    order = list(frame.coordinates)
-    degrees = list(DEGREES_OF_FREEDOM)
-    place = order.index(coordinate)
-    return degrees[place] if place < len(degrees) else coordinate
+            return stick_axis
+    coordinates = list(frame.coordinates)
+    stick_axes = list(DEGREES_OF_FREEDOM)
+    index = coordinates.index(coordinate)
+    return stick_axes[index] if index < len(stick_axes) else coordinate

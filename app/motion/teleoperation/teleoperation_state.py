@@ -1,32 +1,32 @@
-"""The state of teleoperation, for displays."""
+"""State of teleoperation, for displays."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from rotemina.app.motion.teleoperation.impedance import Impedance
+from rotemina.app.motion.teleoperation.impedance import ImpedanceLaw
 from rotemina.app.motion.teleoperation.scales import LawKind
 from rotemina.app.motion.teleoperation.scaling import ScalingLaw
-from rotemina.app.motion.teleoperation.steering import SteeredCoordinate, Steering
+from rotemina.app.motion.teleoperation.steering import FrameSteering, SteeredCoordinate
 
 
 @dataclass(frozen=True, slots=True)
 class CoordinateView:
-    """One coordinate for the screen.
+    """State of one coordinate, for the screen.
 
     Attributes
     ----------
     name, unit : str
     source : str
-        What of the operator's devices moves it.
+        Degree of freedom of the stick that moves the coordinate.
     deflection : float or None
-        Of its stick, in its own direction; None: there is none that is trusted.
+        Deflection of the stick, with the sign of the coordinate; None if no trusted stick moves it.
     position : float
-        Of the reference, m or rad.
-    waiting : bool
-        Whether its stick must be seen in the middle before it counts.
+        Position of the reference, m or rad.
+    is_waiting : bool
+        Whether the stick must return to its centre before it acts.
     law : ScalingLaw
-    felt : float
-        The share of the stick's force with which a contact pushes back, −1 to 1.
+    contact_force_ratio : float
+        Contact force as a fraction of the maximum force, −1 to 1.
     """
 
     name: str
@@ -34,74 +34,80 @@ class CoordinateView:
     source: str
     deflection: float | None
     position: float
-    waiting: bool
+    is_waiting: bool
     law: ScalingLaw
-    felt: float = 0.0
+    contact_force_ratio: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
 class TeleoperationState:
-    """One moment of teleoperation.
+    """State of teleoperation after one step.
 
     Attributes
     ----------
     mode : str
     law : LawKind
     preset, factor : float
-        The step preset, and that times fine or coarse as it acts now.
-    driving : bool
-        Whether axes are being moved by it.
+        Step preset, and its product with fine or coarse, which is the factor in use.
+    is_driving : bool
+        Whether teleoperation moves axes now.
     reason : str or None
-        Why it moves nothing now.
-    refused : str or None
-        Why the last motion was refused or slowed; None once one is taken.
+        Why teleoperation moves no axis now.
+    refusal_reason : str or None
+        Why the latest motion was refused or slowed; None after a motion was accepted.
     coordinates : tuple of CoordinateView
-        Empty before the mode has begun.
+        Coordinates of the mode; empty before the mode has begun.
     reserve : float or None
-        How much of its range a piezo still has: 1 in the middle, 0 at an end.
+        Remaining range of the piezos: 1 in mid-range, 0 at an end.
     tilt : float or None
-        By how much the tool has been turned since the mode began, rad.
+        Angle by which the tool has been turned since the mode began, rad.
     """
 
     mode: str
     law: LawKind
     preset: float = 1.0
     factor: float = 1.0
-    driving: bool = False
+    is_driving: bool = False
     reason: str | None = None
-    refused: str | None = None
+    refusal_reason: str | None = None
     coordinates: tuple[CoordinateView, ...] = ()
     reserve: float | None = None
     tilt: float | None = None
 
 
-def shown(
-    steering: Steering, deflections: Mapping[str, float], reactions: Mapping[str, float]
+def make_display_values(
+    steering: FrameSteering, deflections: Mapping[str, float], reactions: Mapping[str, float]
 ) -> tuple[tuple[CoordinateView, ...], float | None, float | None]:
-    """Return the last three of :class:`TeleoperationState`.
+    """Return coordinates, reserve and tilt of :class:`TeleoperationState`.
 
-    ``reactions`` are contact readings by coordinate.
+    ``reactions`` are the contact signals by coordinate.
     """
     views = tuple(
-        _viewed(one, one.deflection_in(deflections), reactions.get(name, 0.0))
-        for name, one in steering.steered.items()
+        _make_view(steered, steered.find_deflection(deflections), reactions.get(name, 0.0))
+        for name, steered in steering.steered_coordinates.items()
     )
-    places = steering.coordinates
-    return views, steering.frame.reserve(places), steering.frame.tilt(places)
+    coordinates = steering.coordinates
+    return (
+        views,
+        steering.frame.compute_reserve(coordinates),
+        steering.frame.compute_tilt(coordinates),
+    )
 
 
-def _viewed(one: SteeredCoordinate, deflection: float | None, reaction: float) -> CoordinateView:
-    law = one.law
-    felt = 0.0
-    if isinstance(law, Impedance) and law.contact is not None and law.contact.most:
-        felt = law.contact.force(reaction) / law.contact.most
+def _make_view(
+    steered: SteeredCoordinate, deflection: float | None, reaction: float
+) -> CoordinateView:
+    law = steered.law
+    contact_force_ratio = 0.0
+    if isinstance(law, ImpedanceLaw) and law.contact is not None and law.contact.max_force:
+        contact_force_ratio = law.contact.compute_force(reaction) / law.contact.max_force
     return CoordinateView(
-        one.coordinate.name,
-        one.coordinate.unit,
-        one.source,
+        steered.coordinate.name,
+        steered.coordinate.unit,
+        steered.source,
         deflection,
         law.motion.position,
-        not one.engaged,
+        not steered.is_engaged,
         law,
-        felt,
+        contact_force_ratio,
     )

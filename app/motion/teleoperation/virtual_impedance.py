@@ -1,10 +1,10 @@
-"""A virtual mass, damper and spring: parameters, perceived dynamics, and exact response.
+"""A virtual mass, damper and spring: parameters, perceived dynamics and exact response.
 
     M ẍ + D ẋ + K (x − x0) = F
 
-For a force that is constant over a step dt the solution is exact, so it is stable for every
-parameter that is offered and every dt. With σ = D/2M, ω0² = K/M, and the response S of the position
-to a unit of impulse on a unit of mass::
+The solution is exact for a force that is constant over a step dt. So it is stable for all permitted
+parameters and any dt. Let σ = D/2M and ω0² = K/M, and let S be the position response of a unit mass
+to a unit impulse. Then::
 
     S = e^(−σ dt) sin(ωd dt)/ωd,       ωd² = ω0² − σ²     (sinh where σ > ω0, dt where σ = ω0)
     x' − xe = (Ṡ + 2σ S) (x − xe) + S v,     v' = −ω0² S (x − xe) + Ṡ v,     xe = x0 + F/K
@@ -16,16 +16,20 @@ from dataclasses import dataclass, fields
 from math import acos, acosh, cos, exp, expm1, inf, isfinite, pi, sin, sqrt
 from typing import NamedTuple, Self
 
-from rotemina.app.motion.teleoperation.reference import ScalingError
-from rotemina.sim.messages import marked, message
-from rotemina.sim.quantities import rounded
+from rotemina.app.errors import ScalingError
+from rotemina.sim.messages import format_rounded, marked
 
-_LEAST_DAMPING_RATIO = 0.1  # below it a let-go stick rings for seconds
-_MOST_TRAVEL = 1e3  # m or rad, of the spring: beyond, it is none
+# With a lower damping ratio the mechanism would ring for seconds after the stick is released.
+_MIN_DAMPING_RATIO = 0.1
+# A spring that permits a longer travel, in m or rad, is too soft to have an effect.
+_MAX_SPRING_TRAVEL = 1e3
 
 
-class Response(NamedTuple):
-    """How x − x0 and v after a step follow from those before, and from the force on it."""
+class ImpedanceResponse(NamedTuple):
+    """Coefficients of the response after a step.
+
+    They give x − x0 and v after the step from x − x0, v and the force before the step.
+    """
 
     x_of_x: float
     x_of_v: float
@@ -36,12 +40,19 @@ class Response(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class FeltDynamics:
-    """What an operator feels of an impedance.
+class PerceivedDynamics:
+    """Dynamics of an impedance as the operator perceives them.
 
-    With a spring: ``natural_frequency_hz``, ``damping_ratio`` and ``travel``, where full deflection
-    comes to rest, m or rad. Without: ``terminal_speed`` at full deflection, per s.
-    ``time_constant_s`` is that of the slowest part.
+    Attributes
+    ----------
+    time_constant_s : float
+        Time constant of the slowest mode.
+    terminal_speed : float or None
+        Final speed at full deflection, m/s or rad/s; only without a spring.
+    travel : float or None
+        Distance from the rest position at full deflection, m or rad; only with a spring.
+    natural_frequency_hz, damping_ratio : float or None
+        Properties of the oscillation; only with a spring.
     """
 
     time_constant_s: float
@@ -53,13 +64,15 @@ class FeltDynamics:
 
 @dataclass(frozen=True, slots=True)
 class VirtualImpedance:
-    """M, D, K of one coordinate, and the force z of a full deflection; SI, linear or angular.
+    """Parameters M, D and K of one coordinate, and the force z at full deflection, in SI units.
+
+    The coordinate may be linear or angular.
 
     Raises
     ------
     ScalingError
-        If a value is not finite; M, D or z is not above 0; K is below 0, or so soft that z reaches
-        beyond 1000 m or rad; or the damping ratio is below 0.1.
+        If a value is not finite, M, D or z is not above 0, or K is below 0. Also if there is a
+        spring that z moves by more than 1000 m or rad, or whose damping ratio is below 0.1.
     """
 
     mass: float
@@ -68,87 +81,80 @@ class VirtualImpedance:
     force: float
 
     def __post_init__(self) -> None:
-        for one in fields(self):
-            value = getattr(self, one.name)
-            least = (
+        for field in fields(self):
+            value = getattr(self, field.name)
+            bound = (
                 marked("engine", "0 or more")
-                if one.name == "stiffness"
+                if field.name == "stiffness"
                 else marked("engine", "above 0")
             )
-            if not isfinite(value) or value < 0.0 or (value == 0.0 and one.name != "stiffness"):
+            if not isfinite(value) or value < 0.0 or (value == 0.0 and field.name != "stiffness"):
                 raise ScalingError(
-                    message("engine", "impedance: {name} {value} must be finite and {least}").fill(
-                        name=one.name, value=rounded(value, 6), least=least
-                    )
+                    "impedance: {name} {value} must be finite and {least}",
+                    name=field.name,
+                    value=format_rounded(value, 6),
+                    least=bound,
                 )
         if not self.stiffness:
             return
-        if self.force / self.stiffness > _MOST_TRAVEL:
+        if self.force / self.stiffness > _MAX_SPRING_TRAVEL:
             raise ScalingError(
-                message(
-                    "engine",
-                    "impedance: with stiffness {stiffness} the force {force} reaches "
-                    "{travel} m (or rad), more than {most_travel}; use 0 for no spring",
-                ).fill(
-                    stiffness=rounded(self.stiffness, 6),
-                    force=rounded(self.force, 6),
-                    travel=rounded(self.force / self.stiffness, 6),
-                    most_travel=_MOST_TRAVEL,
-                )
+                "impedance: with stiffness {stiffness} the force {force} reaches "
+                "{travel} m (or rad), more than {most_travel}; use 0 for no spring",
+                stiffness=format_rounded(self.stiffness, 6),
+                force=format_rounded(self.force, 6),
+                travel=format_rounded(self.force / self.stiffness, 6),
+                most_travel=_MAX_SPRING_TRAVEL,
             )
-        if self._damping_ratio < _LEAST_DAMPING_RATIO:
-            least_damping = 2.0 * _LEAST_DAMPING_RATIO * sqrt(self.stiffness * self.mass)
+        if self._damping_ratio < _MIN_DAMPING_RATIO:
+            min_damping = 2.0 * _MIN_DAMPING_RATIO * sqrt(self.stiffness * self.mass)
             raise ScalingError(
-                message(
-                    "engine",
-                    "impedance: damping ratio {damping_ratio} is below "
-                    "{least_damping_ratio}, so the axis would ring; use a damping of "
-                    "{least_damping} or more",
-                ).fill(
-                    damping_ratio=rounded(self._damping_ratio, 3),
-                    least_damping_ratio=_LEAST_DAMPING_RATIO,
-                    least_damping=rounded(least_damping, 6),
-                )
+                "impedance: damping ratio {damping_ratio} is below "
+                "{least_damping_ratio}, so the axis would ring; use a damping of "
+                "{least_damping} or more",
+                damping_ratio=format_rounded(self._damping_ratio, 3),
+                least_damping_ratio=_MIN_DAMPING_RATIO,
+                least_damping=format_rounded(min_damping, 6),
             )
 
     @classmethod
-    def gliding(cls, terminal_speed: float, time_constant_s: float) -> Self:
-        """Return a mass and a damper: full deflection ends in a speed, reached with a delay."""
+    def make_gliding(cls, terminal_speed: float, time_constant_s: float) -> Self:
+        """Return a mass and a damper that reach a terminal speed at full deflection."""
         damping = 1.0 / terminal_speed
         return cls(damping * time_constant_s, damping, 0.0, 1.0)
 
     @classmethod
-    def sprung(cls, travel: float, natural_frequency_hz: float, damping_ratio: float) -> Self:
-        """Return a mass on a spring: full deflection ends ``travel`` (m or rad) from its rest."""
+    def make_sprung(cls, travel: float, natural_frequency_hz: float, damping_ratio: float) -> Self:
+        """Return a mass on a spring that full deflection moves by ``travel``, m or rad."""
         stiffness = 1.0 / travel
         rate = 2.0 * pi * natural_frequency_hz
         mass = stiffness / rate**2
         return cls(mass, 2.0 * damping_ratio * rate * mass, stiffness, 1.0)
 
     @property
-    def felt(self) -> FeltDynamics:
-        """What an operator feels of it."""
+    def perceived_dynamics(self) -> PerceivedDynamics:
+        """The dynamics as the operator perceives them."""
         if not self.stiffness:
-            return FeltDynamics(self.mass / self.damping, self.force / self.damping)
+            return PerceivedDynamics(self.mass / self.damping, self.force / self.damping)
         ratio, rate = self._damping_ratio, sqrt(self.stiffness / self.mass)
-        slowest = rate * ratio if ratio <= 1.0 else rate / (ratio + sqrt(ratio**2 - 1.0))
-        return FeltDynamics(
-            1.0 / slowest,
+        slowest_rate = rate * ratio if ratio <= 1.0 else rate / (ratio + sqrt(ratio**2 - 1.0))
+        return PerceivedDynamics(
+            1.0 / slowest_rate,
             travel=self.force / self.stiffness,
             natural_frequency_hz=rate / (2.0 * pi),
             damping_ratio=ratio,
         )
 
     @property
-    def acceleration_per_force(self) -> float:
-        """The greatest acceleration that forces of up to 1 can make, however they alternate.
+    def max_acceleration_per_force(self) -> float:
+        """Largest acceleration that any sequence of forces with magnitudes up to 1 can cause.
 
-        The total variation of the acceleration's step response, which jumps to 1/M and swings
-        about 0 with peaks m qⁿ/M::
+        It is the total variation of the step response of the acceleration, which jumps to 1/M and
+        then oscillates about 0 with peaks m qⁿ/M::
 
             (2/M) (1 + m/(1 − q)),  m = e^(−2ζ acos ζ/√(1 − ζ²)),  q = e^(−πζ/√(1 − ζ²))
 
-        with acosh, and q = 0, where ζ > 1; m = 0 without a spring.
+        For ζ > 1, acosh replaces acos, and q = 0. Without a spring, m = 0.
         """
         ratio = self._damping_ratio
         if ratio == inf:
@@ -156,23 +162,25 @@ class VirtualImpedance:
         root = sqrt(abs(1.0 - ratio**2))
         if root < 1e-6:
             return 2.0 / self.mass * (1.0 + exp(-2.0))
-        angle, again = (
+        angle, decay = (
             (acos(ratio), exp(-pi * ratio / root)) if ratio < 1.0 else (acosh(ratio), 0.0)
         )
         peak = exp(-2.0 * ratio * angle / root)
-        return 2.0 / self.mass * (1.0 + peak / (1.0 - again))
+        return 2.0 / self.mass * (1.0 + peak / (1.0 - decay))
 
-    def response(self, dt: float) -> Response:
-        """Return the exact response after ``dt`` s to a force that is constant meanwhile."""
-        impulse, slope = self._impulse(dt)
+    def compute_response(self, dt: float) -> ImpedanceResponse:
+        """Return the exact response after ``dt`` s to a constant force."""
+        impulse, slope = self._compute_impulse_response(dt)
         sigma = self.damping / (2.0 * self.mass)
-        square = self.stiffness / self.mass
-        kept = slope + 2.0 * sigma * impulse
+        omega_squared = self.stiffness / self.mass
+        x_of_x = slope + 2.0 * sigma * impulse
         if self.stiffness:
-            x_of_force = (1.0 - kept) / self.stiffness
+            x_of_force = (1.0 - x_of_x) / self.stiffness
         else:
             x_of_force = (dt - impulse) / self.damping
-        return Response(kept, impulse, -square * impulse, slope, x_of_force, impulse / self.mass)
+        return ImpedanceResponse(
+            x_of_x, impulse, -omega_squared * impulse, slope, x_of_force, impulse / self.mass
+        )
 
     @property
     def _damping_ratio(self) -> float:
@@ -180,18 +188,18 @@ class VirtualImpedance:
             return inf
         return self.damping / (2.0 * sqrt(self.stiffness * self.mass))
 
-    def _impulse(self, dt: float) -> tuple[float, float]:
+    def _compute_impulse_response(self, dt: float) -> tuple[float, float]:
         """Return S and Ṡ."""
         sigma = self.damping / (2.0 * self.mass)
-        square = self.stiffness / self.mass
-        over = sigma**2 - square
-        if over > 0.0:
-            root = sqrt(over)
-            slow = exp(-square / (sigma + root) * dt)
+        omega_squared = self.stiffness / self.mass
+        discriminant = sigma**2 - omega_squared
+        if discriminant > 0.0:
+            root = sqrt(discriminant)
+            slow = exp(-omega_squared / (sigma + root) * dt)
             fast = exp(-(sigma + root) * dt)
-            # S = (slow − fast)/(2 root), without the difference of what is almost equal.
+            # S = (slow − fast)/(2 root), without the difference of two almost equal numbers.
             impulse = -slow * expm1(-2.0 * root * dt) / (2.0 * root)
             return impulse, 0.5 * (slow + fast) - sigma * impulse
-        root, decay = sqrt(-over), exp(-sigma * dt)
+        root, decay = sqrt(-discriminant), exp(-sigma * dt)
         impulse = decay * (sin(root * dt) / root if root > 0.0 else dt)
         return impulse, decay * cos(root * dt) - sigma * impulse

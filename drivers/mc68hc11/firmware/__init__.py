@@ -1,7 +1,8 @@
-"""Firmware hot paths in assembly.
+"""Time-critical routines of the firmware of the MC68HC11 boards, in assembly.
 
-They are for the MC68HC11 boards; modules count what they cost the chip.
+The Python modules count the cycles that these routines take on the chip; only the tests use them.
 
-A board takes 242 bytes of the chip's RAM: the incoming frame 30, two outgoing frames 64, three axes
-48, clock, watchdog, numbers, state, fault, switches and the last answer 40, and the stack 60.
+A board needs 242 bytes of the chip's RAM: 30 for the incoming frame, 64 for two outgoing frames, 48
+for three axes, 60 for the stack, and 40 for clock, watchdog, frame numbers, state, fault, switches
+and the last answer.
 """

@@ -1,91 +1,111 @@
-"""The load of the chip, case by case: ``python -m rotemina.drivers.mc68hc11.firmware.chip_load``.
+"""Processor load in several cases: ``python -m rotemina.drivers.mc68hc11.firmware.chip_load``.
 
-The hot paths are assembled and counted; a case says how often a second each is gone through. What
-is not on a hot path (the main loop's own looking round, orders, homing) is not in it.
+The module assembles the time-critical code paths and counts their cycles. A case states how often
+each path is executed per second. The polling of the main loop, commands and homing are not counted.
 """
 
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from importlib.resources import as_file, files
+from typing import NamedTuple
 
+from rotemina.drivers.contract import BudgetError
 from rotemina.drivers.mc68hc11.firmware.cycles import (
-    ENTRY,
-    BudgetError,
+    INTERRUPT_ENTRY_CYCLES,
     Routines,
-    assembled,
-    counted,
-    masked,
+    assemble_sources,
+    count_cycles,
+    count_masked_cycles,
 )
 
 SOURCES = ("serial", "motion", "telemetry")
 CLOCKS_HZ = (2_000_000, 4_000_000)
 BAUD = 125_000
-MOST_MASKED = 90  # cycles
-_CALL = 6  # JSR; its RTS is in the routine
+MAX_MASKED_CYCLES = 90
+# Cycles of JSR. The cycles of RTS are counted with the routine.
+_CALL_CYCLES = 6
 
 
 @dataclass(frozen=True, slots=True)
-class Path:
-    """One way through the firmware: the labels that it passes, from each to the next one."""
+class CodePath:
+    """Path through the firmware, given by the labels of the routines on it."""
 
     labels: tuple[str, ...]
     interrupt: bool = False
 
-    def cycles(self, routines: Routines) -> int:
-        """Return what it takes, with the interrupt's entry or the call."""
-        code = [one for label in self.labels for one in _known(routines, label)]
-        return counted(code) + (ENTRY if self.interrupt else _CALL)
+    def count_cycles(self, routines: Routines) -> int:
+        """Return the cycles of the path, including the interrupt entry or the call."""
+        instructions = [
+            instruction for label in self.labels for instruction in _find_routine(routines, label)
+        ]
+        return count_cycles(instructions) + (
+            INTERRUPT_ENTRY_CYCLES if self.interrupt else _CALL_CYCLES
+        )
 
-    def masked(self, routines: Routines) -> int:
-        """Return for how long it keeps interrupts out; nothing where it is none."""
-        code = [one for label in self.labels for one in _known(routines, label)]
-        return masked(code) if self.interrupt else 0
+    def count_masked_cycles(self, routines: Routines) -> int:
+        """Return the cycles for which the path blocks interrupts; 0 if it is not an interrupt."""
+        instructions = [
+            instruction for label in self.labels for instruction in _find_routine(routines, label)
+        ]
+        return count_masked_cycles(instructions) if self.interrupt else 0
 
 
-def _known(routines: Routines, label: str) -> list[tuple[int, ...]]:
+def _find_routine(routines: Routines, label: str) -> list[tuple[int, ...]]:
     if label not in routines:
         raise BudgetError(f"the firmware has no label {label!r}")
     return routines[label]
 
 
 PATHS = {
-    "byte received": Path(("isr_serial", "isr_receive"), interrupt=True),
-    "byte sent": Path(("isr_serial", "isr_send"), interrupt=True),
-    "byte taken apart": Path(("take_byte", "take_plain")),
-    "zero taken apart": Path(("take_byte", "take_stretch")),
-    "byte checked and stuffed": Path(("put_byte", "put_plain")),
-    "zero checked and stuffed": Path(("put_byte", "put_stretch")),
-    "tick, row held": Path(("isr_held", "held"), interrupt=True),
-    "tick, row begun, micro": Path(("isr_held", "row_axes", "micro_row"), interrupt=True),
-    "tick, row begun, nano": Path(("isr_held", "row_axes", "nano_out"), interrupt=True),
-    "tick, led, micro": Path(("isr_tick", "step_axes", "micro_out"), interrupt=True),
-    "tick, led, nano": Path(("isr_tick", "step_axes", "nano_out"), interrupt=True),
-    "step edge": Path(("isr_edge",), interrupt=True),
-    "segment into the queue": Path(("take_segment",)),
-    "segment begun, held": Path(("load_rows",)),
-    "segment begun, led": Path(("load_axes",)),
-    "frame begun": Path(("tell_head",)),
-    "axis told": Path(("tell_axis",)),
-    "frame ended": Path(("tell_end",)),
-    "sample captured": Path(("capture_axis",)),
-    "captured byte told": Path(("tell_captured",)),
+    "byte received": CodePath(("isr_serial", "isr_receive"), interrupt=True),
+    "byte sent": CodePath(("isr_serial", "isr_send"), interrupt=True),
+    "byte decoded": CodePath(("take_byte", "take_plain")),
+    "zero decoded": CodePath(("take_byte", "take_stretch")),
+    "byte encoded": CodePath(("put_byte", "put_plain")),
+    "zero encoded": CodePath(("put_byte", "put_stretch")),
+    "tick, row held": CodePath(("isr_held", "held"), interrupt=True),
+    "tick, new row, micro": CodePath(("isr_held", "row_axes", "micro_row"), interrupt=True),
+    "tick, new row, nano": CodePath(("isr_held", "row_axes", "nano_out"), interrupt=True),
+    "tick, interpolated, micro": CodePath(("isr_tick", "step_axes", "micro_out"), interrupt=True),
+    "tick, interpolated, nano": CodePath(("isr_tick", "step_axes", "nano_out"), interrupt=True),
+    "step edge": CodePath(("isr_edge",), interrupt=True),
+    "segment queued": CodePath(("take_segment",)),
+    "new segment, held": CodePath(("load_rows",)),
+    "new segment, interpolated": CodePath(("load_axes",)),
+    "frame started": CodePath(("tell_head",)),
+    "axis reported": CodePath(("tell_axis",)),
+    "frame ended": CodePath(("tell_end",)),
+    "sample captured": CodePath(("capture_axis",)),
+    "captured byte sent": CodePath(("tell_captured",)),
 }
 
-# Bytes on the line, and those of a body that are checked and stuffed.
-_SEGMENT, _TELEMETRY, _INPUTS = 32, 31, 14
-_CAPTURED = {1: (32, 11), 3: (28, 3)}  # bytes, samples of a frame
-# Version 1 on two lines at 200 Hz, a second: SetPoint; Done, Telemetry and a fourth of Inputs.
-_VERSION_1 = (200 * 25, 200 * (9 + 30 + _INPUTS / 4))
-_EDGES_HZ = 3 * 2000  # three steppers at 10 mm/s, a full step of 5 um each
+# Lengths of frames on the wire.
+_SEGMENT_BYTES, _TELEMETRY_BYTES, _INPUTS_BYTES = 32, 31, 14
+
+
+class _CaptureFrame(NamedTuple):
+    byte_count: int
+    sample_count: int
+
+
+# By the number of captured axes.
+_CAPTURE_FRAMES = {1: _CaptureFrame(32, 11), 3: _CaptureFrame(28, 3)}
+# Bytes per second to and from the board in version 1 of the protocol. The host sent 200 set-points
+# per second. The board answered each set-point with an acknowledgement and telemetry, and every
+# fourth one also with inputs.
+_VERSION_1_BYTES_PER_S = (200 * 25, 200 * (9 + 30 + _INPUTS_BYTES / 4))
+# Three steppers at 10 mm/s, with a full step of 5 µm each.
+_STEP_EDGES_HZ = 3 * 2000
 
 
 @dataclass(frozen=True, slots=True)
-class Case:
-    """What a board does at once, each so often a second at E = 2 MHz.
+class LoadCase:
+    """Load case: rates of a board's activities at E = 2 MHz, Hz.
 
-    A stream with ``rows`` holds them, as our host's do; one without leads from segment to segment.
-    Edges are as many at any clock: they are a matter of the motor.
+    In a stream with ``rows`` the command of each row is held, as in the streams of this host. A
+    stream without rows is interpolated. The rate of step edges depends on the motor, not on the
+    clock.
     """
 
     name: str
@@ -94,118 +114,141 @@ class Case:
     segments: int = 0
     rows: int = 0
     telemetry: int = 0
-    captures: tuple[int, int] = (0, 0)  # axes, Hz
-    edges: int = 0
+    # Number of captured axes, and sampling rate, Hz.
+    captures: tuple[int, int] = (0, 0)
+    step_edges_hz: int = 0
 
-    def line(self, faster: int) -> tuple[float, float]:
-        """Return bytes a second towards the board and from it."""
-        telemetry = self.telemetry * faster
-        out = telemetry * (_TELEMETRY + _INPUTS / 4)
+    def compute_line_bytes_per_s(self, clock_factor: int) -> tuple[float, float]:
+        """Return the bytes per second to and from the board, at a clock of a multiple of 2 MHz."""
+        telemetry_hz = self.telemetry * clock_factor
+        bytes_out = telemetry_hz * (_TELEMETRY_BYTES + _INPUTS_BYTES / 4)
         axes, rate_hz = self.captures
         if axes:
-            size, samples = _CAPTURED[axes]
-            out += faster * rate_hz / samples * size
-        return self.segments * faster * float(_SEGMENT), out
+            frame = _CAPTURE_FRAMES[axes]
+            bytes_out += clock_factor * rate_hz / frame.sample_count * frame.byte_count
+        return self.segments * clock_factor * float(_SEGMENT_BYTES), bytes_out
 
-    def often(self, faster: int) -> Mapping[str, float]:
-        """Return how often a second each path is gone through."""
-        into, out = self.line(faster)
+    def count_passes_per_s(self, clock_factor: int) -> Mapping[str, float]:
+        """Return how often per second each path is executed, at a clock of a multiple of 2 MHz."""
+        bytes_in, bytes_out = self.compute_line_bytes_per_s(clock_factor)
         axes, rate_hz = self.captures
-        captured = axes * rate_hz * faster
-        frames = captured / (_CAPTURED[axes][1] * axes) if axes else 0.0
-        telemetry, segments = self.telemetry * faster, self.segments * faster
-        ended = telemetry * 1.25 + frames
-        ticks, rows = self.tick * faster, self.rows * faster
-        kind = "held" if rows else "led"
-        moving = {f"tick, led, {self.board}": ticks}
-        if rows:
-            moving = {"tick, row held": ticks - rows, f"tick, row begun, {self.board}": rows}
-        return moving | {
-            "byte received": into,
-            "byte taken apart": into,
-            "segment into the queue": segments,
-            f"segment begun, {kind}": segments,
-            "byte sent": out,
-            # Delimiters, and the lengths of stretches, are not put.
-            "byte checked and stuffed": out - 3.0 * ended,
-            "frame begun": ended,
-            "axis told": 3.0 * telemetry,
-            "frame ended": ended,
-            "sample captured": captured,
-            "captured byte told": 2.0 * captured,
-            "step edge": self.edges,
+        captured_values_hz = axes * rate_hz * clock_factor
+        capture_frames_hz = (
+            captured_values_hz / (_CAPTURE_FRAMES[axes].sample_count * axes) if axes else 0.0
+        )
+        telemetry_hz, segments_hz = self.telemetry * clock_factor, self.segments * clock_factor
+        # Every fourth telemetry frame is followed by a frame of inputs.
+        frames_hz = telemetry_hz * 1.25 + capture_frames_hz
+        ticks_hz, rows_hz = self.tick * clock_factor, self.rows * clock_factor
+        segment_kind = "held" if rows_hz else "interpolated"
+        tick_rates = {f"tick, interpolated, {self.board}": ticks_hz}
+        if rows_hz:
+            tick_rates = {
+                "tick, row held": ticks_hz - rows_hz,
+                f"tick, new row, {self.board}": rows_hz,
+            }
+        return tick_rates | {
+            "byte received": bytes_in,
+            "byte decoded": bytes_in,
+            "segment queued": segments_hz,
+            f"new segment, {segment_kind}": segments_hz,
+            "byte sent": bytes_out,
+            # Three bytes of each frame are not encoded: both delimiters and the first length byte.
+            "byte encoded": bytes_out - 3.0 * frames_hz,
+            "frame started": frames_hz,
+            "axis reported": 3.0 * telemetry_hz,
+            "frame ended": frames_hz,
+            "sample captured": captured_values_hz,
+            "captured byte sent": 2.0 * captured_values_hz,
+            "step edge": self.step_edges_hz,
         }
 
 
-CASES = (
-    Case("micro, held rows", "micro", segments=50, rows=100, telemetry=100, edges=_EDGES_HZ),
-    Case("nano, held rows", "nano", segments=50, rows=100, telemetry=100),
-    Case("micro, led", "micro", segments=50, telemetry=100, edges=_EDGES_HZ),
-    Case("nano, led", "nano", segments=50, telemetry=100),
-    Case("micro, capture of one axis at 1 kHz", "micro", telemetry=25, captures=(1, 1000)),
-    Case("nano, capture of one axis at 1 kHz", "nano", telemetry=25, captures=(1, 1000)),
-    Case("micro, capture of three at 250 Hz", "micro", telemetry=25, captures=(3, 250)),
-    Case("nano, capture of three at 250 Hz", "nano", telemetry=25, captures=(3, 250)),
+LOAD_CASES = (
+    LoadCase(
+        "micro, held rows",
+        "micro",
+        segments=50,
+        rows=100,
+        telemetry=100,
+        step_edges_hz=_STEP_EDGES_HZ,
+    ),
+    LoadCase("nano, held rows", "nano", segments=50, rows=100, telemetry=100),
+    LoadCase(
+        "micro, interpolated", "micro", segments=50, telemetry=100, step_edges_hz=_STEP_EDGES_HZ
+    ),
+    LoadCase("nano, interpolated", "nano", segments=50, telemetry=100),
+    LoadCase("micro, capture of one axis at 1 kHz", "micro", telemetry=25, captures=(1, 1000)),
+    LoadCase("nano, capture of one axis at 1 kHz", "nano", telemetry=25, captures=(1, 1000)),
+    LoadCase("micro, capture of three at 250 Hz", "micro", telemetry=25, captures=(3, 250)),
+    LoadCase("nano, capture of three at 250 Hz", "nano", telemetry=25, captures=(3, 250)),
 )
 
 
-def hot_paths() -> Routines:
-    """Assemble the firmware's hot paths.
+def assemble_hot_paths() -> Routines:
+    """Assemble the time-critical routines of the firmware.
 
     Raises
     ------
     BudgetError
-        If the assembler is missing or refuses them.
+        If the assembler is missing or reports an error.
     """
     with as_file(files("rotemina.drivers.mc68hc11") / "firmware") as folder:
-        return assembled(folder, SOURCES)
+        return assemble_sources(folder, SOURCES)
 
 
-def load(case: Case, routines: Routines, clock_hz: int) -> float:
-    """Return the share of the chip that a case takes, at a clock E."""
-    faster = clock_hz // CLOCKS_HZ[0]
-    spent = sum(
-        often * PATHS[name].cycles(routines) for name, often in case.often(faster).items() if often
+def compute_load(case: LoadCase, routines: Routines, clock_hz: int) -> float:
+    """Return the fraction of the processor time that a case takes at a clock E, Hz."""
+    clock_factor = clock_hz // CLOCKS_HZ[0]
+    cycles_per_s = sum(
+        rate_hz * PATHS[name].count_cycles(routines)
+        for name, rate_hz in case.count_passes_per_s(clock_factor).items()
+        if rate_hz
     )
-    return spent / clock_hz
+    return cycles_per_s / clock_hz
 
 
-def report(routines: Routines) -> list[str]:
-    """Return the lines that are printed."""
+def format_report(routines: Routines) -> list[str]:
+    """Return the lines of the report."""
     lines = [f"{'path':32}{'cycles':>8}{'masked':>8}"]
     for name, path in PATHS.items():
-        kept_out = path.masked(routines)
-        lines.append(f"{name:32}{path.cycles(routines):8}{kept_out or '':>8}")
-    into, out = _VERSION_1
-    received = PATHS["byte received"].cycles(routines) + PATHS["byte taken apart"].cycles(routines)
-    sent = PATHS["byte sent"].cycles(routines) + PATHS["byte checked and stuffed"].cycles(routines)
-    spent = (into * received + out * sent) / CLOCKS_HZ[0]
-    lines += ["", f"version 1 at 200 Hz: its bytes alone take {spent:.0%} at 2 MHz"]
+        masked_cycles = path.count_masked_cycles(routines)
+        lines.append(f"{name:32}{path.count_cycles(routines):8}{masked_cycles or '':>8}")
+    bytes_in, bytes_out = _VERSION_1_BYTES_PER_S
+    cycles_per_received_byte = PATHS["byte received"].count_cycles(routines) + PATHS[
+        "byte decoded"
+    ].count_cycles(routines)
+    cycles_per_sent_byte = PATHS["byte sent"].count_cycles(routines) + PATHS[
+        "byte encoded"
+    ].count_cycles(routines)
+    load = (bytes_in * cycles_per_received_byte + bytes_out * cycles_per_sent_byte) / CLOCKS_HZ[0]
+    lines += ["", f"version 1 at 200 Hz: its bytes alone take {load:.0%} at 2 MHz"]
     lines += ["", f"{'case':40}{'2 MHz':>8}{'4 MHz':>8}   line at {BAUD} baud, to and from"]
-    for case in CASES:
-        loads = (f"{load(case, routines, clock_hz):8.0%}" for clock_hz in CLOCKS_HZ)
-        lines.append(f"{case.name:40}{''.join(loads)}   {_lines_of(case)}")
-    for case in CASES[2:4]:
-        each_row = load(replace(case, segments=2 * case.segments), routines, CLOCKS_HZ[0])
-        lines.append(f"{case.name}, a segment for each row: {each_row:.0%} at 2 MHz")
+    for case in LOAD_CASES:
+        loads = (f"{compute_load(case, routines, clock_hz):8.0%}" for clock_hz in CLOCKS_HZ)
+        lines.append(f"{case.name:40}{''.join(loads)}   {_format_line_loads(case)}")
+    for case in LOAD_CASES[2:4]:
+        load = compute_load(replace(case, segments=2 * case.segments), routines, CLOCKS_HZ[0])
+        lines.append(f"{case.name}, a segment for each row: {load:.0%} at 2 MHz")
     return lines
 
 
-def _lines_of(case: Case) -> str:
-    """Return the shares of the line at both clocks."""
-    shares = (
-        f"{into * 10 / BAUD:.0%}, {out * 10 / BAUD:.0%}" for into, out in map(case.line, (1, 2))
+def _format_line_loads(case: LoadCase) -> str:
+    """Return the loads of the line in percent, in both directions and at both clocks."""
+    loads = (
+        f"{bytes_in * 10 / BAUD:.0%}, {bytes_out * 10 / BAUD:.0%}"
+        for bytes_in, bytes_out in map(case.compute_line_bytes_per_s, (1, 2))
     )
-    return "; ".join(shares)
+    return "; ".join(loads)
 
 
 def main(arguments: Sequence[str] = ()) -> int:
-    """Print cycles and loads; status 2 where they cannot be counted."""
+    """Print cycles and loads. Return the exit status, which is 2 if counting fails."""
     if arguments:
         print("rotemina: the budget takes no arguments", file=sys.stderr)
         return 2
     try:
-        print("\n".join(report(hot_paths())))
+        print("\n".join(format_report(assemble_hot_paths())))
     except BudgetError as error:
         print(f"rotemina: {error}", file=sys.stderr)
         return 2

@@ -1,12 +1,13 @@
-; The tick, and step edges. The tick lets others in as soon as it has set its next time. A stream
-; that changes its command at every tick has another tick than one that holds rows, in whole steps.
+; Control tick and step edges. The tick enables other interrupts as soon as it has set its next time.
+; There are two versions: for streams that change the command at every tick, and for streams that
+; hold rows, in whole steps.
 ;
-; A stepper's drive is taken to make its microsteps by itself: it gets an edge every 50 steps of
-; 0.1 um, which is a full step, so 2000 a second at 10 mm/s.
+; The drive of a stepper is assumed to make its microsteps by itself. It gets an edge every 50 steps
+; of 0.1 um, which is a full step: 2000 edges per second at 10 mm/s.
         .include "board.inc"
         .text
 
-; What every tick does: its next time, the board's clock, the watchdog, the segment's ticks.
+; Common part of all ticks: next tick, clock of the board, watchdog, ticks of the segment.
         .macro TICK
         ldaa #0x08
         staa TFLG1
@@ -29,10 +30,10 @@
         beq cold
         dex
         stx *left
-        beq cold                    ; the next segment: load_axes or load_rows
+        beq cold                    ; load the next segment: load_axes or load_rows
         .endm
 
-; The tick of a stream that holds its rows: between two of them nothing changes.
+; Tick of a stream that holds its rows. Between two rows nothing changes.
         .globl isr_held
 isr_held:
         TICK
@@ -42,14 +43,14 @@ isr_held:
         beq row_axes
 held:   rti
 
-; Two additions of 16 bits an axis, in whole steps, and whether the axis can make them.
+; Two 16-bit additions per axis, in whole steps, and a check of the speed.
         .macro ROW axis
         ldd *axes+SIZE*\axis+FIRST
         addd *axes+SIZE*\axis+SECOND
         std *axes+SIZE*\axis+FIRST
         addd *axes+SIZE*\axis+MOST
         cpd *axes+SIZE*\axis+SPAN
-        bhi cold                    ; farther than the axis goes in a row: refused, and halted
+        bhi cold                    ; too fast: refuse it and halt
         ldd *axes+SIZE*\axis+FIRST
         addd *axes+SIZE*\axis+POS
         std *axes+SIZE*\axis+POS
@@ -63,11 +64,11 @@ row_axes:
         ROW 1
         ROW 2
 
-; Of a stepper: a motor follows no leap, so its edges are spread over the time of the row.
+; A motor cannot follow a jump. So the step edges are spread over the time of the row.
         .macro SPREAD axis
         ldd *axes+SIZE*\axis+FIRST
         eora *axes+SIZE*\axis+TURN
-        bmi cold                    ; it turns about
+        bmi cold                    ; the direction changes
         ldaa *axes+SIZE*\axis+FIRST
         bpl 1f
         coma
@@ -76,7 +77,7 @@ row_axes:
 1:      addb *axes+SIZE*\axis+REST
         adca #0
         ldx #50
-        idiv                        ; edges, and what is left of the steps
+        idiv                        ; quotient: edges, remainder: steps for the next row
         stab *axes+SIZE*\axis+REST
         stx *product                ; less than 256
         ldab *product+1
@@ -96,12 +97,12 @@ micro_row:
         SPREAD 2
         rti
 
-; The tick of a stream that changes its command at every tick.
+; Tick of a stream that changes the command at every tick.
         .globl isr_tick
 isr_tick:
         TICK
 
-; Two additions of 32 bits an axis, the steps of this tick, and whether the axis can make them.
+; Two 32-bit additions per axis, the steps of this tick, and a check of the speed.
         .macro STEP axis
         ldd *axes+SIZE*\axis+FIRST+2
         addd *axes+SIZE*\axis+SECOND+2
@@ -121,7 +122,7 @@ isr_tick:
         stab *axes+SIZE*\axis+MADE
         addd *axes+SIZE*\axis+MOST
         cpd *axes+SIZE*\axis+SPAN
-        bhi cold                    ; more steps than speed x tick: refused, and halted
+        bhi cold                    ; too fast: refuse it and halt
         ldd *axes+SIZE*\axis+POS
         std *axes+SIZE*\axis+TOLD
         .endm
@@ -131,20 +132,20 @@ step_axes:
         STEP 1
         STEP 2
 
-; Of a stepper: how many edges this tick has, and how far apart they are.
+; Number of step edges in this tick, and the time between them.
         .macro PACE axis
         ldab *axes+SIZE*\axis+MADE
         tba
         eora *axes+SIZE*\axis+TURN
-        bmi cold                    ; it turns about
+        bmi cold                    ; the direction changes
         tstb
         bpl 1f
         negb
 1:      addb *axes+SIZE*\axis+REST
         ldx #shares
         abx
-        ldaa 0,x                    ; edges of so many steps
-        ldab 160,x                  ; and what is left of them
+        ldaa 0,x                    ; edges for this number of steps
+        ldab 160,x                  ; steps for the next tick
         stab *axes+SIZE*\axis+REST
         staa *axes+SIZE*\axis+EDGES
         tab
@@ -165,7 +166,7 @@ micro_out:
 
 cold:   rts
 
-; Of a piezo: steps * gain + base is the code of its converter; gain in codes a step * 2^-15.
+; Converter code of a piezo: steps * gain + base. The gain is in codes per step, in 2^-15.
         .macro CODE axis
         ldaa *axes+SIZE*\axis+POS+1
         ldab *axes+SIZE*\axis+GAIN+1
@@ -203,7 +204,7 @@ nano_out:
         CODE 2
         rti
 
-; A step edge of the first axis; the others have the same.
+; Step edge of the first axis. The other axes have the same code.
         .globl isr_edge
 isr_edge:
         ldaa #0x40
@@ -218,7 +219,7 @@ isr_edge:
         beq cold
         rti
 
-; The next segment, out of the queue (X).
+; Load the next segment from the queue (X).
         .macro LOAD axis
         ldd 2+8*\axis,x
         std *axes+SIZE*\axis+FIRST
@@ -250,7 +251,7 @@ load_axes:
         LOAD 2
         LOADED
 
-; The same of held rows: the low words are whole steps.
+; The same for held rows. Only the low words are used, which are whole steps.
         .macro WHOLE axis
         ldd 4+8*\axis,x
         std *axes+SIZE*\axis+FIRST
@@ -268,5 +269,5 @@ load_rows:
         WHOLE 2
         LOADED
 
-shares: .space 320                  ; edges of 0 to 150 steps, and 160 further on what is left
+shares: .space 320                  ; edges for 0 to 150 steps, and 160 bytes later the remaining steps
 paces:  .word 0, 1900, 950, 633

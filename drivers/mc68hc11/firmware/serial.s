@@ -1,16 +1,16 @@
-; Bytes that come and go. A byte that comes is put into a ring with interrupts masked, and taken
-; apart without: so a tick or a step edge never waits for a check sum.
+; Serial input and output. A received byte is put into a ring buffer while interrupts are masked. It
+; is decoded while they are enabled, so a tick or a step edge never waits for a CRC.
         .include "board.inc"
         .text
 
-; The serial interrupt: a byte has come, or the line takes one.
+; Serial interrupt: a byte was received, or the transmitter is ready for the next one.
         .globl isr_serial
 isr_serial:
         ldaa SCSR
         bita #0x20
         beq isr_send
-isr_receive:                        ; into the ring
-        bita #0x0E                  ; overrun, noise, framing: not this byte
+isr_receive:                        ; a received byte goes into the ring buffer
+        bita #0x0E                  ; the byte has an overrun, noise or framing error
         bne cold
         ldaa SCDR
         ldab *head
@@ -21,7 +21,7 @@ isr_receive:                        ; into the ring
         andb #RING
         stab *head
         rti
-isr_send:                           ; the next one of the frame that goes
+isr_send:                           ; send the next byte of the outgoing frame
         ldx *out
         ldab 0,x
         stab SCDR
@@ -31,12 +31,12 @@ isr_send:                           ; the next one of the frame that goes
         beq cold
         rti
 
-; Background: take a byte out of the ring.
+; Background: decode a byte from the ring buffer.
         .globl take_byte
 take_byte:
         ldab *tail
         cmpb *head
-        beq cold                    ; there is none
+        beq cold                    ; the buffer is empty
         ldx #ring
         abx
         ldaa 0,x
@@ -44,10 +44,10 @@ take_byte:
         andb #RING
         stab *tail
         tsta
-        beq cold                    ; a zero ends a frame, or is a stop
+        beq cold                    ; a zero ends a frame, or means stop
         dec code
         beq take_stretch
-take_plain:                         ; one of a stretch goes into the frame and its check
+take_plain:                         ; a byte of a block goes into the frame and its CRC
         ldx *in
         staa 0,x
         inx
@@ -63,7 +63,7 @@ take_plain:                         ; one of a stretch goes into the frame and i
         eora *crc+1
         std *crc
         rts
-take_stretch:                       ; one that tells the length of the next stretch means a zero
+take_stretch:                       ; the length of the next block stands for a zero
         staa *code
         ldx *in
         clr 0,x
@@ -82,7 +82,7 @@ take_stretch:                       ; one that tells the length of the next stre
 
 cold:   rts
 
-; Background: put a byte (A) behind the frame that goes, into its check and its stuffing.
+; Background: append a byte (A) to the outgoing frame, with CRC and COBS.
         .globl put_byte
 put_byte:
         staa *byte
@@ -103,7 +103,7 @@ put_plain:
         stx *in
         inc code
         rts
-put_stretch:                        ; a zero is left out; the length of its stretch is written
+put_stretch:                        ; a zero is replaced by the length of its block
         ldx *mark
         ldaa *code
         staa 0,x
@@ -115,8 +115,8 @@ put_stretch:                        ; a zero is left out; the length of its stre
         staa *code
         rts
 
-; Background: a whole frame for this board is a segment of three axes; it goes into the queue.
-; frame: address, number, type, index, ticks (2), three times first (4) and second (3).
+; Background: put the segment of a complete frame into the queue. It has three axes.
+; Frame: address, number, type, index, ticks (2), then for each axis first (4) and second (3).
         .macro SEGMENT
         ldd 6,x
         std 2,y
@@ -153,4 +153,4 @@ take_segment:
         inc next
         rts
 
-table:  .space 512                  ; of the check sum, two bytes an entry
+table:  .space 512                  ; of the CRC, two bytes per entry

@@ -1,9 +1,9 @@
-; What goes to the host: telemetry, and captured samples.
+; Frames to the host: telemetry and captured samples.
         .include "board.inc"
         .text
 
-; The head of a frame that goes: address, number, type, time, state, fault, switches, and the index
-; of the segment that comes next.
+; Header of a telemetry frame: address, number, type, time, state, fault, switches, and the index of
+; the next segment.
         .globl tell_head
 tell_head:
         ldd #0xFFFF
@@ -20,7 +20,7 @@ tell_head:
         .endr
         rts
 
-; Telemetry of one axis (X: its encoder): 24 bits, and how far the command is from that.
+; Telemetry of one axis (X: its encoder): the 24-bit reading, and the deviation of the command.
         .globl tell_axis
 tell_axis:
         ldaa 0,x
@@ -37,14 +37,14 @@ tell_axis:
         pulx
         ldd *axes+TOLD
         subd 1,x                    ; modulo 65 536
-        bvs cold                    ; it does not fit: clipped
+        bvs cold                    ; the deviation does not fit and is clipped
         pshb
         jsr put_byte
         pula
         jsr put_byte
         rts
 
-; The end of a frame that goes: its check, the length of its last stretch, the line's interrupt.
+; End of an outgoing frame: its CRC, the length of the last block, and the transmitter interrupt.
         .globl tell_end
 tell_end:
         ldd *crc
@@ -63,7 +63,7 @@ tell_end:
         staa SCCR2
         rts
 
-; A captured sample of one axis: 16 bits into those that wait.
+; Captured sample of one axis: its low 16 bits go into the buffer.
         .globl capture_axis
 capture_axis:
         ldd COUNTERS+1
@@ -76,7 +76,7 @@ capture_axis:
         stx *waiting
         rts
 
-; Captured samples go: one byte of theirs.
+; Send the captured bytes of a frame.
         .globl tell_captured
 tell_captured:
         ldx *sent

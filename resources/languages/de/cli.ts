@@ -16,12 +16,12 @@
         <translation>{asked} Anschlüsse: zwei Karten haben höchstens {most_ports}</translation>
     </message>
     <message>
-        <source>--bus is one line; name only one port</source>
-        <translation>--bus ist eine einzige Leitung; nur einen Anschluss angeben</translation>
+        <source>--bus uses one line; name only one port</source>
+        <translation>--bus nutzt eine einzige Leitung; nur einen Anschluss angeben</translation>
     </message>
     <message>
-        <source>--bus: the robot&apos;s axes need only one board, which shares no line</source>
-        <translation>--bus: die Achsen des Roboters brauchen nur eine Karte, die keine Leitung teilt</translation>
+        <source>--bus: the robot&apos;s axes need only one board, so no line is shared</source>
+        <translation>--bus: die Achsen des Roboters brauchen nur eine Karte, daher wird keine Leitung geteilt</translation>
     </message>
     <message>
         <source>this system has no pseudo-terminals ({error}); use --tcp 127.0.0.1:0</source>
@@ -56,14 +56,6 @@
         <translation>--fit passt das Modell neu an, das --with nicht verwendet; nur eines von beiden angeben</translation>
     </message>
     <message>
-        <source>{path} is named twice; give the output another name</source>
-        <translation>{path}: der Name kommt zweimal vor; der Ausgabe einen eigenen geben</translation>
-    </message>
-    <message>
-        <source>{inverse} was trained for robot {robot}, not for {name}; name that robot by --robot</source>
-        <translation>{inverse}: sie wurde für Roboter {robot} trainiert, nicht für {name}; den passenden Roboter mit --robot angeben</translation>
-    </message>
-    <message>
         <source>--simulate takes no records; leave out one or the other</source>
         <translation>--simulate nimmt keine Aufzeichnungen; eines von beiden weglassen</translation>
     </message>
@@ -80,36 +72,16 @@
         <translation>--simulate braucht --axis NAME</translation>
     </message>
     <message>
-        <source>{output}: there is no folder {parent}; create it</source>
-        <translation>{output}: den Ordner {parent} gibt es nicht; erst anlegen</translation>
-    </message>
-    <message>
-        <source>{path} is named twice; give each file its own name</source>
-        <translation>{path}: der Name kommt zweimal vor; jeder Datei einen eigenen geben</translation>
-    </message>
-    <message>
         <source>{path}: its piezo axes are {found}; name one by --axis</source>
         <translation>{path}: die Piezoachsen darin sind {found}; eine mit --axis angeben</translation>
     </message>
     <message>
-        <source>{output} is the input file; name another by -o</source>
-        <translation>{output} ist die Eingabedatei; mit -o eine andere angeben</translation>
+        <source>{output} is the input file; choose another output with -o</source>
+        <translation>{output} ist die Eingabedatei; mit -o eine andere Ausgabe wählen</translation>
     </message>
     <message>
         <source>--units {chosen}: a position&apos;s unit is a length or an angle</source>
         <translation>--units {chosen}: die Einheit einer Position ist eine Länge oder ein Winkel</translation>
-    </message>
-    <message>
-        <source>--set {text}: must be KEY=VALUE</source>
-        <translation>--set {text}: muss KEY=VALUE sein</translation>
-    </message>
-    <message>
-        <source>{name}: unknown setting {setting}; available: {known}</source>
-        <translation>{name}: unbekannte Einstellung {setting}; bekannt: {known}</translation>
-    </message>
-    <message>
-        <source>--set {name}={value}: must be {kind}</source>
-        <translation>--set {name}={value}: muss {kind} sein</translation>
     </message>
     <message>
         <source>there is no effect {effect_id}; available: {names}</source>
@@ -164,12 +136,8 @@
         <translation>{output}: der Name kommt zweimal vor; jeder Datei einen eigenen geben</translation>
     </message>
     <message>
-        <source>--pause: name the previous motion by --after</source>
-        <translation>--pause: die vorausgegangene Bewegung mit --after angeben</translation>
-    </message>
-    <message>
-        <source>{output} already exists; name the record by -o</source>
-        <translation>{output}: die Datei gibt es schon; die Aufzeichnung mit -o benennen</translation>
+        <source>{output} already exists; choose another file with -o</source>
+        <translation>{output}: die Datei gibt es schon; mit -o eine andere wählen</translation>
     </message>
     <message>
         <source>{output} cannot be written: there is no folder {parent}; create it, or choose another</source>
@@ -213,7 +181,7 @@
     </message>
     <message>
         <source>choose its model with --robot</source>
-        <extracomment>What to do where a record is of another machine.</extracomment>
+        <extracomment>Advice if a record does not fit the model of the machine.</extracomment>
         <translation>ihr Modell mit --robot wählen</translation>
     </message>
     <message>
@@ -251,22 +219,6 @@
     <message>
         <source>{effects}: on robot {name}: {error}</source>
         <translation>{effects}: bei Roboter {name}: {error}</translation>
-    </message>
-    <message>
-        <source>tune: name the axis by --axis, or a point by --choose</source>
-        <translation>tune: die Achse mit --axis oder einen Punkt mit --choose angeben</translation>
-    </message>
-    <message>
-        <source>{output} was tuned for robot {robot}, not for {name}; name the robot by --robot</source>
-        <translation>{output} ist für Roboter {robot} abgestimmt, nicht für {name}; den Roboter mit --robot angeben</translation>
-    </message>
-    <message>
-        <source>{output}: there is no folder {parent}; create it first</source>
-        <translation>{output}: den Ordner {parent} gibt es nicht; erst anlegen</translation>
-    </message>
-    <message>
-        <source>{inverse} is an inverse of axis {axis}, but {options_axis} is to be tuned; name one that was trained on this axis</source>
-        <translation>{inverse}: eine Inverse von Achse {axis}, abgestimmt werden soll {options_axis}; eine angeben, die mit dieser Achse trainiert wurde</translation>
     </message>
     <message>
         <source>--jobs {jobs}: must be 1 or more</source>
@@ -333,10 +285,6 @@
         <translation>Punkt</translation>
     </message>
     <message>
-        <source>tracking [%]</source>
-        <translation>Folgefehler [%]</translation>
-    </message>
-    <message>
         <source>settling [ms]</source>
         <translation>Einschwingen [ms]</translation>
     </message>
@@ -349,12 +297,28 @@
         <translation>Stellaufwand [1/s]</translation>
     </message>
     <message>
-        <source>integral [1/s]</source>
+        <source>tracking error [%]</source>
+        <translation>Folgefehler [%]</translation>
+    </message>
+    <message>
+        <source>integral gain [1/s]</source>
         <translation>I-Anteil [1/s]</translation>
+    </message>
+    <message>
+        <source>tune: give the axis with --axis, or the number of a point with --choose</source>
+        <translation>tune: die Achse mit --axis oder die Nummer eines Punktes mit --choose angeben</translation>
     </message>
     <message>
         <source>stopped after {done} of {total} generations; {output} holds the points found so far, and is marked as incomplete</source>
         <translation>nach {done} von {total} Generationen angehalten; {output} enthält die bisher gefundenen Punkte und ist als unvollständig gekennzeichnet</translation>
+    </message>
+    <message>
+        <source>{output} was tuned for robot {robot}, not for {name}; select that robot with --robot</source>
+        <translation>{output} ist für Roboter {robot} abgestimmt, nicht für {name}; jenen Roboter mit --robot wählen</translation>
+    </message>
+    <message>
+        <source>{inverse} is an inverse of axis {axis}, but {options_axis} is to be tuned; choose one that was trained on this axis</source>
+        <translation>{inverse}: eine Inverse von Achse {axis}, abgestimmt werden soll {options_axis}; eine wählen, die mit dieser Achse trainiert wurde</translation>
     </message>
     <message>
         <source>{output}: axis {axis}, loop at {rate}</source>
@@ -421,14 +385,6 @@ und prüfen mit `rotemina plugin check {name}` und `pytest {place}`.</translatio
         <translation>empfohlen: {why}</translation>
     </message>
     <message>
-        <source>{name} runs in real time: ALL AXES WILL MOVE, also to the ends of their ranges. Remove the tool, and keep the machine&apos;s emergency stop switch within reach.</source>
-        <translation>{name} läuft in Echtzeit: ALLE ACHSEN WERDEN SICH BEWEGEN, auch bis an die Enden ihrer Bereiche. Das Werkzeug abnehmen; der Not-Halt der Maschine muss in Reichweite sein.</translation>
-    </message>
-    <message>
-        <source>{name} runs in real time: only checks without motion run; --move lets the axes move</source>
-        <translation>{name} läuft in Echtzeit: nur Prüfungen ohne Bewegung laufen; --move lässt die Achsen fahren</translation>
-    </message>
-    <message>
         <source>any clock</source>
         <translation>beliebige Uhr</translation>
     </message>
@@ -443,6 +399,14 @@ und prüfen mit `rotemina plugin check {name}` und `pytest {place}`.</translatio
     <message>
         <source>left out: {name}: {reason}</source>
         <translation>ausgelassen: {name}: {reason}</translation>
+    </message>
+    <message>
+        <source>{name} may drive a real machine: ALL AXES WILL MOVE, including to the ends of their ranges. Remove the tool, and keep the machine&apos;s emergency stop switch within reach.</source>
+        <translation>{name} kann eine echte Maschine bewegen: ALLE ACHSEN WERDEN SICH BEWEGEN, auch bis an die Enden ihrer Bereiche. Das Werkzeug abnehmen; der Not-Halt der Maschine muss in Reichweite sein.</translation>
+    </message>
+    <message>
+        <source>{name} may drive a real machine: only checks without motion run; --move lets the axes move</source>
+        <translation>{name} kann eine echte Maschine bewegen: nur Prüfungen ohne Bewegung laufen; --move lässt die Achsen fahren</translation>
     </message>
     <message>
         <source>{name}: axis {axis} of robot {robot}, {runs} runs</source>
@@ -497,10 +461,6 @@ und prüfen mit `rotemina plugin check {name}` und `pytest {place}`.</translatio
         <translation>Effektivwert / Bereich</translation>
     </message>
     <message>
-        <source>{share} of the rows are not judged: they lie outside {low} to {high}, the range of the training</source>
-        <translation>{share} der Zeilen werden nicht bewertet: sie liegen außerhalb von {low} bis {high}, dem Bereich des Trainings</translation>
-    </message>
-    <message>
         <source>rms [{unit}]</source>
         <translation>Effektivwert [{unit}]</translation>
     </message>
@@ -513,12 +473,20 @@ und prüfen mit `rotemina plugin check {name}` und `pytest {place}`.</translatio
         <translation>größte Abweichung [{unit}]</translation>
     </message>
     <message>
+        <source>{share} of the rows are not evaluated, because they are outside the training range, {low} to {high}</source>
+        <translation>{share} der Zeilen werden nicht ausgewertet, weil sie außerhalb des Trainingsbereichs liegen, {low} bis {high}</translation>
+    </message>
+    <message>
         <source>{axis}.cmd = {value} at row {row} (t = {time}) is outside {low} … {high}; {rows} such rows</source>
         <translation>{axis}.cmd = {value} in Zeile {row} (t = {time}) liegt außerhalb von {low} … {high}; {rows} solche Zeilen</translation>
     </message>
     <message>
         <source>effect {effect} on axis {axis} does not act: the commands name neither this axis nor one coupled to it</source>
         <translation>Effekt {effect} an Achse {axis} wirkt nicht: die Sollwerte nennen weder diese Achse noch eine mit ihr gekoppelte</translation>
+    </message>
+    <message>
+        <source>{inverse} was trained for robot {robot}, not for {name}; select that robot with --robot</source>
+        <translation>{inverse}: sie wurde für Roboter {robot} trainiert, nicht für {name}; jenen Roboter mit --robot wählen</translation>
     </message>
     <message>
         <source>recommended after training: {why}</source>
@@ -559,6 +527,10 @@ und prüfen mit `rotemina plugin check {name}` und `pytest {place}`.</translatio
     <message>
         <source>{effect} on axis {axis}</source>
         <translation>{effect} an Achse {axis}</translation>
+    </message>
+    <message>
+        <source>--pause needs a previous motion; give its record with --after</source>
+        <translation>--pause braucht eine vorausgegangene Bewegung; deren Aufzeichnung mit --after angeben</translation>
     </message>
     <message>
         <source>no further effects</source>

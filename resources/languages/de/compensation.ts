@@ -192,28 +192,40 @@
         <translation>Front</translation>
     </message>
     <message>
+        <source>inverse model</source>
+        <translation>inverses Modell</translation>
+    </message>
+    <message>
+        <source>Validation data against the command [{unit}]</source>
+        <translation>Prüfdaten über dem Sollwert [{unit}]</translation>
+    </message>
+    <message>
         <source>command [{unit}]</source>
         <translation>Sollwert [{unit}]</translation>
     </message>
     <message>
-        <source>Reading over reference [{unit}]</source>
-        <translation>Messwert über Sollwert [{unit}]</translation>
+        <source>Control effort [ranges/s] against tracking error [%]</source>
+        <translation>Stellaufwand [Bereiche/s] über Folgefehler [%]</translation>
+    </message>
+    <message>
+        <source>rms tracking error [%]</source>
+        <translation>Folgefehler rms [%]</translation>
+    </message>
+    <message>
+        <source>Click a point to simulate its step and triangle responses</source>
+        <translation>Einen Punkt anklicken, um seine Sprung- und Dreieckantwort zu simulieren</translation>
     </message>
     <message>
         <source>reference [{unit}]</source>
         <translation>Sollwert [{unit}]</translation>
     </message>
     <message>
+        <source>Reading against reference [{unit}]</source>
+        <translation>Messwert über Sollwert [{unit}]</translation>
+    </message>
+    <message>
         <source>Reading − reference, mean removed [{unit}]</source>
         <translation>Messwert − Sollwert, ohne Mittelwert [{unit}]</translation>
-    </message>
-    <message>
-        <source>Effort [ranges/s] over tracking [%]</source>
-        <translation>Aufwand [Bereiche/s] über Folgefehler [%]</translation>
-    </message>
-    <message>
-        <source>tracking rms [%]</source>
-        <translation>Folgefehler rms [%]</translation>
     </message>
     <message>
         <source>Pareto front</source>
@@ -416,20 +428,8 @@
         <translation>Soll</translation>
     </message>
     <message>
-        <source>its inverse</source>
-        <translation>ihre Inverse</translation>
-    </message>
-    <message>
         <source>Residual of each inverse on validation rows</source>
         <translation>Restfehler jeder Inversen auf Prüfzeilen</translation>
-    </message>
-    <message>
-        <source>Validation rows, over the command [{unit}]</source>
-        <translation>Prüfzeilen, über dem Sollwert [{unit}]</translation>
-    </message>
-    <message>
-        <source>Click a point to simulate its step and triangle</source>
-        <translation>Einen Punkt anklicken, um seinen Sprung und sein Dreieck zu simulieren</translation>
     </message>
     <message>
         <source>Piezo axis in open loop to be compensated</source>

@@ -100,7 +100,7 @@
         <translation>Einstellung {name}</translation>
     </message>
     <message>
-        <source>{name}; preset {default}</source>
+        <source>{name}; default {default}</source>
         <translation>{name}; Vorgabe {default}</translation>
     </message>
     <message>
@@ -138,10 +138,6 @@
     <message>
         <source>Worst</source>
         <translation>Schlechtester</translation>
-    </message>
-    <message>
-        <source>At rest after</source>
-        <translation>In Ruhe nach</translation>
     </message>
     <message>
         <source>Line</source>
@@ -240,6 +236,10 @@
         <translation>das Gerät antwortet nicht</translation>
     </message>
     <message>
+        <source>the parameters differ from the robot file; write or accept them first</source>
+        <translation>die Parameter weichen von der Roboterdatei ab; erst schreiben oder übernehmen</translation>
+    </message>
+    <message>
         <source>{name} cannot set a voltage</source>
         <translation>{name} kann keine Spannung ausgeben</translation>
     </message>
@@ -308,8 +308,24 @@
         <translation>unbekannt</translation>
     </message>
     <message>
+        <source>Set the floor at the current height of the tip; the tip then cannot move below it</source>
+        <translation>Den Boden auf die jetzige Höhe der Spitze setzen; die Spitze kann dann nicht tiefer fahren</translation>
+    </message>
+    <message>
+        <source>Remove the floor; only the axis ranges then limit the tip</source>
+        <translation>Den Boden entfernen; dann begrenzen nur die Achsbereiche die Spitze</translation>
+    </message>
+    <message>
+        <source>The tip has moved or motion was locked, so no floor was set. Try again when the machine is at rest.</source>
+        <translation>Die Spitze hat sich bewegt, oder die Bewegung wurde gesperrt; daher wurde kein Boden gesetzt. In Ruhe erneut versuchen.</translation>
+    </message>
+    <message>
         <source>it is at {height}</source>
         <translation>liegt er bei {height}</translation>
+    </message>
+    <message>
+        <source>Set the floor at {height}, the current height of the tip? At the moment, {old}.</source>
+        <translation>Den Boden auf {height} setzen, die jetzige Höhe der Spitze? Zurzeit: {old}.</translation>
     </message>
     <message>
         <source>Remove</source>
@@ -320,8 +336,8 @@
         <translation>Spannung des Verstärkers</translation>
     </message>
     <message>
-        <source>Axis of the amplifier</source>
-        <translation>Achse des Verstärkers</translation>
+        <source>Axis driven by the amplifier</source>
+        <translation>Achse, die der Verstärker treibt</translation>
     </message>
     <message>
         <source>Voltage</source>
@@ -330,6 +346,10 @@
     <message>
         <source>Apply …</source>
         <translation>Anlegen …</translation>
+    </message>
+    <message>
+        <source>For servicing: ramp the amplifier to this voltage without position feedback</source>
+        <translation>Für den Service: den Verstärker ohne Positionsregelung langsam auf diese Spannung fahren</translation>
     </message>
     <message>
         <source>{low} to {high} V</source>
@@ -346,6 +366,10 @@
     <message>
         <source>Last stop sent within</source>
         <translation>Letzter Halt gesendet in</translation>
+    </message>
+    <message>
+        <source>Standstill after the last stop</source>
+        <translation>Stillstand nach dem letzten Stopp</translation>
     </message>
     <message>
         <source>{name} has no open line.</source>
@@ -416,28 +440,12 @@
         <translation>{are} von der Roboterdatei ab; bis zum Schreiben oder Übernehmen bewegt sich nichts.</translation>
     </message>
     <message>
-        <source>Set the floor at the present height of the tip; nothing moves below it</source>
-        <translation>Den Boden auf die jetzige Höhe der Spitze setzen; darunter bewegt sich nichts</translation>
-    </message>
-    <message>
-        <source>Remove the lower limit of the tip; only the axis ranges remain</source>
-        <translation>Die untere Grenze der Spitze entfernen; nur die Achsbereiche bleiben</translation>
-    </message>
-    <message>
         <source>there is none</source>
         <translation>gibt es keinen</translation>
     </message>
     <message>
         <source>Set floor</source>
         <translation>Boden setzen</translation>
-    </message>
-    <message>
-        <source>The tip has moved, so no floor was set. Try again when it is at rest.</source>
-        <translation>Die Spitze hat sich bewegt, daher wurde kein Boden gesetzt. In Ruhe erneut versuchen.</translation>
-    </message>
-    <message>
-        <source>Set the floor at {height}, the present height of the tip? So far {old}.</source>
-        <translation>Den Boden auf {height} setzen, die jetzige Höhe der Spitze? Bisher {old}.</translation>
     </message>
     <message>
         <source>Remove the floor at {height}? Without a floor only the axis ranges limit the tip.</source>
@@ -454,10 +462,6 @@
     <message>
         <source>{latched} is already locked</source>
         <translation>{latched} ist schon gesperrt</translation>
-    </message>
-    <message>
-        <source>For service: apply this voltage slowly, regardless of the position</source>
-        <translation>Für den Service: diese Spannung langsam anlegen, ohne Rücksicht auf die Position</translation>
     </message>
     <message>
         <source>No position is known.</source>

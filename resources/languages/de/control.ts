@@ -157,7 +157,6 @@
     </message>
     <message>
         <source>Saved positions</source>
-        <extracomment>What the next press replaces or deletes.</extracomment>
         <translation>Gespeicherte Positionen</translation>
     </message>
     <message>
@@ -177,10 +176,6 @@
         <translation>Hier setzen?</translation>
     </message>
     <message>
-        <source>Retract: Z to its upper end</source>
-        <translation>Zurückziehen: Z an sein oberes Ende</translation>
-    </message>
-    <message>
         <source>Retract</source>
         <translation>Zurückziehen</translation>
     </message>
@@ -193,16 +188,12 @@
         <translation>Anfahren</translation>
     </message>
     <message>
-        <source>Discard the floor and the tip in the picture</source>
-        <translation>Boden und Spitze im Bild verwerfen</translation>
+        <source>Discard the taught floor, and stop tracking the tip in the image</source>
+        <translation>Gelernten Boden verwerfen; die Spitze im Bild nicht mehr verfolgen</translation>
     </message>
     <message>
         <source>Discard</source>
         <translation>Verwerfen</translation>
-    </message>
-    <message>
-        <source>Lock; then change the pin or the dish by hand</source>
-        <translation>Sperren; dann Stift oder Schale von Hand wechseln</translation>
     </message>
     <message>
         <source>Stop and lock</source>
@@ -211,6 +202,10 @@
     <message>
         <source>Release</source>
         <translation>Freigeben</translation>
+    </message>
+    <message>
+        <source>Find the tip in the microscope; lower the tip slowly with the manual controls</source>
+        <translation>Die Spitze im Mikroskop suchen; mit der Handsteuerung langsam absenken</translation>
     </message>
     <message>
         <source>Show the microscope</source>
@@ -231,10 +226,6 @@
     <message>
         <source>Name for the present position</source>
         <translation>Name für die jetzige Position</translation>
-    </message>
-    <message>
-        <source>Name for the present position; at most {most} letters</source>
-        <translation>Name für die jetzige Position; höchstens {most} Buchstaben</translation>
     </message>
     <message>
         <source>Delete</source>
@@ -277,6 +268,14 @@
         <translation>Das jetzige Ziel aller Achsen speichern</translation>
     </message>
     <message>
+        <source>this robot has no z axis to lift the tip with</source>
+        <translation>dieser Roboter hat keine Achse z, mit der sich die Spitze heben lässt</translation>
+    </message>
+    <message>
+        <source>Go to position {name!r} along a safe path; to change it, save another one under this name</source>
+        <translation>Auf sicherer Bahn zur Position {name!r} fahren; zum Ändern eine andere unter diesem Namen speichern</translation>
+    </message>
+    <message>
         <source>Not set: press twice to save the present target of all axes</source>
         <translation>Nicht gesetzt: zweimal drücken, um das jetzige Ziel aller Achsen zu speichern</translation>
     </message>
@@ -287,10 +286,6 @@
     <message>
         <source>type a name first</source>
         <translation>erst einen Namen eingeben</translation>
-    </message>
-    <message>
-        <source>this robot has no axis z to lift the tip</source>
-        <translation>dieser Roboter hat keine Achse z, die die Spitze hebt</translation>
     </message>
     <message>
         <source>Change the pin or the dish, step by step</source>
@@ -401,6 +396,18 @@
         <translation>nicht referenziert</translation>
     </message>
     <message>
+        <source>at most {height} from the middle of the workspace</source>
+        <translation>höchstens {height} von der Mitte des Arbeitsraums</translation>
+    </message>
+    <message>
+        <source>Only the axis ranges limit the tip. To teach a floor, use the Tip section of the Connection panel.</source>
+        <translation>Nur die Achsbereiche begrenzen die Spitze. Ein Boden lässt sich im Fenster Verbindung, Abschnitt Spitze, setzen.</translation>
+    </message>
+    <message>
+        <source> Within {height} of the floor, the tip descends at {speed} at most.</source>
+        <translation> Bis {height} über dem Boden sinkt die Spitze mit höchstens {speed}.</translation>
+    </message>
+    <message>
         <source>{label} range: {low} … {high}</source>
         <translation>Bereich {label}: {low} … {high}</translation>
     </message>
@@ -429,10 +436,6 @@
         <translation>Spitze {height} über ihrem Boden{slow}.</translation>
     </message>
     <message>
-        <source>Tip over floor {height}</source>
-        <translation>Spitze über Boden {height}</translation>
-    </message>
-    <message>
         <source>No floor taught</source>
         <translation>Kein Boden gesetzt</translation>
     </message>
@@ -447,10 +450,6 @@
     <message>
         <source>objective at {height}</source>
         <translation>Objektiv bei {height}</translation>
-    </message>
-    <message>
-        <source>at most {height} from the middle</source>
-        <translation>höchstens {height} von der Mitte</translation>
     </message>
     <message>
         <source>Axis</source>
@@ -533,6 +532,10 @@
         <translation>Gespeicherte Positionen aller Achsen</translation>
     </message>
     <message>
+        <source>Name for the present position; at most {most} characters</source>
+        <translation>Name für die jetzige Position; höchstens {most} Zeichen</translation>
+    </message>
+    <message>
         <source>Raise the tip above both positions, move across, lower it</source>
         <translation>Die Spitze über beide Positionen heben, verfahren, absenken</translation>
     </message>
@@ -543,10 +546,6 @@
     <message>
         <source>Return to the position before the latest move: up, across, down</source>
         <translation>Zur Position vor der letzten Bewegung zurückfahren: hoch, quer, ab</translation>
-    </message>
-    <message>
-        <source>Go to position {name!r} along a safe path; save a new one by this name to move it</source>
-        <translation>Auf sicherer Bahn zur Position {name!r} fahren; zum Verlegen unter diesem Namen neu speichern</translation>
     </message>
     <message>
         <source>Delete?</source>
@@ -613,28 +612,16 @@
         <translation>Ziel von {name}, {bounds}; Enter oder Los</translation>
     </message>
     <message>
-        <source>H⁻¹: commands pass the inverse {name}; remove it in the panel Compensation.</source>
-        <translation>H⁻¹: Sollwerte durchlaufen die Inverse {name}; im Panel Kompensation abschalten.</translation>
-    </message>
-    <message>
         <source>No tip: this robot has no kinematic chain to a tip.</source>
         <translation>Keine Spitze: dieser Roboter hat keine kinematische Kette zu einer Spitze.</translation>
     </message>
     <message>
+        <source>Tip {height} above floor</source>
+        <translation>Spitze {height} über Boden</translation>
+    </message>
+    <message>
         <source>Only the axis ranges limit this robot.</source>
         <translation>Nur die Achsbereiche begrenzen diesen Roboter.</translation>
-    </message>
-    <message>
-        <source>Only the axis ranges limit the tip. Teach a floor in Connection, Tip.</source>
-        <translation>Nur die Achsbereiche begrenzen die Spitze. Unter Verbindung, Spitze einen Boden setzen.</translation>
-    </message>
-    <message>
-        <source>{sign}: jogs and go-to approach from below.</source>
-        <translation>{sign}: Tippen und Anfahren nähern sich von unten.</translation>
-    </message>
-    <message>
-        <source>{sign}: jogs and go-to approach from above.</source>
-        <translation>{sign}: Tippen und Anfahren nähern sich von oben.</translation>
     </message>
     <message>
         <source>{range}; remaining: {down} down, {up} up</source>
@@ -653,12 +640,20 @@
         <translation>In Klammern: die letzte Anfahrt kam von der anderen Seite.</translation>
     </message>
     <message>
-        <source>Tip at {height}; no floor is taught.</source>
-        <translation>Spitze auf {height}; kein Boden ist gesetzt.</translation>
+        <source>H⁻¹: commands pass through the inverse {name}, which you can remove in the Compensation panel.</source>
+        <translation>H⁻¹: Sollwerte durchlaufen die Inverse {name}; sie lässt sich im Fenster Kompensation entfernen.</translation>
     </message>
     <message>
-        <source> Within {height} above the floor it descends at {speed} at most.</source>
-        <translation> Bis {height} über dem Boden sinkt sie mit höchstens {speed}.</translation>
+        <source>{sign}: jogs and go-to moves approach their target from below.</source>
+        <translation>{sign}: Tippen und Anfahren nähern sich dem Ziel von unten.</translation>
+    </message>
+    <message>
+        <source>{sign}: jogs and go-to moves approach their target from above.</source>
+        <translation>{sign}: Tippen und Anfahren nähern sich dem Ziel von oben.</translation>
+    </message>
+    <message>
+        <source>Tip at {height}; no floor is taught.</source>
+        <translation>Spitze auf {height}; kein Boden ist gesetzt.</translation>
     </message>
     <message>
         <source>Skip this step</source>
@@ -669,16 +664,20 @@
         <translation>Position {name!r} ist nicht gespeichert; den Schritt überspringen oder die Position speichern</translation>
     </message>
     <message>
+        <source>Retract: move Z to its upper limit</source>
+        <translation>Zurückziehen: Z an seine obere Grenze fahren</translation>
+    </message>
+    <message>
+        <source>Stop and lock; then change the pin or the dish by hand</source>
+        <translation>Stopp und sperren; dann Stift oder Schale von Hand wechseln</translation>
+    </message>
+    <message>
         <source>Pin or dish changed, hands clear: release the lock</source>
         <translation>Stift oder Schale gewechselt, Hände entfernt: Sperre lösen</translation>
     </message>
     <message>
         <source>Move above the work position with Z raised</source>
         <translation>Mit angehobenem Z über die Arbeitsposition fahren</translation>
-    </message>
-    <message>
-        <source>Find the tip in the microscope; lower it slowly by hand</source>
-        <translation>Die Spitze im Mikroskop suchen; langsam von Hand absenken</translation>
     </message>
     <message>
         <source>Factor on distance, speed and force of the joystick</source>

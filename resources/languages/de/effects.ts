@@ -64,6 +64,10 @@
         <translation>Effekte, die sich nicht laden lassen:</translation>
     </message>
     <message>
+        <source>Effects of a machine after years of use</source>
+        <translation>Effekte einer Maschine nach Jahren des Gebrauchs</translation>
+    </message>
+    <message>
         <source>Load effects from a robot file</source>
         <translation>Effekte aus einer Roboterdatei laden</translation>
     </message>
@@ -794,10 +798,6 @@
     <message>
         <source>there are no such effects for this robot</source>
         <translation>für diesen Roboter gibt es solche Effekte nicht</translation>
-    </message>
-    <message>
-        <source>Effects as of a machine after years of use</source>
-        <translation>Effekte wie bei einer Maschine nach Jahren des Gebrauchs</translation>
     </message>
     <message>
         <source>{path}: the robot file has no effects; the list is unchanged</source>

@@ -5,7 +5,7 @@
     <name>engine</name>
     <message>
         <source>another device is connected</source>
-        <extracomment>What puts readings right, before anybody sees them. The one that is open, or was open last; exchanged on this worker&apos;s thread. What the tip&apos;s bounds are judged on beside commands. Of axes that the device does not compensate by itself. Of the driver in use; what it was told may be looked at by any thread. Whether another worker has taken the place of this one, which hangs in its driver. Whether it has released its driver for good.</extracomment>
+        <extracomment>Corrects readings before anything else uses them. The driver that is or was last open; replaced only on the thread of this worker. Deviation of readings from commands, which checks of the tip take into account. Inverses that the host applies, because the device cannot. Executor for the current driver. Any thread may read its targets and speeds. Whether another worker has replaced this one, because it hangs in its driver. Whether the worker has ended and released its driver.</extracomment>
         <translation>ein anderes Gerät ist verbunden</translation>
     </message>
     <message>
@@ -50,7 +50,6 @@
     </message>
     <message>
         <source>the session has already been started; create a new one</source>
-        <extracomment>How long a device may take to be released or to be opened when another one is wanted, s. Of the thread that shows this to an operator; once it beats, nothing moves without it. Of the worker.</extracomment>
         <translation>die Sitzung wurde schon gestartet; eine neue anlegen</translation>
     </message>
     <message>
@@ -62,11 +61,12 @@
         <translation>das Gerät ist verbunden</translation>
     </message>
     <message>
-        <source>{name} still hangs in an earlier call; choose Connect on the panel Connection to open it anew, or another device</source>
-        <translation>{name} hängt noch in einem früheren Aufruf; im Fenster Verbindung auf Verbinden drücken, um es neu zu öffnen, oder ein anderes Gerät wählen</translation>
+        <source>{name} still hangs in an earlier call; choose Connect on the panel Connection to open it again, or choose another device</source>
+        <translation>{name} hängt noch in einem früheren Aufruf; wählen Sie im Fenster Verbindung Verbinden, um das Gerät neu zu öffnen, oder wählen Sie ein anderes Gerät</translation>
     </message>
     <message>
         <source>the device is being released</source>
+        <extracomment>Heartbeat of the thread that shows the session to an operator. Once it has begun to beat, motion stops if the beats cease. Heartbeat of the worker.</extracomment>
         <translation>das Gerät wird getrennt</translation>
     </message>
     <message>
@@ -82,17 +82,17 @@
         <translation>das Fenster reagiert nicht</translation>
     </message>
     <message>
-        <source>this program stood still for {paused} s (computer asleep or overloaded); look at the machine, then move again</source>
-        <translation>dieses Programm stand {paused} s still (Rechner im Ruhezustand oder überlastet); nach der Maschine sehen, dann erneut fahren</translation>
+        <source>this program did not run for {paused} s (computer asleep or overloaded); check the machine, then move again</source>
+        <translation>dieses Programm lief {paused} s lang nicht (Rechner im Ruhezustand oder überlastet); prüfen Sie die Maschine, und fahren Sie dann weiter</translation>
     </message>
     <message>
         <source>another device is being connected; wait</source>
         <translation>ein anderes Gerät wird verbunden; bitte warten</translation>
     </message>
     <message>
-        <source>{name} has not answered for {seconds} s and could not be disconnected: the program leaves it alone. If its machine moves, use its emergency stop switch; check cable and device</source>
-        <extracomment>Why no motion is accepted on any path; None while it is. Host time of the latest stop, whoever asked for it; None before the first.</extracomment>
-        <translation>{name} hat seit {seconds} s nicht geantwortet und ließ sich nicht trennen: das Programm lässt es in Ruhe. Falls sich seine Maschine bewegt, ihren Not-Halt benutzen; Kabel und Gerät prüfen</translation>
+        <source>{name} has not answered for {seconds} s and could not be disconnected: the program no longer uses it. If its machine moves, use its emergency stop switch; check cable and device</source>
+        <extracomment>Why all motion is refused, or None while it is permitted. Host time of the latest stop, by any requester; None before the first.</extracomment>
+        <translation>{name} hat seit {seconds} s nicht geantwortet und ließ sich nicht trennen: Das Programm verwendet das Gerät nicht mehr. Falls sich seine Maschine bewegt, benutzen Sie ihren Not-Halt; prüfen Sie Kabel und Gerät</translation>
     </message>
     <message>
         <source>not connected</source>
@@ -111,12 +111,12 @@
         <translation>nicht verbunden; erst verbinden</translation>
     </message>
     <message>
-        <source>a penetration is {phase}; end it first</source>
-        <translation>eine Penetration ist in Phase {phase}; zuerst beenden</translation>
+        <source>a penetration is in phase {phase}; end it first</source>
+        <translation>eine Penetration ist in der Phase {phase}; beenden Sie sie zuerst</translation>
     </message>
     <message>
-        <source>a penetration is in {phase}; stop it first</source>
-        <translation>eine Penetration ist in der Phase {phase}; erst anhalten</translation>
+        <source>a penetration is in phase {phase}; stop it first</source>
+        <translation>eine Penetration ist in der Phase {phase}; halten Sie sie zuerst an</translation>
     </message>
     <message>
         <source>the program released it</source>
@@ -136,7 +136,7 @@
     </message>
     <message>
         <source>it was not started in time</source>
-        <extracomment>The present state, available at once; replaced as a whole.</extracomment>
+        <extracomment>The current status. It is replaced as a whole, so it can be read without the lock.</extracomment>
         <translation>nicht rechtzeitig gestartet</translation>
     </message>
     <message>
@@ -228,12 +228,12 @@
         <translation>Dauer {duration} s: die Impulsformung {shaping} braucht davon {taken} s; mindestens {least} s oder eine andere Impulsformung</translation>
     </message>
     <message>
-        <source>thrust: none of {count} samples lies after it</source>
-        <translation>Einstich: keiner von {count} Abtastwerten liegt dahinter</translation>
+        <source>thrust: no sample was taken after it (samples: {count})</source>
+        <translation>Einstich: kein Abtastwert liegt danach (Abtastwerte: {count})</translation>
     </message>
     <message>
-        <source>thrust: none of {count} samples lies before it</source>
-        <translation>Einstich: keiner von {count} Abtastwerten liegt davor</translation>
+        <source>thrust: no sample was taken before it (samples: {count})</source>
+        <translation>Einstich: kein Abtastwert liegt davor (Abtastwerte: {count})</translation>
     </message>
     <message>
         <source>{capacity} commands are already waiting because the device does not keep up; wait, or stop</source>
@@ -241,7 +241,6 @@
     </message>
     <message>
         <source>{path}: the positions belong to robot {robot}, not to {name}; move the file away</source>
-        <extracomment>Names of places that have buttons of their own.</extracomment>
         <translation>{path}: die Positionen gehören zu Roboter {robot}, nicht zu {name}; die Datei verschieben</translation>
     </message>
     <message>
@@ -254,6 +253,7 @@
     </message>
     <message>
         <source>axis {missing} is missing</source>
+        <extracomment>Names of positions with their own buttons.</extracomment>
         <translation>Achse {missing} fehlt</translation>
     </message>
     <message>
@@ -290,7 +290,7 @@
     </message>
     <message>
         <source>another profile is now in use</source>
-        <extracomment>What came in at the latest step, by device key: sound readings, oldest first. Whether devices are being set up: only stops are sent.</extracomment>
+        <extracomment>Checked readings of the latest step by device key, oldest first. Whether only stops are passed on, because devices are being set up.</extracomment>
         <translation>jetzt wird ein anderes Profil verwendet</translation>
     </message>
     <message>
@@ -327,11 +327,11 @@
     </message>
     <message>
         <source>there is no mode {name}; use {names}</source>
-        <extracomment>How far and fast sticks move the coordinates.</extracomment>
         <translation>den Modus {name} gibt es nicht; möglich: {names}</translation>
     </message>
     <message>
         <source>the scales were changed</source>
+        <extracomment>Motion of the coordinates for full deflection of a stick.</extracomment>
         <translation>die Maßstäbe wurden geändert</translation>
     </message>
     <message>
@@ -368,7 +368,7 @@
     </message>
     <message>
         <source>a reading has {axes} axes and {buttons} buttons, but the device has {known} and {others}: replug it</source>
-        <extracomment>The longest silence of one that reports only changes, while something moves by it, s. The longest time between two looks at the devices; after it nobody knows what was missed, s.</extracomment>
+        <extracomment>Longest permitted silence of a device that reports only changes, while it moves an axis. Longest permitted time between two steps that read the devices. After a longer pause, changes may have been missed.</extracomment>
         <translation>eine Meldung hat {axes} Achsen und {buttons} Tasten, das Gerät aber {known} und {others}: neu anstecken</translation>
     </message>
     <message>
@@ -397,6 +397,7 @@
     </message>
     <message>
         <source>nothing</source>
+        <extracomment>Degrees of freedom of the stick, and the robot&apos;s axes that each can move, depending on the mode. The tilt thy moves the tip of a pin along x, and the tilt thx along y.</extracomment>
         <translation>nichts</translation>
     </message>
     <message>
@@ -468,6 +469,10 @@
         <translation>{number}: {error}</translation>
     </message>
     <message>
+        <source>{out}; axis {axes} does not bring it back in this direction</source>
+        <translation>{out}; Achse {axes} bringt sie in dieser Richtung nicht zurück</translation>
+    </message>
+    <message>
         <source>tip: the profile moves at {speed} within {height} of the floor, where {most} is the limit; only an armed penetration may be faster</source>
         <translation>Spitze: das Profil fährt mit {speed} weniger als {height} über dem Boden, wo {most} die Grenze ist; schneller darf dort nur eine scharfgestellte Penetration sein</translation>
     </message>
@@ -486,6 +491,10 @@
     <message>
         <source>{much} outside its radius</source>
         <translation>{much} außerhalb ihres Radius</translation>
+    </message>
+    <message>
+        <source>tip: {told} (by command or by reading). It may only move back inside: slowly, with confirmation, and by axes that bring it nearer. Move it back, or repair the faulty sensor</source>
+        <translation>Spitze: {told} (nach Sollwert oder Messwert). Sie darf nur zurück nach innen fahren: langsam, mit Bestätigung und mit Achsen, die sie näher bringen. Fahren Sie sie zurück, oder reparieren Sie den fehlerhaften Sensor</translation>
     </message>
     <message>
         <source>driver {name} is a real machine, whose effects cannot be changed; connect to the simulator</source>
@@ -529,7 +538,6 @@
     </message>
     <message>
         <source>motion is locked: {locked}</source>
-        <extracomment>Held while a request is checked and queued; never while the driver is called. Where axes were sent last by way of a one-sided approach; replaced as a whole.</extracomment>
         <translation>Bewegung gesperrt: {locked}</translation>
     </message>
     <message>
@@ -546,7 +554,7 @@
     </message>
     <message>
         <source>the program is being closed</source>
-        <extracomment>Ends (2,), px, of the measured line.</extracomment>
+        <extracomment>Both ends (2,), px, of the measured line.</extracomment>
         <translation>das Programm wird gerade beendet</translation>
     </message>
     <message>
@@ -584,10 +592,6 @@
     <message>
         <source>driver {name} cannot play trajectories</source>
         <translation>Treiber {name} kann keine Trajektorien abspielen</translation>
-    </message>
-    <message>
-        <source>tip: clearance {clearance} m below the tip: must be a finite number, 0 or more</source>
-        <translation>Spitze: ein Boden {clearance} m unter der Spitze: muss eine endliche Zahl sein, 0 oder mehr</translation>
     </message>
     <message>
         <source>the machine is searching for its limit switches; wait, or stop it first</source>
@@ -655,7 +659,7 @@
     </message>
     <message>
         <source>the playback is paused</source>
-        <extracomment>Why the machine is stopped by a pause, and by the end of a playback.</extracomment>
+        <extracomment>Reasons for the stops that pause and end a playback.</extracomment>
         <translation>die Wiedergabe ist pausiert</translation>
     </message>
     <message>
@@ -664,7 +668,7 @@
     </message>
     <message>
         <source>Not resumed: the machine was stopped again.</source>
-        <extracomment>Why a request to resume was refused where a stop came after it.</extracomment>
+        <extracomment>Reason for refusing a request to resume if a stop came after it.</extracomment>
         <translation>Nicht fortgesetzt: die Maschine wurde wieder angehalten.</translation>
     </message>
     <message>
@@ -684,7 +688,7 @@
         <translation>Messen: ein Bildpunkt ist keine endliche Zahl; die Linie neu ziehen</translation>
     </message>
     <message>
-        <source>a {activity} is under way; wait, or stop it first</source>
+        <source>{activity} is under way; wait, or stop it first</source>
         <translation>{activity} läuft; warten oder erst anhalten</translation>
     </message>
     <message>
@@ -696,16 +700,11 @@
         <translation>die Spitze liegt nach {n} Korrekturen noch {distance} px daneben; zulässig sind höchstens {most} px: der Tisch driftet, oder seine Auflösung ist zu grob</translation>
     </message>
     <message>
-        <source>the tip is not visible near {column}, {row} px, where it should be; motion has ended: check the picture</source>
-        <translation>die Spitze ist bei {column}, {row} px, wo sie sein sollte, nicht zu sehen; die Bewegung ist beendet: Bild prüfen</translation>
-    </message>
-    <message>
-        <source>there is no picture; open a camera and wait for the first one</source>
-        <translation>kein Bild; eine Kamera öffnen und das erste abwarten</translation>
+        <source>the tip is not visible near {column}, {row} px, where it should be; no further moves are made: check the picture</source>
+        <translation>die Spitze ist bei {column}, {row} px, wo sie sein sollte, nicht zu sehen; es wird nicht weiter gefahren: Bild prüfen</translation>
     </message>
     <message>
         <source>there is no camera {key}; available: {known}</source>
-        <extracomment>Whether somebody looks; until then nothing is looked for, and nothing opens by itself.</extracomment>
         <translation>die Kamera {key} gibt es nicht; vorhanden: {known}</translation>
     </message>
     <message>
@@ -714,6 +713,7 @@
     </message>
     <message>
         <source>{camera} ({key}), the camera used last, is not connected; plug it in, or choose another</source>
+        <extracomment>Whether a view is watching. While none is, no camera is searched for or opened automatically.</extracomment>
         <translation>{camera} ({key}), die zuletzt benutzte Kamera, ist nicht angeschlossen; anstecken oder eine andere wählen</translation>
     </message>
     <message>
@@ -721,8 +721,8 @@
         <translation>die Kalibrierung wurde angehalten</translation>
     </message>
     <message>
-        <source>{reason}; the return failed: {error}</source>
-        <translation>{reason}; Rückfahrt nicht möglich: {error}</translation>
+        <source>{reason}; the return to the start position failed: {error}</source>
+        <translation>{reason}; Rückfahrt zur Startposition nicht möglich: {error}</translation>
     </message>
     <message>
         <source>the picture drifted by {drift} px during the calibration; at most {most} px are permitted: let stage and camera settle, reduce backlash, and start again</source>
@@ -730,11 +730,11 @@
     </message>
     <message>
         <source>the machine did not come to rest within {rest_patience_s} s; check what drives it, and start again</source>
-        <extracomment>Return the newest picture, or None while there is none; never waits. Drawn when it began; every move of what looks goes with it, and a stop ends them all.</extracomment>
         <translation>die Maschine kam in {rest_patience_s} s nicht zur Ruhe; nachsehen, was sie bewegt, und neu beginnen</translation>
     </message>
     <message>
         <source>frozen: it repeats earlier pictures</source>
+        <extracomment>A function that returns the newest picture, or None while there is none; it never waits. Permit for every move of the run; a stop invalidates it.</extracomment>
         <translation>eingefroren: Sie wiederholt frühere Bilder</translation>
     </message>
     <message>
@@ -819,7 +819,6 @@
     </message>
     <message>
         <source>{name} is already open; close it first</source>
-        <extracomment>A program behaves like the device, byte for byte, at the other end of a line. The driver itself computes the machine; there is no device. The version of this interface that the class was written for. How screens and records call the device. Whether the device lives on ``clock`` alone, and so can run faster than real time. How often the driver wants to be read, s; one that feeds a serial line has no other chance. By how much the time of a sample may be wrong where the device has no clock of its own, s. What the device is before it was opened; only a driver without a device knows. What every motion passes; a program that owns the driver puts its own gate here.</extracomment>
         <translation>{name}: schon geöffnet; erst schließen</translation>
     </message>
     <message>
@@ -844,6 +843,7 @@
     </message>
     <message>
         <source>{name}: cannot {action} while the position is unknown; home first</source>
+        <extracomment>A program at the other end of the line behaves like the device, byte for byte. The driver itself simulates the machine; there is no device. The version of this interface for which the class was written. Name of the device on screens and in records. Whether ``clock`` is the device&apos;s only source of time, so that it can run faster than real time. Longest interval between two calls of :meth:`read`, in which a driver serves its line, s. Largest error of a sample&apos;s time, s, if the device has no clock; 0 if it has one. The machine kind, if the driver knows it without asking a device. Every motion passes this gate. The session that uses the driver replaces it with its own.</extracomment>
         <translation>{name}: kann bei unbekannter Position nicht {action}; erst Referenzfahrt</translation>
     </message>
     <message>
@@ -859,7 +859,7 @@
         <translation>pip install &apos;rotemina[micromanager]&apos;, dann mmcore install</translation>
     </message>
     <message>
-        <source>Micro-Manager cannot be loaded; the log has the cause. {install}</source>
+        <source>Micro-Manager cannot be loaded; see the log for the cause. {install}</source>
         <translation>Micro-Manager lässt sich nicht laden; die Ursache steht im Protokoll. {install}</translation>
     </message>
     <message>
@@ -883,32 +883,32 @@
         <translation>{path} nennt keine Kamera; mit dem Assistenten von Micro-Manager eine hinzufügen</translation>
     </message>
     <message>
-        <source>{path}: Micro-Manager cannot open it; the log has the cause. Check the configuration with Micro-Manager&apos;s wizard, and whether the camera is on and connected</source>
+        <source>{path}: Micro-Manager cannot open it; see the log for the cause. Check the configuration with Micro-Manager&apos;s wizard, and that the camera is switched on and connected</source>
         <translation>{path}: Micro-Manager kann sie nicht öffnen; die Ursache steht im Protokoll. Prüfen Sie die Konfiguration mit dem Assistenten von Micro-Manager, und ob die Kamera eingeschaltet und angeschlossen ist</translation>
     </message>
     <message>
-        <source>{name} rejected the settings, and keeps those it had; the log has the cause. Choose other values</source>
+        <source>{name}: pixels of {getbytesperpixel} bytes: must be 8-bit or 16-bit grey, or colour; set the camera&apos;s pixel type in its configuration</source>
+        <translation>{name}: Bildpunkte von {getbytesperpixel} Byte: müssen Grau mit 8 oder 16 Bit oder Farbe sein; stellen Sie den Pixeltyp der Kamera in ihrer Konfiguration ein</translation>
+    </message>
+    <message>
+        <source>{name} rejected the settings and keeps its previous ones; see the log for the cause. Choose other values</source>
         <translation>{name} hat die Einstellungen abgelehnt und behält die bisherigen; die Ursache steht im Protokoll. Wählen Sie andere Werte</translation>
     </message>
     <message>
-        <source>{name}: Micro-Manager has lost the camera; the log has the cause. Check whether it is on and connected, and open it again</source>
+        <source>{name} no longer takes pictures; check that it is plugged in, and open it again</source>
+        <translation>{name} nimmt keine Bilder mehr auf; prüfen Sie, ob sie angesteckt ist, und öffnen Sie sie erneut</translation>
+    </message>
+    <message>
+        <source>{name}: Micro-Manager has lost the camera; see the log for the cause. Check that it is switched on and connected, and open it again</source>
         <translation>{name}: Micro-Manager hat die Kamera verloren; die Ursache steht im Protokoll. Prüfen Sie, ob sie eingeschaltet und angeschlossen ist, und öffnen Sie sie erneut</translation>
-    </message>
-    <message>
-        <source>{name}: pixels of {getbytesperpixel} bytes: must be grey of 8 or 16 bits, or colour; set the camera&apos;s pixel type in its configuration</source>
-        <translation>{name}: Bildpunkte von {getbytesperpixel} Byte: muss Grau mit 8 oder 16 Bit oder Farbe sein; den Pixeltyp der Kamera in ihrer Konfiguration setzen</translation>
-    </message>
-    <message>
-        <source>{name} no longer takes pictures; check whether it is plugged in, and open it again</source>
-        <translation>{name} nimmt keine Bilder mehr auf; prüfen, ob sie angesteckt ist, und wieder öffnen</translation>
     </message>
     <message>
         <source>profile of {axis}: {segments} segments: must be 1 to {most_segments}</source>
         <translation>Profil von {axis}: {segments} Abschnitte: 1 bis {most_segments}</translation>
     </message>
     <message>
-        <source>{where}: duration and coefficients must be finite, time positive</source>
-        <translation>{where}: Dauer und Koeffizienten müssen endlich sein, die Zeit positiv</translation>
+        <source>{where}: duration and coefficients must be finite, and the duration positive</source>
+        <translation>{where}: Dauer und Koeffizienten müssen endlich sein, die Dauer auch positiv</translation>
     </message>
     <message>
         <source>{where}: {error}</source>
@@ -921,10 +921,6 @@
     <message>
         <source>{where}: {acceleration}: must be at most {most}</source>
         <translation>{where}: {acceleration}: höchstens {most}</translation>
-    </message>
-    <message>
-        <source>{name}: lease {lease} s: must be more than 0 s and at most {longest} s</source>
-        <translation>{name}: Gültigkeit {lease} s: muss mehr als 0 s und höchstens {longest} s sein</translation>
     </message>
     <message>
         <source>{name}: no such axis {axis}; it has {axes}</source>
@@ -951,12 +947,16 @@
         <translation>{name}: keine Referenzfahrt möglich: {why}; erst warten, anhalten oder quittieren</translation>
     </message>
     <message>
-        <source>no axis has any</source>
-        <translation>keine Achse hat einen</translation>
+        <source>{name}: lease of {lease} s: must be more than 0 s and at most {longest} s</source>
+        <translation>{name}: Gültigkeit von {lease} s: muss mehr als 0 s und höchstens {longest} s betragen</translation>
     </message>
     <message>
-        <source>{name}: axis {axis} has no limit switch; these: {have}</source>
-        <translation>{name}: Achse {axis} hat keinen Endschalter; diese haben einen: {have}</translation>
+        <source>no axis</source>
+        <translation>keine</translation>
+    </message>
+    <message>
+        <source>{name}: axis {axis} has no limit switch; axes with one: {have}</source>
+        <translation>{name}: Achse {axis} hat keinen Endschalter; Achsen mit Endschalter: {have}</translation>
     </message>
     <message>
         <source>{name}: cannot set a voltage while it is {state}; stop it or wait</source>
@@ -997,6 +997,10 @@
     <message>
         <source>{name} is still {state}; stop it or wait before playing</source>
         <translation>{name}: noch im Zustand {state}; vor der Wiedergabe anhalten oder warten</translation>
+    </message>
+    <message>
+        <source>an interrupt&apos;s path has neither CLI nor RTI</source>
+        <translation>der Pfad eines Interrupts enthält weder CLI noch RTI</translation>
     </message>
     <message>
         <source>robot {name}: pin_length {pin_length} must be greater than the end of zn&apos;s range, {end}</source>
@@ -1075,8 +1079,8 @@
         <translation>Registrierung: eine zweite Verschiebung passt zu {rival} % ebenso, höchstens {most_second_peak} % sind erlaubt; das Bild wiederholt sich (ein Gitter?): ein anderes Objekt oder kleinere Bewegungen verwenden</translation>
     </message>
     <message>
-        <source>registration: the picture moved by {right}, {down} px and hardly overlaps the one before; make the move smaller</source>
-        <translation>Registrierung: das Bild bewegte sich um {right}, {down} px und überlappt das vorige kaum; kleiner bewegen</translation>
+        <source>registration: the picture moved by {right}, {down} px and hardly overlaps the previous one; make the move smaller</source>
+        <translation>Registrierung: Das Bild bewegte sich um {right}, {down} px und überlappt das vorige kaum; verkleinern Sie die Bewegung</translation>
     </message>
     <message>
         <source>registration: the images cannot be aligned; they differ by more than a shift (rotation, another focus, or motion of only a part of the scene)</source>
@@ -1087,16 +1091,16 @@
         <translation>Kalibrierung: Bewegungen der Form {shape} gegen Verschiebungen der Form {shifts_shape}; beide müssen (Bewegungen, 2) sein</translation>
     </message>
     <message>
-        <source>calibration: {n} moves, must be at least {least}; allow more of them</source>
-        <translation>Kalibrierung: {n} Bewegungen, mindestens {least}; mehr erlauben</translation>
-    </message>
-    <message>
         <source>calibration: a move or shift is not a finite number; start again</source>
         <translation>Kalibrierung: eine Bewegung oder Verschiebung ist keine endliche Zahl; neu beginnen</translation>
     </message>
     <message>
-        <source>calibration: the moves do not span the plane: across their main direction they reach {part} % of the way along it, must be at least {least} %; move both axes</source>
-        <translation>Kalibrierung: die Bewegungen spannen die Ebene nicht auf: quer reichen sie {part} % des Wegs, mindestens {least} %; beide Achsen bewegen</translation>
+        <source>calibration: {n} moves, must be at least {least}; increase the number of moves</source>
+        <translation>Kalibrierung: {n} Bewegungen, mindestens {least} sind nötig; erhöhen Sie ihre Anzahl</translation>
+    </message>
+    <message>
+        <source>calibration: the moves do not span the plane: their extent across the main direction is {part} % of that along it, must be at least {least} %; move both axes</source>
+        <translation>Kalibrierung: Die Bewegungen spannen die Ebene nicht auf: Quer zur Hauptrichtung reichen sie {part} % so weit wie längs, mindestens {least} % sind nötig; bewegen Sie beide Achsen</translation>
     </message>
     <message>
         <source>calibration: {bad} of {n} moves do not fit, must be at most {most} %; something else moved, or the tracking slipped: check the picture, and start again</source>
@@ -1167,8 +1171,8 @@
         <translation>Zelle: ihr Umriss weicht {rms} px rms von einer Ellipse ab, höchstens {most} % des Radius; in die Mitte einer Zelle klicken</translation>
     </message>
     <message>
-        <source>nothing matches it at its expected place</source>
-        <translation>an der erwarteten Stelle passt nichts zu ihr</translation>
+        <source>nothing matches it at its expected position</source>
+        <translation>an der erwarteten Position passt nichts zu ihr</translation>
     </message>
     <message>
         <source>only {part} % of its surroundings match</source>
@@ -1215,12 +1219,11 @@
         <translation>axis = {axis}: muss der Name einer Achse sein</translation>
     </message>
     <message>
-        <source>table: permitted only for a thrust of shape &apos;table&apos;, which needs it (shape is {shape}, the table has {count} points)</source>
-        <translation>Tabelle: nötig für einen Einstich der Form &apos;table&apos; und für keinen anderen (die Form ist {shape}, die Tabelle hat {count} Punkte)</translation>
+        <source>table: must be given if and only if shape is &apos;table&apos; (shape is {shape}, the table has {count} points)</source>
+        <translation>Tabelle: genau dann nötig, wenn die Form &apos;table&apos; ist (die Form ist {shape}, die Tabelle hat {count} Punkte)</translation>
     </message>
     <message>
         <source>{name}: {error}</source>
-        <extracomment>A longer pause of this program, s, ends what was under way: longer than those of a busy computer, far shorter than the suspension of one, of which nobody knows what has changed meanwhile.</extracomment>
         <translation>{name}: {error}</translation>
     </message>
     <message>
@@ -1273,7 +1276,7 @@
     </message>
     <message>
         <source>mode {name}: robot {robot} has no such mode (it needs the axes of the hybrid chain); use one of {names}</source>
-        <extracomment>Modes of a robot with a tip. One mode holds at a time, so fine and pivot exclude one another.</extracomment>
+        <extracomment>Modes of a robot with a tip. Only one mode is active at a time.</extracomment>
         <translation>Modus {name}: Roboter {robot} hat ihn nicht (er braucht die Achsen der Hybridkette); möglich: {names}</translation>
     </message>
     <message>
@@ -1290,7 +1293,6 @@
     </message>
     <message>
         <source>{device} has neither axes nor buttons to map</source>
-        <extracomment>Of a stick: the first button is under the finger that holds it. Of a device with few: the paper&apos;s start/stop button, and its mode button.</extracomment>
         <translation>{device} hat weder Achsen noch Tasten, die sich zuordnen ließen</translation>
     </message>
     <message>
@@ -1360,7 +1362,6 @@
     </message>
     <message>
         <source>scaling: step of {dt} s with a reaction of {reaction}: both must be finite, the step 0 or more</source>
-        <extracomment>Factors on a law&apos;s own scale that an operator steps through.</extracomment>
         <translation>Maßstab: Schritt von {dt} s bei einer Reaktion von {reaction}: beide müssen endlich sein, der Schritt nicht kleiner als 0</translation>
     </message>
     <message>
@@ -1429,16 +1430,15 @@
     </message>
     <message>
         <source>{path} already exists; record to another name</source>
-        <extracomment>The status; replaced as a whole.</extracomment>
         <translation>{path}: gibt es schon; unter anderem Namen aufzeichnen</translation>
     </message>
     <message>
         <source>{path}: cannot be written ({reason}); make room, or choose another folder</source>
-        <extracomment>Host time, s. Why nothing can be written at present.</extracomment>
         <translation>{path}: kann nicht geschrieben werden ({reason}); Platz schaffen oder einen anderen Ordner wählen</translation>
     </message>
     <message>
         <source>{name}: the end of the recording could not be written ({failure})</source>
+        <extracomment>Host time at which the recording began, s. Why nothing can be written at present; None if writing works.</extracomment>
         <translation>{name}: das Ende konnte nicht geschrieben werden ({failure})</translation>
     </message>
     <message>
@@ -1450,12 +1450,11 @@
         <translation>es fehlt nichts</translation>
     </message>
     <message>
-        <source>{name}: the disk took {took_s} s for a segment: a crash or a power cut now could lose more than a second; record to a faster one</source>
-        <translation>{name}: der Datenträger brauchte {took_s} s für ein Segment: bei einem Absturz oder Stromausfall ginge jetzt mehr als eine Sekunde verloren; auf einen schnelleren aufzeichnen</translation>
+        <source>{name}: the disk took {took_s} s for a segment: a crash or a power cut now could lose more than a second; record to a faster disk</source>
+        <translation>{name}: der Datenträger brauchte {took_s} s für ein Segment: ein Absturz oder Stromausfall könnte jetzt mehr als eine Sekunde kosten; zeichnen Sie auf einen schnelleren Datenträger auf</translation>
     </message>
     <message>
         <source>{path}: no axis was commanded to move in this section</source>
-        <extracomment>Metadata of a recording that stand in what is exported of it as well.</extracomment>
         <translation>{path}: in diesem Abschnitt wurde keine Achse bewegt</translation>
     </message>
     <message>
@@ -1463,12 +1462,16 @@
         <translation>{path}: keine Abtastwerte in diesem Abschnitt; sie dauert {whole_s} s</translation>
     </message>
     <message>
-        <source>{path}: axis {axes} moves at the {end}; every axis must rest there for {rest_s} s: choose {advice}</source>
-        <translation>{path}: Achse {axes} bewegt sich am Rand ({end}); dort muss jede Achse {rest_s} s stehen: {advice} wählen</translation>
+        <source>{path}: axis {axis} moves at the start; every axis must rest there for {rest_s} s: choose an earlier start</source>
+        <extracomment>Metadata that an exported record copies from its recording.</extracomment>
+        <translation>{path}: Achse {axis} bewegt sich am Anfang; dort muss jede Achse {rest_s} s stehen: einen früheren Anfang wählen</translation>
+    </message>
+    <message>
+        <source>{path}: axis {axis} moves at the end; every axis must rest there for {rest_s} s: choose a later end</source>
+        <translation>{path}: Achse {axis} bewegt sich am Ende; dort muss jede Achse {rest_s} s stehen: ein späteres Ende wählen</translation>
     </message>
     <message>
         <source>{path} already exists, being recorded or left by a crash; record to another name, or recover it</source>
-        <extracomment>Bytes of whole segments.</extracomment>
         <translation>{path}: gibt es schon, wird gerade aufgezeichnet oder blieb von einem Absturz; unter anderem Namen aufzeichnen oder wiederherstellen</translation>
     </message>
     <message>
@@ -1501,7 +1504,7 @@
     </message>
     <message>
         <source>the robot file has changed</source>
-        <extracomment>Of a record&apos;s metadata: faults and contacts while it was taken. What may be a cell, a dish or a stop that was leant on when the model was learned. What no command foretells, beside effects that are random or locked to time.</extracomment>
+        <extracomment>Metadata key under which a record lists the faults and contacts that occurred during it. Effects that a diagnosis may report if the machine touched a cell, a dish or an end stop. Effects that cannot be predicted from commands, in addition to random and time-locked effects.</extracomment>
         <translation>die Roboterdatei hat sich geändert</translation>
     </message>
     <message>
@@ -1522,7 +1525,6 @@
     </message>
     <message>
         <source>playback: the device went from row {from_row} to row {to_row} of a trajectory whose rows are 0 to {last}</source>
-        <extracomment>The models&apos; answers for each row; None before its end or without models.</extracomment>
         <translation>Wiedergabe: das Gerät sprang von Zeile {from_row} zu Zeile {to_row} einer Trajektorie mit den Zeilen 0 bis {last}</translation>
     </message>
     <message>
@@ -1531,7 +1533,6 @@
     </message>
     <message>
         <source>objective: the name is empty; enter one, such as &quot;20x&quot;</source>
-        <extracomment>Why what is kept cannot be used.</extracomment>
         <translation>Objektiv: der Name ist leer; einen angeben, etwa &quot;20x&quot;</translation>
     </message>
     <message>
@@ -1555,8 +1556,8 @@
         <translation>der Tisch {name} ist für Objektiv {objective} an Kamera {camera} nicht kalibriert; erst kalibrieren</translation>
     </message>
     <message>
-        <source>every target has been visited; mark further ones</source>
-        <translation>alle Ziele wurden besucht; weitere markieren</translation>
+        <source>every target has been visited; mark more targets</source>
+        <translation>alle Ziele wurden besucht; weitere Ziele markieren</translation>
     </message>
     <message>
         <source>there is no target {index}; there are {count}</source>
@@ -1564,7 +1565,6 @@
     </message>
     <message>
         <source>axis {axis}: the microscope measures only {names}; depth has no zero</source>
-        <extracomment>Axes whose motion is across the view. Depth comes from blur, without its zero.</extracomment>
         <translation>Achse {axis}: das Mikroskop zeigt nur die Orte von {names}; die Tiefe hat keinen Nullpunkt</translation>
     </message>
     <message>
@@ -1581,7 +1581,6 @@
     </message>
     <message>
         <source>z-stack: {name} at {place}: must be {low} to {high}</source>
-        <extracomment>The present ones, or the latest.</extracomment>
         <translation>Z-Stapel: {name} bei {place}: muss {low} bis {high} sein</translation>
     </message>
     <message>
@@ -1594,6 +1593,7 @@
     </message>
     <message>
         <source>Microscope: {error}</source>
+        <extracomment>The run of each kind that is under way, or else the latest one.</extracomment>
         <translation>Mikroskop: {error}</translation>
     </message>
     <message>
@@ -1601,8 +1601,8 @@
         <translation>Achse {axis} bewegt die Spitze nicht; möglich: {joints}</translation>
     </message>
     <message>
-        <source>axis {axis}: the tip appears farther from the pivot than the pin is long; the calibration belongs to another machine or place: calibrate again</source>
-        <translation>Achse {axis}: die Spitze war weiter vom Drehpunkt entfernt, als der Stift lang ist; die Kalibrierung gehört zu einer anderen Maschine oder Stelle: neu kalibrieren</translation>
+        <source>axis {axis}: the tip appears farther from the pivot than the pin is long; the calibration was made on another machine or at another position: calibrate again</source>
+        <translation>Achse {axis}: die Spitze war weiter vom Drehpunkt entfernt, als der Stift lang ist; die Kalibrierung entstand an einer anderen Maschine oder Position: neu kalibrieren</translation>
     </message>
     <message>
         <source>the record already has a reference of axis {axis}; choose one of {names} without ref</source>
@@ -1613,21 +1613,21 @@
         <translation>die Aufzeichnung hat keine Achse {axis}; sie braucht eine von {names} ohne deren ref</translation>
     </message>
     <message>
-        <source>{count} frames show the tip, but no time of the record lies between them; record frames and samples together, on one clock</source>
-        <translation>{count} Bilder zeigen die Spitze, und keine Zeit der Aufzeichnung liegt dazwischen; Bilder und Messwerte zusammen mit einer Uhr aufzeichnen</translation>
+        <source>{count} frames show the tip, but no sample of the record lies between the first and the last of them; record frames and samples together, on one clock</source>
+        <translation>{count} Bilder zeigen die Spitze, aber kein Messwert der Aufzeichnung liegt zwischen dem ersten und dem letzten; Bilder und Messwerte zusammen mit einer Uhr aufzeichnen</translation>
     </message>
     <message>
         <source>no move is planned; click in the picture first</source>
-        <extracomment>The present visit, or the latest one.</extracomment>
         <translation>keine Bewegung ist geplant; erst ins Bild klicken</translation>
     </message>
     <message>
         <source>the tip is lost: {reason}</source>
+        <extracomment>The current visit, or the latest one.</extracomment>
         <translation>die Spitze ist verloren: {reason}</translation>
     </message>
     <message>
-        <source>no tip can be moved by a click: {error}</source>
-        <translation>keine Spitze kann durch einen Klick bewegt werden: {error}</translation>
+        <source>a click cannot move the tip: {error}</source>
+        <translation>Ein Klick kann die Spitze nicht bewegen: {error}</translation>
     </message>
     <message>
         <source>the tip is not tracked; turn on tracking, so that the move can be checked</source>
@@ -1639,6 +1639,7 @@
     </message>
     <message>
         <source>{path}: the video has ended ({why}); {kept} pictures are kept. Free disk space, or choose another folder, and start another one</source>
+        <extracomment>The status; replaced as a whole.</extracomment>
         <translation>{path}: das Video ist zu Ende ({why}); {kept} Bilder bleiben. Platz schaffen oder einen anderen Ordner wählen und ein neues beginnen</translation>
     </message>
     <message>
@@ -1654,12 +1655,12 @@
         <translation>Zustandskarte: die Aufzeichnung hat kein {axis}.{tap}</translation>
     </message>
     <message>
-        <source>a second-order model fits only {fit_percent} %</source>
-        <translation>ein Modell zweiter Ordnung passt nur zu {fit_percent} %</translation>
+        <source>the fit of a second-order model is only {fit_percent} %</source>
+        <translation>die Anpassung eines Modells zweiter Ordnung beträgt nur {fit_percent} %</translation>
     </message>
     <message>
-        <source>{axis}.cmd never rests after a move</source>
-        <translation>{axis}.cmd ruht nach keiner Bewegung</translation>
+        <source>{axis}.cmd is never held after a move</source>
+        <translation>{axis}.cmd wird nach keiner Bewegung gehalten</translation>
     </message>
     <message>
         <source>{path}: the calibration belongs to axis {axis} of robot {robot}, not of {name}; calibrate this one</source>
@@ -1738,10 +1739,6 @@
         <translation>Rahmen vom Typ 0x{type}: keine Nachricht dieses Protokolls</translation>
     </message>
     <message>
-        <source>board {address}: {count} requests wait for it; wait</source>
-        <translation>Karte {address}: {count} Anfragen warten auf sie; warten</translation>
-    </message>
-    <message>
         <source>{what}: a number does not fit: {error}</source>
         <translation>{what}: eine Zahl passt nicht: {error}</translation>
     </message>
@@ -1752,18 +1749,6 @@
     <message>
         <source>to report all parameters</source>
         <translation>um alle Parameter zu melden</translation>
-    </message>
-    <message>
-        <source>to tell its rates</source>
-        <translation>um ihre Raten zu nennen</translation>
-    </message>
-    <message>
-        <source>{where} answers, but after {trip}: on a shared bus that is a sample every {sample} at best, and at least one every {limit} is needed. Use a faster connection, or a line for each board</source>
-        <translation>{where} antwortet, aber erst nach {trip}: Auf einem gemeinsamen Bus ist das bestenfalls ein Abtastwert je {sample}, nötig ist mindestens einer je {limit}. Eine schnellere Verbindung verwenden oder eine Leitung je Karte</translation>
-    </message>
-    <message>
-        <source>{where} answers, but after {trip}: with watchdog_s = {watch} it would halt between two messages. Use a faster connection, or set watchdog_s to {least} or more: the axes go on for as long when the connection is lost</source>
-        <translation>{where} antwortet, aber erst nach {trip}: Mit watchdog_s = {watch} hielte sie zwischen zwei Nachrichten an. Eine schnellere Verbindung verwenden oder watchdog_s auf mindestens {least} setzen: So lange fahren die Achsen weiter, wenn die Verbindung abreißt</translation>
     </message>
     <message>
         <source>board&apos;s program</source>
@@ -1782,8 +1767,20 @@
         <translation>{where} hat {axes} Achsen, Roboter {name} dort aber {count} ({names}); die Roboterdatei dieser Maschine wählen</translation>
     </message>
     <message>
-        <source>to say what it is</source>
-        <translation>um zu melden, was es ist</translation>
+        <source>to report its rates</source>
+        <translation>um ihre Raten zu melden</translation>
+    </message>
+    <message>
+        <source>{where} answers, but takes {trip}: on a shared bus this allows a sample every {sample} at best, but one every {limit} is needed. Use a faster connection, or a separate line for each board</source>
+        <translation>{where} antwortet, braucht dafür aber {trip}: Auf einem gemeinsamen Bus ist damit bestenfalls alle {sample} ein Abtastwert möglich, nötig ist einer alle {limit}. Verwenden Sie eine schnellere Verbindung oder eine eigene Leitung für jede Karte</translation>
+    </message>
+    <message>
+        <source>{where} answers, but takes {trip}: with watchdog_s = {watch} it would halt between two messages. Use a faster connection, or set watchdog_s to {least} or more; after a lost connection the axes keep moving for that time</source>
+        <translation>{where} antwortet, braucht dafür aber {trip}: Mit watchdog_s = {watch} würde sie zwischen zwei Nachrichten anhalten. Verwenden Sie eine schnellere Verbindung, oder setzen Sie watchdog_s auf mindestens {least}; nach einem Verbindungsabbruch fahren die Achsen so lange weiter</translation>
+    </message>
+    <message>
+        <source>to report its kind</source>
+        <translation>um ihre Art zu melden</translation>
     </message>
     <message>
         <source>to describe its axes</source>
@@ -1818,12 +1815,20 @@
         <translation>um Telemetrie zu senden</translation>
     </message>
     <message>
-        <source>{where} announces no rate of telemetry or segments</source>
+        <source>{where} reports no rate of telemetry or segments</source>
         <translation>{where} meldet keine Rate für Telemetrie oder Segmente</translation>
     </message>
     <message>
-        <source>{where} announces {tick} ticks a second: none, or no whole number of them in the {period_ms} ms between two samples</source>
-        <translation>{where} nennt {tick} Takte je Sekunde: keinen oder keine ganze Zahl davon in den {period_ms} ms zwischen zwei Abtastwerten</translation>
+        <source>{where} reports {tick} ticks per second, but the {period_ms} ms between two samples must be a whole number of ticks</source>
+        <translation>{where} meldet {tick} Takte je Sekunde, aber die {period_ms} ms zwischen zwei Abtastwerten müssen eine ganze Zahl von Takten sein</translation>
+    </message>
+    <message>
+        <source>{where}: board {other} answers there instead; swap the cables, or the settings port and second_port</source>
+        <translation>{where}: Stattdessen antwortet dort Karte {other}; vertauschen Sie die Kabel oder die Einstellungen port und second_port</translation>
+    </message>
+    <message>
+        <source>{where}: this program receives its own frames ({count}), and no board answers; check the power of the board, and whether transmit and receive lines are connected to each other</source>
+        <translation>{where}: Dieses Programm empfängt seine eigenen Telegramme ({count}), und keine Karte antwortet; prüfen Sie die Versorgung der Karte, und ob Sende- und Empfangsleitung miteinander verbunden sind</translation>
     </message>
     <message>
         <source>{who} took longer than {limit_s} s {what}; check cable and supply</source>
@@ -1832,14 +1837,6 @@
     <message>
         <source>{where} answers, but not in version {own} of the protocol, which this program uses; update the board&apos;s program</source>
         <translation>{where} antwortet, aber nicht in Version {own} des Protokolls, die dieses Programm verwendet; das Programm der Karte aktualisieren</translation>
-    </message>
-    <message>
-        <source>{where}: board {other} answers there instead; exchange the cables, or the settings port and second_port</source>
-        <translation>{where}: Stattdessen antwortet dort Karte {other}; die Kabel tauschen oder die Einstellungen port und second_port</translation>
-    </message>
-    <message>
-        <source>{where}: what this program sends comes back ({count} frames), and no board answers; check the power of the board, and whether transmit and receive lines are connected to each other</source>
-        <translation>{where}: Was dieses Programm sendet, kommt zurück ({count} Telegramme), und keine Karte antwortet; Versorgung der Karte prüfen und ob Sende- und Empfangsleitung verbunden sind</translation>
     </message>
     <message>
         <source>{where}: {count} bytes arrive at {baud} baud, but no valid frame of a board; check the baud rate (others: {others}), and whether an MC68HC11 board is connected to this port</source>
@@ -1858,8 +1855,8 @@
         <translation>oben</translation>
     </message>
     <message>
-        <source>stopped by a stop on the line that this program did not send; check the line</source>
-        <translation>von einem Halt auf der Leitung angehalten, den dieses Programm nicht gesendet hat; die Leitung prüfen</translation>
+        <source>stopped by a stop signal on the line that this program did not send; check the line</source>
+        <translation>von einem Halt-Signal auf der Leitung angehalten, das dieses Programm nicht gesendet hat; prüfen Sie die Leitung</translation>
     </message>
     <message>
         <source>the host was silent for too long; the board halted</source>
@@ -1894,8 +1891,12 @@
         <translation>das Profil konnte nicht gefahren werden</translation>
     </message>
     <message>
+        <source>a set-point was too far away for the axis to reach it in time; the set-point was refused</source>
+        <translation>ein Sollwert war zu weit entfernt, um von der Achse rechtzeitig erreicht zu werden; der Sollwert wurde abgelehnt</translation>
+    </message>
+    <message>
         <source>board {address} on {url}</source>
-        <extracomment>What commands its telemetry may tell; None while it is being opened.</extracomment>
+        <extracomment>Check of the commands that telemetry reports; None while the connection is opened.</extracomment>
         <translation>Karte {address} an {url}</translation>
     </message>
     <message>
@@ -1907,8 +1908,8 @@
         <translation>Karte {address}: {words}</translation>
     </message>
     <message>
-        <source>{where}: {count} reports in a row put its axes where they cannot have gone by themselves. Check the board, connect again, and home or confirm the position</source>
-        <translation>{where}: {count} Meldungen in Folge nennen Orte, an die ihre Achsen nicht von selbst gelangt sein können. Die Karte prüfen, neu verbinden und referenzieren oder die Position bestätigen</translation>
+        <source>{where}: {count} reports in a row show a position that its axes cannot have reached. Check the board, connect again, and home or confirm the position</source>
+        <translation>{where}: {count} Meldungen in Folge nennen eine Position, an die ihre Achsen nicht gelangt sein können. Prüfen Sie die Karte, verbinden Sie neu, und referenzieren oder bestätigen Sie die Position</translation>
     </message>
     <message>
         <source>{name} {end}</source>
@@ -1931,8 +1932,12 @@
         <translation>größte Beschleunigung</translation>
     </message>
     <message>
-        <source>microsteps a revolution</source>
+        <source>microsteps per revolution</source>
         <translation>Mikroschritte je Umdrehung</translation>
+    </message>
+    <message>
+        <source>greatest slew rate of the converter</source>
+        <translation>größte Anstiegsrate des Wandlers</translation>
     </message>
     <message>
         <source>homing speed</source>
@@ -1947,10 +1952,6 @@
         <translation>Spannung beim letzten Code</translation>
     </message>
     <message>
-        <source>greatest slew of the converter</source>
-        <translation>größte Anstiegsrate des Wandlers</translation>
-    </message>
-    <message>
         <source>{axis}: {parameter}</source>
         <translation>{axis}: {parameter}</translation>
     </message>
@@ -1963,8 +1964,9 @@
         <translation>{name}: {lost}</translation>
     </message>
     <message>
-        <source>this program did not run for {seconds} s, at most {limit} s are allowed while axes move; all motion was cancelled. Check the machine, clear the fault and move again</source>
-        <translation>dieses Programm lief {seconds} s lang nicht, zulässig sind höchstens {limit} s, während Achsen fahren; alle Bewegungen wurden abgebrochen. Die Maschine prüfen, den Fehler quittieren und erneut fahren</translation>
+        <source>this program did not run for {seconds} s (limit {limit} s while axes move), so all motion was cancelled. Check the machine, clear the fault and move again</source>
+        <extracomment>All motion is cancelled if this program does not run for a longer time. A busy computer causes shorter pauses. A suspended one causes much longer pauses, and meanwhile the machine may change.</extracomment>
+        <translation>dieses Programm lief {seconds} s lang nicht (Grenze {limit} s, während Achsen fahren), daher wurden alle Bewegungen abgebrochen. Prüfen Sie die Maschine, quittieren Sie den Fehler, und fahren Sie erneut</translation>
     </message>
     <message>
         <source>{name}: setting {setting} = {value} is not between {least} and {greatest}</source>
@@ -1996,12 +1998,11 @@
     </message>
     <message>
         <source>no serial port is set; set port to a device, for example /dev/ttyUSB0</source>
-        <extracomment>A port that has taken nothing for so long is lost: nothing that waits is sent any more.</extracomment>
         <translation>kein serieller Anschluss eingestellt; port auf ein Gerät setzen, zum Beispiel /dev/ttyUSB0</translation>
     </message>
     <message>
-        <source>{url}: the port takes no more bytes: {waiting} bytes have been waiting for {seconds} s. The device or its adapter may hang: if the machine moves, use its emergency stop switch; check cable, adapter and device, then reconnect</source>
-        <translation>{url}: der Anschluss nimmt keine Bytes mehr an: {waiting} Byte warten seit {seconds} s. Das Gerät oder sein Adapter hängt womöglich: falls sich die Maschine bewegt, ihren Not-Halt benutzen; Kabel, Adapter und Gerät prüfen, dann wieder verbinden</translation>
+        <source>{url}: the port takes no more bytes: {waiting} bytes have been waiting for {seconds} s. The device or its adapter may have hung. If the machine moves, use its emergency stop switch. Check cable, adapter and device, then reconnect</source>
+        <translation>{url}: der Anschluss nimmt keine Bytes mehr an: {waiting} Byte warten seit {seconds} s. Das Gerät oder sein Adapter reagiert womöglich nicht mehr. Falls sich die Maschine bewegt, benutzen Sie ihren Not-Halt. Prüfen Sie Kabel, Adapter und Gerät, und verbinden Sie dann neu</translation>
     </message>
     <message>
         <source>{url}: no permission to open it; add the user to the group that owns the device (dialout on most systems) and log in again</source>
@@ -2020,7 +2021,7 @@
         <translation>Telemetrie: ein Messwert von {reading} Schritten: höchstens 24 Bit</translation>
     </message>
     <message>
-        <source>telemetry: {count} bytes: must be {axis_bytes} an axis</source>
+        <source>telemetry: {count} bytes: must be {axis_bytes} per axis</source>
         <translation>Telemetrie: {count} Byte: müssen {axis_bytes} je Achse sein</translation>
     </message>
     <message>
@@ -2032,8 +2033,8 @@
         <translation>eine Bewegung wurde nicht gesendet: {error}</translation>
     </message>
     <message>
-        <source>{where}: by its parameters the voltage of axis {axis} goes from {first} V to {last} V; write the parameters of the robot file to the board</source>
-        <translation>{where}: nach ihren Parametern reicht die Spannung von Achse {axis} von {first} V bis {last} V; die Parameter der Roboterdatei auf die Karte schreiben</translation>
+        <source>{where}: according to its parameters, the voltage of axis {axis} goes from {first} V to {last} V; write the parameters of the robot file to the board</source>
+        <translation>{where}: nach ihren Parametern reicht die Spannung von Achse {axis} von {first} V bis {last} V; schreiben Sie die Parameter der Roboterdatei auf die Karte</translation>
     </message>
     <message>
         <source>{name}: {where} cannot play trajectories</source>
@@ -2112,12 +2113,12 @@
         <translation>Karte {address} lehnte einen Sollwert ab ({refusal})</translation>
     </message>
     <message>
-        <source>axis {axis}: the set-points around t = {time} s lie {value} apart, beyond the limit {bound} in {period}; give a row every {period}, or stretch the trajectory&apos;s time by a factor of {factor} or more</source>
-        <translation>Achse {axis}: die Sollwerte um t = {time} s liegen {value} auseinander, über der Grenze von {bound} in {period}; alle {period} eine Zeile angeben oder die Zeit der Trajektorie mindestens auf das {factor}-Fache strecken</translation>
+        <source>axis {axis}: the set-points around t = {time} s are {value} apart, more than the limit {bound} in {period}; add a row every {period}, or stretch the trajectory&apos;s time by a factor of {factor} or more</source>
+        <translation>Achse {axis}: die Sollwerte um t = {time} s liegen {value} auseinander, mehr als die Grenze von {bound} in {period}; fügen Sie alle {period} eine Zeile ein, oder strecken Sie die Zeit der Trajektorie mindestens auf das {factor}-Fache</translation>
     </message>
     <message>
-        <source>{where} answers after {trip}: for a set-point every {period} it must not take longer than {limit}; use a faster connection to play trajectories</source>
-        <translation>{where} antwortet nach {trip}: Für einen Sollwert je {period} darf es nicht länger als {limit} dauern; zum Abspielen von Trajektorien eine schnellere Verbindung verwenden</translation>
+        <source>{where} takes {trip} to answer, but a set-point every {period} needs an answer within {limit}; use a faster connection to play trajectories</source>
+        <translation>{where} braucht {trip} für eine Antwort, ein Sollwert alle {period} verlangt aber eine Antwort innerhalb von {limit}; verwenden Sie zum Abspielen von Trajektorien eine schnellere Verbindung</translation>
     </message>
     <message>
         <source>robot {robot}: axis {axis} is moved by a {kind}; the MC68HC11 boards move stepping motors and piezos</source>
@@ -2148,8 +2149,8 @@
         <translation>{name}: der Regelkreis ist für Achse {axis}, nicht für {other}</translation>
     </message>
     <message>
-        <source>{name}: axis {axis}: the loop was found stable on robot {robot_name} with another such axis; check it on this one</source>
-        <translation>{name}: Achse {axis}: der Regelkreis war an Roboter {robot_name} stabil, dessen Achse eine andere ist; an diesem hier prüfen</translation>
+        <source>{name}: axis {axis}: the loop was checked for stability on robot {robot_name}, whose axis is different; check it on this robot</source>
+        <translation>{name}: Achse {axis}: die Stabilität des Regelkreises wurde an Roboter {robot_name} geprüft, dessen Achse anders ist; prüfen Sie ihn an diesem Roboter</translation>
     </message>
     <message>
         <source>samples: arrays of shapes {shapes} for {count} times</source>
@@ -2176,12 +2177,12 @@
         <translation>{name}: läuft frei; erst einen Software-Trigger einstellen</translation>
     </message>
     <message>
-        <source>{name}: a picture of {columns} × {rows} px, expected {width} × {height}: its resolution has changed; close it and open it again, and calibrate anew</source>
-        <translation>{name}: ein Bild von {columns} × {rows} px statt {width} × {height}: die Auflösung hat sich geändert; schließen, wieder öffnen und neu kalibrieren</translation>
+        <source>{name}: a picture of {columns} × {rows} px, expected {width} × {height}. The resolution has changed: close the camera, open it again, and repeat the calibration</source>
+        <translation>{name}: ein Bild von {columns} × {rows} px, erwartet {width} × {height}. Die Auflösung hat sich geändert: schließen Sie die Kamera, öffnen Sie sie erneut, und wiederholen Sie die Kalibrierung</translation>
     </message>
     <message>
-        <source>{name}: a picture of type {found}, expected {expected}: its pixel type has changed; close it and open it again</source>
-        <translation>{name}: ein Bild vom Typ {found}, erwartet {expected}: Der Pixeltyp hat sich geändert; schließen und öffnen Sie sie erneut</translation>
+        <source>{name}: a picture of type {found}, expected {expected}. The pixel type has changed: close the camera and open it again</source>
+        <translation>{name}: ein Bild vom Typ {found}, erwartet {expected}. Der Pixeltyp hat sich geändert: schließen Sie die Kamera, und öffnen Sie sie erneut</translation>
     </message>
     <message>
         <source>{name} gives empty or unusable pictures (pixels: {dtype}, size: {size}); check the camera and its cable, and open it again</source>
@@ -2200,8 +2201,8 @@
         <translation>{name}: Fokus bei {focus_m} µm: muss {low} bis {high} µm sein</translation>
     </message>
     <message>
-        <source>{name} was opened with another robot than {robot_name}, which is now in use; close it and open it again</source>
-        <translation>{name} wurde mit einem anderen Roboter als {robot_name} geöffnet, der jetzt verwendet wird; schließen und wieder öffnen</translation>
+        <source>{name} was opened for another robot than {robot_name}, which is now in use; close it and open it again</source>
+        <translation>{name} wurde für einen anderen Roboter als {robot_name} geöffnet, der jetzt verwendet wird; schließen Sie es und öffnen Sie es erneut</translation>
     </message>
     <message>
         <source>USB camera, video file or stream</source>
@@ -2216,7 +2217,7 @@
         <translation>{name}: keine Adresse; bitte eingeben: {address_hint}</translation>
     </message>
     <message>
-        <source>{name} gives no pictures; check whether it is connected, and open it again</source>
+        <source>{name} delivers no pictures; check that it is connected, and open it again</source>
         <translation>{name} liefert keine Bilder; prüfen Sie, ob sie angeschlossen ist, und öffnen Sie sie erneut</translation>
     </message>
     <message>
@@ -2244,8 +2245,24 @@
         <translation>{address}: diese Datei gibt es nicht; eine andere wählen</translation>
     </message>
     <message>
+        <source>{address}: not a video, or a truncated one, or an unknown format; choose another file</source>
+        <translation>{address}: kein Video, ein unvollständiges oder eines in einem unbekannten Format; wählen Sie eine andere Datei</translation>
+    </message>
+    <message>
         <source>{address}: no video arrived within {timeout_s} s; check the address and the network</source>
         <translation>{address}: von dort kam in {timeout_s} s kein Video; Adresse und Netz prüfen</translation>
+    </message>
+    <message>
+        <source>it is not a video: it has no pictures</source>
+        <translation>es ist kein Video: es enthält keine Bilder</translation>
+    </message>
+    <message>
+        <source>it is a text file, not a video</source>
+        <translation>es ist eine Textdatei, kein Video</translation>
+    </message>
+    <message>
+        <source>it is a single picture, not a video; open pictures as an image sequence</source>
+        <translation>es ist ein einzelnes Bild, kein Video; Bilder als Bildfolge öffnen</translation>
     </message>
     <message>
         <source>{address}: {reason}; choose another file</source>
@@ -2272,13 +2289,8 @@
         <translation>{name}: {what} = {value}{unit}: muss zwischen {least} und {most}{unit} liegen</translation>
     </message>
     <message>
-        <source>{name}: region of {width} × {height} px from column {left}, row {top}: must lie in the sensor&apos;s {can_width} × {can_height} px</source>
+        <source>{name}: region of {width} × {height} px from column {left}, row {top}: must lie within the sensor&apos;s {can_width} × {can_height} px</source>
         <translation>{name}: Ausschnitt von {width} × {height} px ab Spalte {left}, Zeile {top}: muss innerhalb der {can_width} × {can_height} px des Sensors liegen</translation>
-    </message>
-    <message>
-        <source>{name}: {address}: choose a listed one</source>
-        <extracomment>The version of this interface that the class was written for. How screens call this kind of camera. What can be typed to name a camera that no list shows; empty: nothing.</extracomment>
-        <translation>{name}: {address}: eine aus der Liste wählen</translation>
     </message>
     <message>
         <source>Image sequence</source>
@@ -2293,8 +2305,8 @@
         <translation>{name}: nach {count} Bildern zu Ende; wieder öffnen oder wiederholen lassen</translation>
     </message>
     <message>
-        <source>{file}: a picture of type {pixel_type_of}, but the first has {pixel_types}; convert it</source>
-        <translation>{file}: ein Bild vom Typ {pixel_type_of} statt {pixel_types} wie das erste; umwandeln</translation>
+        <source>{file}: a picture of type {pixel_type_of}, but the first one has type {pixel_types}; convert it</source>
+        <translation>{file}: ein Bild vom Typ {pixel_type_of}, aber das erste hat den Typ {pixel_types}; wandeln Sie es um</translation>
     </message>
     <message>
         <source>{path}: there is no TIFF or PNG file in this folder; choose another one</source>
@@ -2313,44 +2325,24 @@
         <translation>{file}: Seite {page} kann nicht gelesen werden; die Datei ist abgeschnitten oder fehlt</translation>
     </message>
     <message>
-        <source>{file}: pixels of type {dtype} with {ndim} dimensions: must be grey of 8 or 16 bits, or colour of 8; convert it</source>
-        <translation>{file}: Bildpunkte vom Typ {dtype} mit {ndim} Dimensionen: muss Grau mit 8 oder 16 Bit oder Farbe mit 8 sein; umwandeln</translation>
+        <source>{file}: pixels of type {dtype} with {ndim} dimensions: must be 8-bit or 16-bit grey, or 8-bit colour; convert it</source>
+        <translation>{file}: Bildpunkte vom Typ {dtype} mit {ndim} Dimensionen: müssen Grau mit 8 oder 16 Bit oder Farbe mit 8 Bit sein; wandeln Sie die Datei um</translation>
     </message>
     <message>
-        <source>it cannot look for cameras; the log has the cause. Update or remove this plugin</source>
-        <translation>es kann nicht nach Kameras suchen; die Ursache steht im Protokoll. Aktualisieren oder entfernen Sie dieses Plugin</translation>
+        <source>{where}: the controller&apos;s reports have no machine position; send it $10=1</source>
+        <translation>{where}: in den Meldungen der Steuerung fehlt die Maschinenposition; senden Sie ihr $10=1</translation>
     </message>
     <message>
-        <source>{name}: there is no source {source} of cameras; installed: {known}</source>
-        <translation>{name}: die Kameraquelle {source} gibt es nicht; installiert: {known}</translation>
+        <source>{where}: the controller reports inches; send it $13=0</source>
+        <translation>{where}: die Steuerung meldet Zoll; senden Sie ihr $13=0</translation>
     </message>
     <message>
-        <source>there is no source {source} of cameras; available: {known}</source>
-        <translation>die Kameraquelle {source} gibt es nicht; vorhanden: {known}</translation>
-    </message>
-    <message>
-        <source>axis {name} reads {at} on its way from {start} to {end} by the controller&apos;s count; check the direction and the settings of this axis, then home</source>
-        <translation>Achse {name} steht nach Zählung der Steuerung auf dem Weg von {start} nach {end} bei {at}; Richtung und Einstellungen dieser Achse prüfen, dann Referenzfahrt</translation>
-    </message>
-    <message>
-        <source>axis {name} at {at} instead of {end} by the controller&apos;s count</source>
-        <translation>Achse {name} bei {at} statt {end} nach Zählung der Steuerung</translation>
-    </message>
-    <message>
-        <source>{where}: its reports have no machine position; send it $10=1</source>
-        <extracomment>A line on which an answer takes longer is refused: a stop would come too late.</extracomment>
-        <translation>{where}: in den Berichten fehlt die Maschinenposition; $10=1 senden</translation>
-    </message>
-    <message>
-        <source>{where}: it reports inches; send it $13=0</source>
-        <translation>{where}: meldet Zoll; $13=0 senden</translation>
-    </message>
-    <message>
-        <source>{where}: an answer takes {took} s; at most {most} s is accepted, as a stop takes half of that. Use a faster line</source>
-        <translation>{where}: eine Antwort braucht {took} s; zulässig sind höchstens {most} s, denn ein Halt braucht die Hälfte davon. Eine schnellere Leitung verwenden</translation>
+        <source>{where}: an answer takes {took} s, but at most {most} s is allowed, since a stop takes half of that. Use a faster line</source>
+        <translation>{where}: eine Antwort braucht {took} s; zulässig sind höchstens {most} s, denn ein Halt braucht die Hälfte davon. Verwenden Sie eine schnellere Leitung</translation>
     </message>
     <message>
         <source>did not reset</source>
+        <extracomment>A line with a longer round trip is refused, because a stop would arrive too late.</extracomment>
         <translation>setzte sich nicht zurück</translation>
     </message>
     <message>
@@ -2362,8 +2354,8 @@
         <translation>{where}: keine Antwort auf &apos;?&apos; innerhalb von {limit_s} s: {why}</translation>
     </message>
     <message>
-        <source>{where}: it {what} within {limit_s} s</source>
-        <translation>{where}: {what} innerhalb von {limit_s} s</translation>
+        <source>{where}: the controller {what} within {limit_s} s</source>
+        <translation>{where}: die Steuerung {what} innerhalb von {limit_s} s</translation>
     </message>
     <message>
         <source>did not answer {line}</source>
@@ -2378,10 +2370,6 @@
         <translation>eine Zahl fehlt oder ist fehlerhaft</translation>
     </message>
     <message>
-        <source>it does not know this command</source>
-        <translation>sie kennt diesen Befehl nicht</translation>
-    </message>
-    <message>
         <source>a number must not be negative</source>
         <translation>eine Zahl darf nicht negativ sein</translation>
     </message>
@@ -2394,24 +2382,8 @@
         <translation>der Schrittimpuls ist zu kurz</translation>
     </message>
     <message>
-        <source>its stored settings could not be read; it uses its defaults, check them</source>
-        <translation>ihre gespeicherten Einstellungen waren nicht lesbar; sie verwendet ihre Vorgaben, diese prüfen</translation>
-    </message>
-    <message>
-        <source>it is locked by an alarm or busy with a jog</source>
-        <translation>sie ist durch einen Alarm gesperrt oder führt gerade eine Tippbewegung aus</translation>
-    </message>
-    <message>
         <source>soft limits need homing; set $22</source>
         <translation>Software-Grenzen brauchen die Referenzfahrt; $22 setzen</translation>
-    </message>
-    <message>
-        <source>the line is too long for it</source>
-        <translation>die Zeile ist zu lang für sie</translation>
-    </message>
-    <message>
-        <source>the step rate is higher than it can produce</source>
-        <translation>die Schrittrate ist höher, als sie erzeugen kann</translation>
     </message>
     <message>
         <source>the safety door is open</source>
@@ -2422,20 +2394,8 @@
         <translation>eine gespeicherte Zeile ist zu lang</translation>
     </message>
     <message>
-        <source>it is no valid jog command</source>
-        <translation>es ist kein gültiger Tippbefehl</translation>
-    </message>
-    <message>
         <source>laser mode needs a spindle output with PWM</source>
         <translation>der Laserbetrieb braucht einen Spindelausgang mit PWM</translation>
-    </message>
-    <message>
-        <source>it does not support this G-code</source>
-        <translation>sie unterstützt diesen G-Code nicht</translation>
-    </message>
-    <message>
-        <source>two G-codes of one group stand in a line</source>
-        <translation>zwei G-Codes derselben Gruppe stehen in einer Zeile</translation>
     </message>
     <message>
         <source>the feed rate is missing</source>
@@ -2444,14 +2404,6 @@
     <message>
         <source>a G-code needs a whole number</source>
         <translation>ein G-Code braucht eine ganze Zahl</translation>
-    </message>
-    <message>
-        <source>two G-codes in a line both want axis words</source>
-        <translation>zwei G-Codes in einer Zeile verlangen beide Achswörter</translation>
-    </message>
-    <message>
-        <source>a word stands twice in a line</source>
-        <translation>ein Wort steht zweimal in einer Zeile</translation>
     </message>
     <message>
         <source>axis words are missing</source>
@@ -2466,20 +2418,8 @@
         <translation>einem G-Code fehlt ein Wert</translation>
     </message>
     <message>
-        <source>it does not have this work coordinate system</source>
-        <translation>sie hat dieses Werkstückkoordinatensystem nicht</translation>
-    </message>
-    <message>
         <source>G53 needs G0 or G1</source>
         <translation>G53 braucht G0 oder G1</translation>
-    </message>
-    <message>
-        <source>axis words stand in a line that uses none</source>
-        <translation>Achswörter stehen in einer Zeile, die keine verwendet</translation>
-    </message>
-    <message>
-        <source>an arc needs a word of its plane</source>
-        <translation>ein Kreisbogen braucht ein Wort seiner Ebene</translation>
     </message>
     <message>
         <source>the target of the motion is not valid</source>
@@ -2494,10 +2434,6 @@
         <translation>ein Kreisbogen braucht einen Versatz in seiner Ebene</translation>
     </message>
     <message>
-        <source>the line has words that nothing uses</source>
-        <translation>die Zeile enthält Wörter, die nichts verwendet</translation>
-    </message>
-    <message>
         <source>the tool length offset is for another axis</source>
         <translation>die Werkzeuglängenkorrektur gilt für eine andere Achse</translation>
     </message>
@@ -2508,10 +2444,6 @@
     <message>
         <source>homing is not configured; set $22</source>
         <translation>die Referenzfahrt ist nicht eingerichtet; $22 setzen</translation>
-    </message>
-    <message>
-        <source>it was reset</source>
-        <translation>sie wurde zurückgesetzt</translation>
     </message>
     <message>
         <source>a number must be greater than zero</source>
@@ -2550,24 +2482,12 @@
         <translation>ein Endschalter ist betätigt; nur die Referenzfahrt ist möglich</translation>
     </message>
     <message>
-        <source>it must be homed first</source>
-        <translation>sie braucht erst eine Referenzfahrt</translation>
-    </message>
-    <message>
         <source>no tool is set</source>
         <translation>kein Werkzeug ist gesetzt</translation>
     </message>
     <message>
         <source>two words of the line contradict each other</source>
         <translation>zwei Wörter der Zeile widersprechen einander</translation>
-    </message>
-    <message>
-        <source>its self-test failed; switch it off and on</source>
-        <translation>ihr Selbsttest schlug fehl; sie aus- und wieder einschalten</translation>
-    </message>
-    <message>
-        <source>its emergency stop is pressed</source>
-        <translation>ihr Not-Halt ist gedrückt</translation>
     </message>
     <message>
         <source>a motor reports a fault</source>
@@ -2578,8 +2498,84 @@
         <translation>die Einstellung liegt außerhalb ihres Bereichs</translation>
     </message>
     <message>
-        <source>it does not have this setting</source>
-        <translation>sie hat diese Einstellung nicht</translation>
+        <source>unknown command</source>
+        <translation>unbekannter Befehl</translation>
+    </message>
+    <message>
+        <source>the stored settings could not be read; check the defaults that are used</source>
+        <translation>die gespeicherten Einstellungen waren nicht lesbar; prüfen Sie die verwendeten Vorgaben</translation>
+    </message>
+    <message>
+        <source>the controller is not idle</source>
+        <translation>die Steuerung ist nicht in Ruhe</translation>
+    </message>
+    <message>
+        <source>the controller is locked by an alarm or busy with a jog</source>
+        <translation>die Steuerung ist durch einen Alarm gesperrt oder führt gerade eine Tippbewegung aus</translation>
+    </message>
+    <message>
+        <source>the line is too long</source>
+        <translation>die Zeile ist zu lang</translation>
+    </message>
+    <message>
+        <source>the step rate is too high for the controller</source>
+        <translation>die Schrittrate ist zu hoch für die Steuerung</translation>
+    </message>
+    <message>
+        <source>not a valid jog command</source>
+        <translation>kein gültiger Tippbefehl</translation>
+    </message>
+    <message>
+        <source>unsupported G-code</source>
+        <translation>nicht unterstützter G-Code</translation>
+    </message>
+    <message>
+        <source>two G-codes of the same group are in one line</source>
+        <translation>zwei G-Codes derselben Gruppe stehen in einer Zeile</translation>
+    </message>
+    <message>
+        <source>two G-codes in one line both need axis words</source>
+        <translation>zwei G-Codes in einer Zeile brauchen beide Achswörter</translation>
+    </message>
+    <message>
+        <source>a word appears twice in a line</source>
+        <translation>ein Wort kommt in einer Zeile zweimal vor</translation>
+    </message>
+    <message>
+        <source>this work coordinate system does not exist</source>
+        <translation>dieses Werkstückkoordinatensystem gibt es nicht</translation>
+    </message>
+    <message>
+        <source>the line has axis words but does not use them</source>
+        <translation>die Zeile enthält Achswörter, verwendet sie aber nicht</translation>
+    </message>
+    <message>
+        <source>an arc needs an axis word in its plane</source>
+        <translation>ein Kreisbogen braucht ein Achswort seiner Ebene</translation>
+    </message>
+    <message>
+        <source>the line has unused words</source>
+        <translation>die Zeile enthält unbenutzte Wörter</translation>
+    </message>
+    <message>
+        <source>the controller was reset</source>
+        <translation>die Steuerung wurde zurückgesetzt</translation>
+    </message>
+    <message>
+        <source>home all axes first</source>
+        <translation>erst alle Achsen referenzieren</translation>
+    </message>
+    <message>
+        <source>the self-test failed; switch the controller off and on</source>
+        <translation>der Selbsttest schlug fehl; schalten Sie die Steuerung aus und wieder ein</translation>
+    </message>
+    <message>
+        <source>the emergency stop is pressed</source>
+        <translation>der Not-Halt ist gedrückt</translation>
+    </message>
+    <message>
+        <source>this setting does not exist</source>
+        <translation>diese Einstellung gibt es nicht</translation>
     </message>
     <message>
         <source>the retract position lies below the depth</source>
@@ -2666,24 +2662,8 @@
         <translation>der Zugriff wird verweigert</translation>
     </message>
     <message>
-        <source>it is locked by a critical event; reset it</source>
-        <translation>sie ist durch ein kritisches Ereignis gesperrt; sie zurücksetzen</translation>
-    </message>
-    <message>
-        <source>a flow command stands outside a macro</source>
-        <translation>ein Ablaufbefehl steht außerhalb eines Makros</translation>
-    </message>
-    <message>
-        <source>it does not know this flow command</source>
-        <translation>sie kennt diesen Ablaufbefehl nicht</translation>
-    </message>
-    <message>
         <source>flow commands are nested too deeply</source>
         <translation>Ablaufbefehle sind zu tief verschachtelt</translation>
-    </message>
-    <message>
-        <source>its memory is full</source>
-        <translation>ihr Speicher ist voll</translation>
     </message>
     <message>
         <source>a file cannot be opened</source>
@@ -2720,10 +2700,6 @@
     <message>
         <source>cutter compensation does not fit this motion</source>
         <translation>die Werkzeugradiuskorrektur passt nicht zu dieser Bewegung</translation>
-    </message>
-    <message>
-        <source>an error that its own program defines</source>
-        <translation>ein Fehler, den ihr eigenes Programm festlegt</translation>
     </message>
     <message>
         <source>this setting is disabled</source>
@@ -2798,10 +2774,6 @@
         <translation>eine Einstellung ließ sich nicht speichern</translation>
     </message>
     <message>
-        <source>its storage of settings does not answer</source>
-        <translation>ihr Speicher für Einstellungen antwortet nicht</translation>
-    </message>
-    <message>
         <source>the password is wrong</source>
         <translation>das Passwort ist falsch</translation>
     </message>
@@ -2818,24 +2790,8 @@
         <translation>es kamen keine Daten an</translation>
     </message>
     <message>
-        <source>another program or interface uses it</source>
-        <translation>ein anderes Programm oder eine andere Schnittstelle verwendet sie</translation>
-    </message>
-    <message>
         <source>the jog was cancelled</source>
         <translation>die Tippbewegung wurde abgebrochen</translation>
-    </message>
-    <message>
-        <source>a pin is described wrongly in its configuration</source>
-        <translation>ein Pin ist in ihrer Konfiguration falsch beschrieben</translation>
-    </message>
-    <message>
-        <source>a setting of its configuration is not valid</source>
-        <translation>eine Einstellung ihrer Konfiguration ist ungültig</translation>
-    </message>
-    <message>
-        <source>its configuration file is not valid; read its start-up messages</source>
-        <translation>ihre Konfigurationsdatei ist ungültig; ihre Startmeldungen lesen</translation>
     </message>
     <message>
         <source>an upload failed</source>
@@ -2866,18 +2822,6 @@
         <translation>Software-Grenze: ein Ziel liegt außerhalb des Verfahrwegs</translation>
     </message>
     <message>
-        <source>it was reset during motion</source>
-        <translation>sie wurde in Bewegung zurückgesetzt</translation>
-    </message>
-    <message>
-        <source>probe: it was not in its expected state before probing</source>
-        <translation>Messtaster: er war vor dem Antasten nicht im erwarteten Zustand</translation>
-    </message>
-    <message>
-        <source>probe: it touched nothing within the way</source>
-        <translation>Messtaster: er berührte auf dem Weg nichts</translation>
-    </message>
-    <message>
         <source>homing was ended by a reset</source>
         <translation>ein Zurücksetzen beendete die Referenzfahrt</translation>
     </message>
@@ -2886,20 +2830,12 @@
         <translation>die Tür wurde bei der Referenzfahrt geöffnet</translation>
     </message>
     <message>
-        <source>homing: pulling off did not clear the limit switch</source>
-        <translation>Referenzfahrt: beim Zurückfahren wurde der Endschalter nicht frei</translation>
-    </message>
-    <message>
         <source>homing: the limit switch was not found</source>
         <translation>Referenzfahrt: der Endschalter wurde nicht gefunden</translation>
     </message>
     <message>
         <source>homing: the second limit switch of an axis with two motors was not found</source>
         <translation>Referenzfahrt: der zweite Endschalter einer Achse mit zwei Motoren wurde nicht gefunden</translation>
-    </message>
-    <message>
-        <source>its emergency stop is pressed; release it, then clear the fault</source>
-        <translation>ihr Not-Halt ist gedrückt; ihn lösen, dann den Fehler quittieren</translation>
     </message>
     <message>
         <source>a limit switch is pressed; free the axis first</source>
@@ -2914,10 +2850,6 @@
         <translation>die Spindel erreichte ihre Drehzahl nicht</translation>
     </message>
     <message>
-        <source>homing: its configuration does not permit it</source>
-        <translation>Referenzfahrt: ihre Konfiguration lässt sie nicht zu</translation>
-    </message>
-    <message>
         <source>a Modbus device does not answer</source>
         <translation>ein Modbus-Gerät antwortet nicht</translation>
     </message>
@@ -2926,48 +2858,108 @@
         <translation>eine Ein-/Ausgabe-Erweiterung antwortet nicht</translation>
     </message>
     <message>
-        <source>its stored settings cannot be read or written</source>
-        <translation>ihre gespeicherten Einstellungen lassen sich nicht lesen oder schreiben</translation>
-    </message>
-    <message>
-        <source>its input buffer overflowed</source>
-        <translation>ihr Eingangspuffer lief über</translation>
-    </message>
-    <message>
         <source>homing: both ends of an axis report a limit switch</source>
         <translation>Referenzfahrt: beide Enden einer Achse melden einen Endschalter</translation>
-    </message>
-    <message>
-        <source>its hard stop was pressed; release it, then clear the fault</source>
-        <translation>ihr Sofort-Halt wurde gedrückt; ihn lösen, dann den Fehler quittieren</translation>
-    </message>
-    <message>
-        <source>it has just started; clear the fault, then home</source>
-        <translation>sie ist gerade erst gestartet; den Fehler quittieren, dann Referenzfahrt</translation>
     </message>
     <message>
         <source>an input/output expander was reset</source>
         <translation>eine Ein-/Ausgabe-Erweiterung wurde zurückgesetzt</translation>
     </message>
     <message>
-        <source>a G-code error stopped its program</source>
-        <translation>ein G-Code-Fehler hielt ihr Programm an</translation>
-    </message>
-    <message>
         <source>a limit switch was reached while probing</source>
         <translation>beim Antasten wurde ein Endschalter erreicht</translation>
     </message>
     <message>
-        <source>a number that {firmware} does not document; see the manual of its maker</source>
-        <translation>eine Nummer, die {firmware} nicht dokumentiert; siehe Handbuch des Herstellers</translation>
-    </message>
-    <message>
-        <source>it is not idle</source>
-        <translation>sie ist nicht in Ruhe</translation>
-    </message>
-    <message>
         <source>the target lies beyond the travel</source>
         <translation>das Ziel liegt außerhalb des Verfahrwegs</translation>
+    </message>
+    <message>
+        <source>the controller is locked by a critical event; reset it</source>
+        <translation>die Steuerung ist durch ein kritisches Ereignis gesperrt; setzen Sie sie zurück</translation>
+    </message>
+    <message>
+        <source>a flow command is outside a macro</source>
+        <translation>ein Ablaufbefehl steht außerhalb eines Makros</translation>
+    </message>
+    <message>
+        <source>unknown flow command</source>
+        <translation>unbekannter Ablaufbefehl</translation>
+    </message>
+    <message>
+        <source>the memory is full</source>
+        <translation>der Speicher ist voll</translation>
+    </message>
+    <message>
+        <source>an error defined by the controller&apos;s maker or user</source>
+        <translation>ein Fehler, den der Hersteller oder Benutzer der Steuerung festgelegt hat</translation>
+    </message>
+    <message>
+        <source>the settings storage does not respond</source>
+        <translation>der Speicher für Einstellungen antwortet nicht</translation>
+    </message>
+    <message>
+        <source>another program or interface uses the controller</source>
+        <translation>ein anderes Programm oder eine andere Schnittstelle verwendet die Steuerung</translation>
+    </message>
+    <message>
+        <source>a pin is configured incorrectly</source>
+        <translation>ein Pin ist falsch konfiguriert</translation>
+    </message>
+    <message>
+        <source>a setting in the configuration is not valid</source>
+        <translation>eine Einstellung in der Konfiguration ist ungültig</translation>
+    </message>
+    <message>
+        <source>the configuration file is not valid; read the start-up messages</source>
+        <translation>die Konfigurationsdatei ist ungültig; lesen Sie die Startmeldungen</translation>
+    </message>
+    <message>
+        <source>the controller was reset during motion</source>
+        <translation>die Steuerung wurde in Bewegung zurückgesetzt</translation>
+    </message>
+    <message>
+        <source>probe: not in the expected state before probing</source>
+        <translation>Messtaster: vor dem Antasten nicht im erwarteten Zustand</translation>
+    </message>
+    <message>
+        <source>probe: no contact within the travel</source>
+        <translation>Messtaster: kein Kontakt innerhalb des Wegs</translation>
+    </message>
+    <message>
+        <source>homing: the pull-off did not clear the limit switch</source>
+        <translation>Referenzfahrt: beim Zurückfahren wurde der Endschalter nicht frei</translation>
+    </message>
+    <message>
+        <source>the emergency stop is pressed; release it, then clear the fault</source>
+        <translation>der Not-Halt ist gedrückt; ihn lösen, dann den Fehler quittieren</translation>
+    </message>
+    <message>
+        <source>homing: not permitted by the configuration</source>
+        <translation>Referenzfahrt: die Konfiguration lässt sie nicht zu</translation>
+    </message>
+    <message>
+        <source>the stored settings cannot be read or written</source>
+        <translation>die gespeicherten Einstellungen lassen sich nicht lesen oder schreiben</translation>
+    </message>
+    <message>
+        <source>the input buffer overflowed</source>
+        <translation>der Eingangspuffer lief über</translation>
+    </message>
+    <message>
+        <source>the hard stop was pressed; release it, then clear the fault</source>
+        <translation>der Sofort-Halt wurde gedrückt; ihn lösen, dann den Fehler quittieren</translation>
+    </message>
+    <message>
+        <source>the controller has just started; clear the fault, then home</source>
+        <translation>die Steuerung ist gerade erst gestartet; den Fehler quittieren, dann Referenzfahrt</translation>
+    </message>
+    <message>
+        <source>a G-code error stopped the program</source>
+        <translation>ein G-Code-Fehler hielt das Programm an</translation>
+    </message>
+    <message>
+        <source>a number that {firmware} does not document; see the maker&apos;s manual</source>
+        <translation>eine Nummer, die {firmware} nicht dokumentiert; siehe Handbuch des Herstellers</translation>
     </message>
     <message>
         <source>{what}:{number}, {meaning}</source>
@@ -2998,8 +2990,8 @@
         <translation>Roboter {robot}: Achse {axis} wird von {kind} bewegt; eine G-Code-Steuerung bewegt Schrittmotoren: eine Roboterdatei nur mit solchen Achsen nehmen, etwa xyz</translation>
     </message>
     <message>
-        <source>gcode: letters = {letters}: must be different ones of XYZABCUVW</source>
-        <translation>gcode: letters = {letters}: müssen verschiedene aus XYZABCUVW sein</translation>
+        <source>gcode: letters = {letters}: must be different letters of XYZABCUVW</source>
+        <translation>gcode: letters = {letters}: müssen verschiedene Buchstaben aus XYZABCUVW sein</translation>
     </message>
     <message>
         <source>{url}: the controller has {count} axes, robot {robot} {expected}; choose the robot file of this stage</source>
@@ -3022,9 +3014,9 @@
         <translation>{name}: noch mit einem Halt beschäftigt; erneut versuchen</translation>
     </message>
     <message>
-        <source>{count} reports in a row put the axes where they cannot have gone by themselves; the position is unknown, home all axes</source>
-        <extracomment>After so long without a step this program was suspended: nothing may go on by itself.</extracomment>
-        <translation>{count} Meldungen in Folge zeigen die Achsen dort, wohin sie nicht von selbst gekommen sein können; die Position ist unbekannt, alle Achsen referenzieren</translation>
+        <source>{count} reports in a row agree on a position that the axes cannot have reached by themselves; the position is unknown. Home all axes</source>
+        <extracomment>A longer time between two steps means that this program was suspended. Then all motion is cancelled.</extracomment>
+        <translation>{count} Meldungen in Folge zeigen übereinstimmend eine Position, die die Achsen nicht von selbst erreicht haben können; die Position ist unbekannt. Referenzieren Sie alle Achsen</translation>
     </message>
     <message>
         <source>the move ended before its target: {short}</source>
@@ -3035,12 +3027,16 @@
         <translation>die Steuerung lehnte {line} ab: {text}</translation>
     </message>
     <message>
-        <source>the controller was reset from outside, or lost its supply; clear the fault, then home</source>
-        <translation>die Steuerung wurde von anderer Seite zurückgesetzt oder verlor ihre Versorgung; den Fehler quittieren, dann Referenzfahrt</translation>
+        <source>the controller was reset externally or lost power; clear the fault, then home</source>
+        <translation>die Steuerung wurde von außen zurückgesetzt oder verlor ihre Versorgung; den Fehler quittieren, dann Referenzfahrt</translation>
     </message>
     <message>
-        <source>no report of the last {seconds} s could be used; check the cable, then clear the fault and home</source>
-        <translation>keine Meldung der letzten {seconds} s war brauchbar; das Kabel prüfen, dann den Fehler quittieren und Referenzfahrt</translation>
+        <source>{port}: the controller has not answered for {seconds} s; its motion ends within half a second plus the braking time. Check the machine, then reconnect</source>
+        <translation>{port}: die Steuerung antwortet seit {seconds} s nicht; ihre Bewegung endet innerhalb einer halben Sekunde zuzüglich der Bremszeit. Prüfen Sie die Maschine, und verbinden Sie dann neu</translation>
+    </message>
+    <message>
+        <source>no report in the last {seconds} s was usable; check the cable, then clear the fault and home</source>
+        <translation>in den letzten {seconds} s war keine Meldung brauchbar; prüfen Sie das Kabel, quittieren Sie dann den Fehler und starten Sie eine Referenzfahrt</translation>
     </message>
     <message>
         <source>no answer to {line} within {limit_s} s</source>
@@ -3071,8 +3067,8 @@
         <translation>{name}: der Regelkreis von Achse {axis} stellt ihre Spannung; ihn erst öffnen</translation>
     </message>
     <message>
-        <source>{name}: the axis of the profile has moved since; wait until it rests, and upload the profile again</source>
-        <translation>{name}: die Achse des Profils hat sich seither bewegt; warten, bis sie ruht, und das Profil neu hochladen</translation>
+        <source>{name}: the axis has moved since the profile was uploaded; wait until it is at rest, and upload the profile again</source>
+        <translation>{name}: die Achse hat sich seit dem Hochladen des Profils bewegt; warten Sie, bis sie ruht, und laden Sie das Profil erneut hoch</translation>
     </message>
     <message>
         <source>simulator: the trajectory has {rate_hz} rows per second, but at most {max_rate_hz} can be played; resample the trajectory</source>
@@ -3080,7 +3076,7 @@
     </message>
     <message>
         <source>axis {axis}: a loop at {rate_hz} Hz</source>
-        <extracomment>Replaced as a whole, so that any thread may look.</extracomment>
+        <extracomment>Regulations of the closed loops. Replaced as a whole, so that any thread may read them.</extracomment>
         <translation>Achse {axis}: ein Regelkreis mit {rate_hz} Hz</translation>
     </message>
     <message>
@@ -3117,7 +3113,6 @@
     </message>
     <message>
         <source>the connection has changed; try again</source>
-        <extracomment>Why what a permit is for cannot be now, or None; it is called under the gate&apos;s lock, and so neither waits nor takes another lock.</extracomment>
         <translation>die Verbindung hat sich geändert; erneut versuchen</translation>
     </message>
     <message>
@@ -3158,7 +3153,6 @@
     </message>
     <message>
         <source>{name} was closed; open it again</source>
-        <extracomment>(host time, strength) of each call of :meth:`rumble`.</extracomment>
         <translation>{name}: geschlossen; wieder öffnen</translation>
     </message>
     <message>
@@ -3186,12 +3180,16 @@
         <translation>{name} ist nicht verbunden; verbinden, um den Joystick zu benutzen</translation>
     </message>
     <message>
-        <source>{name}: the joystick is not trusted during a fault; clear the fault</source>
-        <translation>{name}: während eines Fehlers ist der Joystick gesperrt; den Fehler quittieren</translation>
+        <source>{name}: the joystick is disabled during a fault; clear the fault</source>
+        <translation>{name}: während eines Fehlers ist der Joystick gesperrt; quittieren Sie den Fehler</translation>
     </message>
     <message>
-        <source>{name} and its joystick have been silent for a while</source>
-        <translation>{name} und sein Joystick schweigen seit einer Weile</translation>
+        <source>{name} and its joystick do not respond; check the connection</source>
+        <translation>{name} und sein Joystick antworten nicht; prüfen Sie die Verbindung</translation>
+    </message>
+    <message>
+        <source>{name}: no joystick responds; check that one is plugged in</source>
+        <translation>{name}: kein Joystick meldet sich; prüfen Sie, ob einer angesteckt ist</translation>
     </message>
     <message>
         <source>{name} ({key}) is not plugged in</source>
@@ -3218,8 +3216,8 @@
         <translation>keine Berechtigung zum Öffnen. Unter Linux die Regel aus docs/inputs.md in /etc/udev/rules.d/70-rotemina-inputs.rules eintragen, `sudo udevadm control --reload` ausführen und das Gerät neu anstecken; sonst diesem Programm das Lesen von Eingabegeräten erlauben</translation>
     </message>
     <message>
-        <source>USB joysticks cannot be used: the library hidapi does not load ({failure}); install it with `pip install hidapi`, and libudev of the system</source>
-        <translation>USB-Joysticks sind nicht nutzbar: die Bibliothek hidapi lädt nicht ({failure}); mit `pip install hidapi` installieren, dazu libudev des Systems</translation>
+        <source>USB joysticks cannot be used: the library hidapi does not load ({failure}); install it with `pip install hidapi`, and install the system&apos;s libudev</source>
+        <translation>USB-Joysticks sind nicht nutzbar: die Bibliothek hidapi lädt nicht ({failure}); installieren Sie sie mit `pip install hidapi` und dazu libudev des Systems</translation>
     </message>
     <message>
         <source>{error}: {said}</source>
@@ -3250,21 +3248,21 @@
         <translation>der Report-Deskriptor enthält weder Achse noch Taste eines Joysticks, Gamepads oder Mehrachsreglers</translation>
     </message>
     <message>
-        <source>it sent a report of type {number}, which it does not declare, and counts as released. Release it and start again; if this repeats, replug it</source>
-        <extracomment>Why the latest report could not be understood; None if it could.</extracomment>
-        <translation>es sandte eine Meldung vom Typ {number}, den es nicht angibt, und gilt als losgelassen. Loslassen und neu beginnen; falls es wieder geschieht, neu anstecken</translation>
+        <source>it sent a report of the undeclared type {number}, and all controls count as released. Release the controls and start again; if this happens again, replug the device</source>
+        <extracomment>Why the latest report could not be decoded; None if it could.</extracomment>
+        <translation>es sandte eine Meldung vom Typ {number}, den es nicht angibt, und gilt als losgelassen. Lassen Sie alles los und beginnen Sie neu; falls es wieder geschieht, stecken Sie das Gerät neu an</translation>
     </message>
     <message>
-        <source>it sent a report of {length} bytes after reports of {longest}, and counts as released. Release it and start again; if this repeats, replug it</source>
-        <translation>es sandte eine Meldung von {length} Byte nach Meldungen von {longest} und gilt als losgelassen. Loslassen und neu beginnen; falls es wieder geschieht, neu anstecken</translation>
+        <source>it sent a report of {length} bytes after reports of {longest}, and all controls count as released. Release the controls and start again; if this happens again, replug the device</source>
+        <translation>es sandte eine Meldung von {length} Byte nach Meldungen von {longest} und gilt als losgelassen. Lassen Sie alles los und beginnen Sie neu; falls es wieder geschieht, stecken Sie das Gerät neu an</translation>
     </message>
     <message>
         <source>USB and Bluetooth joysticks</source>
         <translation>USB- und Bluetooth-Joysticks</translation>
     </message>
     <message>
-        <source>hidapi finds {count} HID devices but does not tell which are joysticks: it was built on libusb; install one that uses hidraw (`pip install hidapi`)</source>
-        <translation>hidapi findet {count} HID-Geräte, sagt aber nicht, welche Joysticks sind: es ist mit libusb gebaut; eines installieren, das hidraw verwendet (`pip install hidapi`)</translation>
+        <source>hidapi finds {count} HID devices but does not report which are joysticks, because it was built with libusb. Install a version that uses hidraw (`pip install hidapi`)</source>
+        <translation>hidapi findet {count} HID-Geräte, meldet aber nicht, welche davon Joysticks sind, weil es mit libusb gebaut ist. Installieren Sie eine Version, die hidraw verwendet (`pip install hidapi`)</translation>
     </message>
     <message>
         <source>{name}: {error}; it cannot be used</source>
@@ -3279,16 +3277,12 @@
         <translation>{name}: abgesteckt, oder Strom oder Funkverbindung verloren ({error})</translation>
     </message>
     <message>
-        <source>its report descriptor is truncated: byte {at} of {count} begins an item with {size} bytes of data</source>
-        <translation>der Report-Deskriptor ist abgeschnitten: Byte {at} von {count} beginnt ein Element mit {size} Datenbytes</translation>
-    </message>
-    <message>
         <source>moment {number}</source>
         <translation>Zeitpunkt {number}</translation>
     </message>
     <message>
-        <source>{where}: time {time_s} s: must be later than the one before ({before} s)</source>
-        <translation>{where}: Zeit {time_s} s: muss nach der vorigen liegen ({before} s)</translation>
+        <source>{where}: time {time_s} s: must be later than the previous one ({before} s)</source>
+        <translation>{where}: Zeit {time_s} s: muss später als die vorige sein ({before} s)</translation>
     </message>
     <message>
         <source>{where}: {axes} axes and {buttons} buttons: must be {axes_wanted} and {buttons_wanted}</source>
@@ -3375,8 +3369,8 @@
         <translation>Inverse von Achse {axis}: sample_s = {sample_s} s: muss endlich und größer als 0 sein</translation>
     </message>
     <message>
-        <source>inverse of axis {axis}: a state of shape {shape} with finite numbers must have shape {state_shape}; use a state of this inverse</source>
-        <translation>Inverse von Achse {axis}: ein Zustand der Form {shape} aus endlichen Zahlen muss die Form {state_shape} haben; einen Zustand dieser Inversen nehmen</translation>
+        <source>inverse of axis {axis}: a state of shape {shape} was given; it must have shape {state_shape} and only finite values; use a state of this inverse</source>
+        <translation>Inverse von Achse {axis}: der Zustand hat die Form {shape}; er muss die Form {state_shape} und lauter endliche Werte haben; einen Zustand dieser Inversen nehmen</translation>
     </message>
     <message>
         <source>inverse of axis {axis}: desired positions of shape {shape} must be one column of finite numbers</source>
@@ -3455,28 +3449,24 @@
         <translation>Alle Hübe sind gleich groß; reichere Arten könnten bei anderen Größen nur raten: mit wachsenden oder abklingenden Hüben trainieren.</translation>
     </message>
     <message>
-        <source>It is the simplest of those within {share} of the least.</source>
-        <translation>Sie ist die einfachste von denen, die höchstens {share} über dem kleinsten Rest liegen.</translation>
+        <source>It is the simplest kind whose residual is within {share} of the smallest.</source>
+        <translation>Sie ist die einfachste Art, deren Restabweichung höchstens {share} über der kleinsten liegt.</translation>
     </message>
     <message>
         <source>constant speed over half the stroke</source>
         <translation>konstante Geschwindigkeit über den halben Hub</translation>
     </message>
     <message>
-        <source>a row at constant speed at least</source>
+        <source>at least one row at constant speed</source>
         <translation>mindestens eine Zeile mit konstanter Geschwindigkeit</translation>
+    </message>
+    <message>
+        <source>whole rows between the corners</source>
+        <translation>ganze Zeilen zwischen den Ecken</translation>
     </message>
     <message>
         <source>axis {axis}: speed {speed} must be above 0</source>
         <translation>Achse {axis}: Geschwindigkeit {speed} muss größer als 0 sein</translation>
-    </message>
-    <message>
-        <source>whole rows between its corners</source>
-        <translation>ganze Zeilen zwischen seinen Ecken</translation>
-    </message>
-    <message>
-        <source>axis {axis}: it would take more than {most_rows} rows at {rate} Hz; shorten it, move faster or lower the rate</source>
-        <translation>Achse {axis}: es wären mehr als {most_rows} Zeilen bei {rate} Hz; kürzen, schneller fahren oder die Rate senken</translation>
     </message>
     <message>
         <source>{text} is not a finite number</source>
@@ -3579,10 +3569,6 @@
         <translation>Achse {axis}: {name} {value} Hz muss unter der halben Rate liegen, {rate_hz} Hz</translation>
     </message>
     <message>
-        <source>axis {axis}: {parameter} {asked} is beyond {used}, the {side} within {cause}</source>
-        <translation>Achse {axis}: {parameter} {asked} liegt jenseits von {used}, dem {side} wegen {cause}</translation>
-    </message>
-    <message>
         <source>excitation: {rows} rows of {count} axes are more than {most_rows} values; shorten it or lower the rate</source>
         <translation>Anregung: {rows} Zeilen von {count} Achsen sind mehr als {most_rows} Werte; kürzen oder die Rate senken</translation>
     </message>
@@ -3600,7 +3586,6 @@
     </message>
     <message>
         <source>controller: reference {reference}, measured {measured}: both must be finite; hold the last output until the sensor answers again</source>
-        <extracomment>Of the recurrence, and what it remembers, which it moves on. What the integral added when it began, m or rad; for how many samples now the sensor has been too far off.</extracomment>
         <translation>Regler: Sollwert {reference}, Messwert {measured}: beide müssen endlich sein; die letzte Ausgabe halten, bis der Sensor wieder antwortet</translation>
     </message>
     <message>
@@ -3728,8 +3713,8 @@
         <translation>Spitze: das Ziel ist keine endliche Position; x, y und z in m angeben</translation>
     </message>
     <message>
-        <source>{name} has shape {shape}; give it ({n}, {n}) finite numbers, a row and a column for each of {names}</source>
-        <translation>{name} hat die Form {shape}; ({n}, {n}) endliche Zahlen angeben, je eine Zeile und Spalte für {names}</translation>
+        <source>{name} has shape {shape}; it must have ({n}, {n}) finite numbers, with a row and a column for each of {names}</source>
+        <translation>{name} hat die Form {shape}; nötig sind ({n}, {n}) endliche Zahlen mit je einer Zeile und Spalte für {names}</translation>
     </message>
     <message>
         <source>accelerations under a perturbation by its rate have no finite response; use velocities</source>
@@ -3792,21 +3777,15 @@
         <translation>Achse {quoted} der Aufzeichnung: es fehlt die Spalte {axis}.cmd, die das Modell treibt</translation>
     </message>
     <message>
-        <source>axis {quoted} {reason}: an open-loop run needs a {axis}.u column in the record (&apos;# mode: closed_loop&apos; and a controller in the robot file do without)</source>
-        <translation>Achse {quoted} {reason}: ein ungeregelter Lauf braucht in der Aufzeichnung eine Spalte {axis}.u (&apos;# mode: closed_loop&apos; und ein Regler in der Roboterdatei kommen ohne aus)</translation>
+        <source>axis {quoted} {reason}: an open-loop run needs a {axis}.u column in the record; add it, or use &apos;# mode: closed_loop&apos; and a controller in the robot file</source>
+        <translation>Achse {quoted} {reason}: ein ungeregelter Lauf braucht in der Aufzeichnung eine Spalte {axis}.u; ergänzen Sie sie oder verwenden Sie &apos;# mode: closed_loop&apos; und einen Regler in der Roboterdatei</translation>
     </message>
     <message>
         <source>axis.{axis}.effect {id}: formulation {name}: {what}: {type_name}: {reason}</source>
-        <extracomment>The places in the signal chain at which step functions are called, in its order.</extracomment>
         <translation>axis.{axis}.effect {id}: Formulierung {name}: {what}: {type_name}: {reason}</translation>
     </message>
     <message>
-        <source>axis {names}: unstable together, a motion grows by e every {fastest} s ({named}); change or remove one of them</source>
-        <translation>Achse {names}: zusammen instabil, eine Bewegung wächst alle {fastest} s um e ({named}); eines davon ändern oder entfernen</translation>
-    </message>
-    <message>
         <source>{value} is not imported: {fault}</source>
-        <extracomment>The version of the interface that plugins of each group are written for. It grows when a plugin written for the one before would fail.</extracomment>
         <translation>{value} wird nicht importiert: {fault}</translation>
     </message>
     <message>
@@ -3838,8 +3817,8 @@
         <translation>Einheiten:{axis}: {error}</translation>
     </message>
     <message>
-        <source>units:{axis}: {unit} cannot show units of {units}; use one of those</source>
-        <translation>Einheiten:{axis}: {unit} kann Einheiten von {units} nicht zeigen; eine von diesen verwenden</translation>
+        <source>units:{axis}: {unit} cannot be converted to {units}; use another unit</source>
+        <translation>Einheiten:{axis}: {unit} lässt sich nicht in {units} umrechnen; eine andere Einheit verwenden</translation>
     </message>
     <message>
         <source>record:{column}: too large for [{unit}]; choose a larger unit</source>
@@ -3934,19 +3913,19 @@
         <translation>{name}:{line_of}: die Zeile ist länger als {line_bytes} Byte; ist das eine Aufzeichnung mit LF oder CRLF am Ende jeder Zeile?</translation>
     </message>
     <message>
-        <source>{name}: the file holds no whole line, only zero bytes, as a power cut leaves them; use another copy</source>
-        <translation>{name}: Die Datei enthält keine vollständige Zeile, nur Nullbytes, wie nach einem Stromausfall; eine andere Kopie verwenden</translation>
+        <source>{name}: the file contains only zero bytes, probably because of a power cut; use another copy</source>
+        <translation>{name}: Die Datei enthält nur Nullbytes, vermutlich durch einen Stromausfall; eine andere Kopie verwenden</translation>
     </message>
     <message>
-        <source>{name}:{line}: the file ends in zero bytes, as a power cut leaves them; cut it after line {last}, the last whole one</source>
-        <translation>{name}:{line}: Die Datei endet mit Nullbytes, wie nach einem Stromausfall; nach Zeile {last}, der letzten vollständigen, abschneiden</translation>
+        <source>{name}:{line}: the file ends in zero bytes, probably because of a power cut; delete everything after line {last}, the last complete one</source>
+        <translation>{name}:{line}: Die Datei endet mit Nullbytes, vermutlich durch einen Stromausfall; alles nach Zeile {last}, der letzten vollständigen, löschen</translation>
     </message>
     <message>
         <source>time {time} s does not increase after {last} s; each row must be later than the one before</source>
         <translation>Zeit {time} s nimmt nach {last} s nicht zu; jede Zeile muss später sein als die vorige</translation>
     </message>
     <message>
-        <source>{name}:{line}: a second header; the file holds two logs: move the lines from here on to a file of their own</source>
+        <source>{name}:{line}: a second header; the file contains two logs: move the lines from here on to a separate file</source>
         <translation>{name}:{line}: eine zweite Kopfzeile; die Datei enthält zwei Aufzeichnungen: die Zeilen ab hier in eine eigene Datei verschieben</translation>
     </message>
     <message>
@@ -3990,8 +3969,16 @@
         <translation>{name}:{line}:Byte {start}: {data} ist kein UTF-8; die Datei als UTF-8 speichern</translation>
     </message>
     <message>
-        <source>the value is missing; a sensor dropout is a finite wrong value, never an empty field</source>
-        <translation>der Wert fehlt; ein Sensoraussetzer ist ein endlicher falscher Wert, nie ein leeres Feld</translation>
+        <source>the value is missing; write a number, even for a dropout of the sensor</source>
+        <translation>der Wert fehlt; eine Zahl schreiben, auch bei einem Sensoraussetzer</translation>
+    </message>
+    <message>
+        <source>value {value} has an unpaired quote; remove it</source>
+        <translation>Wert {value} hat ein einzelnes Anführungszeichen; es entfernen</translation>
+    </message>
+    <message>
+        <source>value {value} has a thousands separator; remove it</source>
+        <translation>Wert {value} hat ein Tausendertrennzeichen; es entfernen</translation>
     </message>
     <message>
         <source>value {value} is not finite; write a finite number</source>
@@ -4002,16 +3989,8 @@
         <translation>Wert {value} ist das Zeichen einer Tabellenkalkulation für einen fehlenden Wert oder Fehler; eine Zahl eintragen oder die Zeile löschen</translation>
     </message>
     <message>
-        <source>value {value} has a quote without its partner on this line; remove it</source>
-        <translation>Wert {value} hat ein Anführungszeichen ohne Gegenstück in dieser Zeile; es entfernen</translation>
-    </message>
-    <message>
         <source>value {value} is not a plain decimal number; write it like -12.5 or 3e-6</source>
         <translation>Wert {value} ist keine einfache Dezimalzahl; schreiben wie -12.5 oder 3e-6</translation>
-    </message>
-    <message>
-        <source>value {value} has a thousands separator; write its digits without any</source>
-        <translation>Wert {value} hat ein Tausendertrennzeichen; die Ziffern ohne Trennzeichen schreiben</translation>
     </message>
     <message>
         <source>the version must be {version}</source>
@@ -4038,8 +4017,8 @@
         <translation>{where}:{key}: Wert {value}; {advice}</translation>
     </message>
     <message>
-        <source>metadata:{key}: {value} does not fit in a &apos;# key: value&apos; line; leave out line ends, control characters, blanks around, and &apos;:&apos; in the key</source>
-        <translation>metadata:{key}: {value} passt in keine Zeile &apos;# key: value&apos;; Zeilenenden, Steuerzeichen, Leerzeichen am Rand und &apos;:&apos; im Schlüssel weglassen</translation>
+        <source>metadata:{key}: {value} does not fit in a &apos;# key: value&apos; line; remove line ends, control characters, surrounding blanks, and &apos;:&apos; in the key</source>
+        <translation>metadata:{key}: {value} passt in keine Zeile &apos;# key: value&apos;; Zeilenenden, Steuerzeichen, Leerzeichen am Rand und &apos;:&apos; im Schlüssel entfernen</translation>
     </message>
     <message>
         <source>metadata:{key}: longer than {longest} bytes; shorten it</source>
@@ -4058,8 +4037,8 @@
         <translation>{where}: Überschrift {heading}; die erste Spalte, und nur sie, muss die Zeit sein: t [s]</translation>
     </message>
     <message>
-        <source>{where}: heading {heading} has a quote without its partner on this line; write each heading on one line, like {example}</source>
-        <translation>{where}: Überschrift {heading} hat ein Anführungszeichen ohne Gegenstück in dieser Zeile; jede Überschrift in eine Zeile schreiben, wie {example}</translation>
+        <source>{where}: heading {heading} has an unpaired quote; write each heading on one line, like {example}</source>
+        <translation>{where}: Überschrift {heading} hat ein einzelnes Anführungszeichen; jede Überschrift in eine Zeile schreiben, wie {example}</translation>
     </message>
     <message>
         <source>{where}: heading {heading} is not &apos;axis.channel [unit]&apos;; write it like {example}, and begin lines above the header with &apos;#&apos;</source>
@@ -4082,12 +4061,12 @@
         <translation>{where}:{number}: Spalte {column} ist schon Spalte {before}; eine entfernen</translation>
     </message>
     <message>
-        <source>{where}: no column beside time; add one, such as {example}</source>
-        <translation>{where}: keine Spalte neben der Zeit; schreiben wie {example}</translation>
+        <source>{where}: no column except time; add one, such as {example}</source>
+        <translation>{where}: keine Spalte außer der Zeit; eine hinzufügen, wie {example}</translation>
     </message>
     <message>
-        <source>{where}:{number}: {column} is in [{unit}] but {axis} is in units of {kind} before; one of them is wrong</source>
-        <translation>{where}:{number}: {column} ist in [{unit}], aber {axis} stand vorher in Einheiten von {kind}; eine davon ist falsch</translation>
+        <source>{where}:{number}: {column} is in [{unit}], but an earlier column of {axis} is in units of {kind}; correct one of them</source>
+        <translation>{where}:{number}: {column} ist in [{unit}], aber eine frühere Spalte von {axis} in Einheiten von {kind}; eine von beiden korrigieren</translation>
     </message>
     <message>
         <source>{where}: axis {quoted} has {axis}.{tap} but no {axis}.cmd; add it</source>
@@ -4122,24 +4101,24 @@
         <translation>{name}:{line}: keine Kopfzeile und keine Zeilen mit Zahlen; die Aufzeichnung ist leer</translation>
     </message>
     <message>
-        <source>{where}: the line names {separator} as separator of columns; use a semicolon, comma, tab or blank</source>
-        <translation>{where}: Die Zeile nennt {separator} als Spaltentrenner; Semikolon, Komma, Tabulator oder Leerzeichen verwenden</translation>
+        <source>{where}: the line states the separator {separator}; use a semicolon, comma, tab or blank</source>
+        <translation>{where}: Die Zeile nennt das Trennzeichen {separator}; Semikolon, Komma, Tabulator oder Leerzeichen verwenden</translation>
     </message>
     <message>
-        <source>{where}: the line above names {separator} as separator of columns, but the header has {other}; correct one of them</source>
-        <translation>{where}: Die Zeile darüber nennt {separator} als Spaltentrenner, die Kopfzeile hat aber {other}; eine von beiden korrigieren</translation>
+        <source>{where}: the line above states the separator {separator}, but the header uses {other}; correct one of them</source>
+        <translation>{where}: Die Zeile darüber nennt das Trennzeichen {separator}, die Kopfzeile verwendet aber {other}; eine von beiden korrigieren</translation>
     </message>
     <message>
-        <source>{where}:{index}: the header names {found} where you named {asked}; use the same name, or omit it</source>
-        <translation>{where}:{index}: die Kopfzeile nennt {found}, genannt wurde {asked}; dasselbe angeben oder es der Kopfzeile überlassen</translation>
+        <source>{where}:{index}: the header has {found}, but you named {asked}; use the same name, or omit it</source>
+        <translation>{where}:{index}: Die Kopfzeile hat {found}, angegeben wurde aber {asked}; dasselbe angeben oder die Angabe weglassen</translation>
     </message>
     <message>
         <source>{where}:1: the file has no header row; name its columns, such as &apos;{example}&apos;</source>
         <translation>{where}:1: die Datei hat keine Kopfzeile; ihre Spalten benennen, etwa &apos;{example}&apos;</translation>
     </message>
     <message>
-        <source>{name}: no such shipped models; choose from {names}</source>
-        <translation>{name}: keine solchen mitgelieferten Modelle; möglich: {names}</translation>
+        <source>{name}: there are no shipped models of this name; choose from {names}</source>
+        <translation>{name}: Es gibt keine mitgelieferten Modelle dieses Namens; möglich: {names}</translation>
     </message>
     <message>
         <source>{source}: not valid TOML: {error}</source>
@@ -4166,12 +4145,12 @@
         <translation>{source}: {error}</translation>
     </message>
     <message>
-        <source>names at least one axis</source>
-        <translation>nennt mindestens eine Achse</translation>
+        <source>must name at least one axis</source>
+        <translation>muss mindestens eine Achse nennen</translation>
     </message>
     <message>
-        <source>names each axis once</source>
-        <translation>nennt jede Achse einmal</translation>
+        <source>must name each axis once</source>
+        <translation>muss jede Achse genau einmal nennen</translation>
     </message>
     <message>
         <source>needs a table [axis.{name}]</source>
@@ -4382,16 +4361,16 @@
         <translation>eine ruckminimale Bewegung braucht eine Grenze für Geschwindigkeit, Beschleunigung oder Ruck</translation>
     </message>
     <message>
-        <source>profile table: {size} times and {values_size} positions: must be equally many, 2 to {most_rows}</source>
-        <translation>Profiltabelle: {size} Zeiten und {values_size} Positionen: gleich viele, 2 bis {most_rows}</translation>
+        <source>profile table: {size} times and {values_size} positions: both numbers must be equal, 2 to {most_rows}</source>
+        <translation>Profiltabelle: {size} Zeiten und {values_size} Positionen: Beide Anzahlen müssen gleich sein, 2 bis {most_rows}</translation>
+    </message>
+    <message>
+        <source>profile table, row {row}: {times} s, {values}: numbers must be finite, and times must rise from row to row</source>
+        <translation>Profiltabelle, Zeile {row}: {times} s, {values}: Zahlen müssen endlich sein, und Zeiten müssen von Zeile zu Zeile steigen</translation>
     </message>
     <message>
         <source>profile table, row 1: {times} s, {values}: it must begin at 0, 0</source>
         <translation>Profiltabelle, Zeile 1: {times} s, {values}: muss bei 0, 0 beginnen</translation>
-    </message>
-    <message>
-        <source>profile table, row {row}: {times} s, {values}: numbers must be finite, and times rise from row to row</source>
-        <translation>Profiltabelle, Zeile {row}: {times} s, {values}: Zahlen müssen endlich sein, Zeiten von Zeile zu Zeile steigen</translation>
     </message>
     <message>
         <source>profile table, row {count}: it ends where it began</source>
@@ -4442,8 +4421,8 @@
         <translation>Punkt {number}: die Front hat die Punkte 0 bis {count}; einen davon wählen</translation>
     </message>
     <message>
-        <source>axis {axis}: after {done} generations no gains keep Ms ≤ {peak_sensitivity} and overshoot ≤ {overshoot} %; search longer, use a faster loop, or permit more</source>
-        <translation>Achse {axis}: nach {done} Generationen hält keine Verstärkung Ms ≤ {peak_sensitivity} und Überschwingen ≤ {overshoot} % ein; länger suchen, einen schnelleren Regelkreis nehmen oder mehr zulassen</translation>
+        <source>axis {axis}: after {done} generations no gains meet Ms ≤ {peak_sensitivity} and overshoot ≤ {overshoot} %; search longer, use a faster loop, or relax the limits</source>
+        <translation>Achse {axis}: Nach {done} Generationen erfüllen keine Verstärkungen Ms ≤ {peak_sensitivity} und Überschwingen ≤ {overshoot} %; suchen Sie länger, verwenden Sie einen schnelleren Regelkreis oder lockern Sie die Grenzen</translation>
     </message>
     <message>
         <source>{name}: {key} = {value}: {reason}</source>
@@ -4554,8 +4533,8 @@
         <translation>{name}: {count} Zeilen; eine Kalibrierung braucht mindestens {least_rows}</translation>
     </message>
     <message>
-        <source>{name}: {axis} travels {travel} by the laser, {share} of its range; a calibration needs {least_share}: {least}; move it farther</source>
-        <translation>{name}: {axis} fährt laut Laser {travel}, das sind {share} ihres Bereichs; eine Kalibrierung braucht {least_share}: {least}; weiter fahren</translation>
+        <source>{name}: according to the laser {axis} travels {travel}, {share} of its range; a calibration needs {least_share}, which is {least}; move the axis farther</source>
+        <translation>{name}: laut Laser fährt {axis} {travel}, das sind {share} ihres Bereichs; eine Kalibrierung braucht {least_share}, also {least}; die Achse weiter fahren</translation>
     </message>
     <message>
         <source>the laser was lost from {begin} s to {end} s</source>
@@ -4590,16 +4569,16 @@
         <translation>die Abweichungen haben die Form {shape}; ISO 230-2 braucht (Ziele, Läufe, 2)</translation>
     </message>
     <message>
-        <source>each target was approached {shape} times from each side; ISO 230-2 needs {iso_runs} runs, a spread at least {least_runs}</source>
-        <translation>jedes Ziel wurde {shape}-mal von jeder Seite angefahren; ISO 230-2 braucht {iso_runs} Läufe, eine Streuung mindestens {least_runs}</translation>
+        <source>each target was approached {shape} times from each side; ISO 230-2 needs {iso_runs} runs; a standard deviation needs at least {least_runs}</source>
+        <translation>jedes Ziel wurde {shape}-mal von jeder Seite angefahren; ISO 230-2 verlangt {iso_runs} Läufe; eine Standardabweichung braucht mindestens {least_runs}</translation>
     </message>
     <message>
         <source>{axis}: in the runs left out of the fit the reading&apos;s error is {after} rms with the calibration and {before} without; the calibration is not better and is not used</source>
         <translation>{axis}: bei zurückgehaltenen Läufen ist der Fehler des Messwerts {after} rms mit der Kalibrierung und {before} ohne; sie ist nicht besser und wird nicht genutzt</translation>
     </message>
     <message>
-        <source>{count} runs of {least_run_rows} rows or more; a calibration needs {least_runs}, of which each is held out once; record longer</source>
-        <translation>{count} Läufe von {least_run_rows} Zeilen oder mehr; eine Kalibrierung braucht {least_runs}, von denen jeder einmal zurückgehalten wird; länger aufzeichnen</translation>
+        <source>only {count} runs have {least_run_rows} rows or more; a calibration needs {least_runs}, because each run is held out once; make a longer record</source>
+        <translation>nur {count} Läufe haben {least_run_rows} Zeilen oder mehr; eine Kalibrierung braucht {least_runs}, weil jeder Lauf einmal zurückgehalten wird; länger aufzeichnen</translation>
     </message>
     <message>
         <source>offset</source>
@@ -4647,7 +4626,6 @@
     </message>
     <message>
         <source>--fit: {name} cannot be re-fitted; choose from {names}</source>
-        <extracomment>Rows, beside the first one, without which a record of a motion says nothing about a model.</extracomment>
         <translation>--fit: {name} lässt sich nicht neu anpassen; möglich: {names}</translation>
     </message>
     <message>
@@ -4695,8 +4673,8 @@
         <translation>{where}: Formulierung {name} wirkt auf die Dynamik einer Achse, und diese ist statisch; ihr Masse, Dämpfung und Steifigkeit geben oder eine andere Formulierung wählen</translation>
     </message>
     <message>
-        <source>{where}.from_axis = {from_axis}: this effect comes from no other axis; remove it</source>
-        <translation>{where}.from_axis = {from_axis}: dieser Effekt kommt von keiner anderen Achse; entfernen</translation>
+        <source>{where}.from_axis = {from_axis}: no other axis causes this effect; remove from_axis</source>
+        <translation>{where}.from_axis = {from_axis}: diesen Effekt verursacht keine andere Achse; from_axis entfernen</translation>
     </message>
     <message>
         <source>{where}.from_axis = {from_axis}: must be one of {others}</source>
@@ -4767,12 +4745,12 @@
         <translation>Rate {rate_hz} Hz: eine positive Zahl verwenden</translation>
     </message>
     <message>
-        <source>resonance: band {band_hz} Hz; the lower end comes first</source>
-        <translation>Resonanz: Band {band_hz} Hz; die niedrigste Frequenz kommt zuerst</translation>
+        <source>resonance: band {band_hz} Hz; the lower frequency must come first</source>
+        <translation>Resonanz: Band {band_hz} Hz; die niedrigere Frequenz muss zuerst stehen</translation>
     </message>
     <message>
-        <source>resonance: {count} lines from {low_hz} to {high_hz} Hz; at least {least_lines} are needed, widen the band or resolve it finer</source>
-        <translation>Resonanz: {count} Linien von {low_hz} bis {high_hz} Hz; mindestens {least_lines} sind nötig, das Band verbreitern oder feiner auflösen</translation>
+        <source>resonance: {count} lines from {low_hz} to {high_hz} Hz; at least {least_lines} are needed, widen the band or increase the resolution</source>
+        <translation>Resonanz: {count} Linien von {low_hz} bis {high_hz} Hz; mindestens {least_lines} sind nötig, verbreitern Sie das Band oder erhöhen Sie die Auflösung</translation>
     </message>
     <message>
         <source>resonance: the response is zero over the band</source>
@@ -4803,8 +4781,8 @@
         <translation>Experiment {number}: {inputs} → {outputs} mit {rate_hz} Hz, das erste hat {first_inputs} → {first_outputs} mit {first_rate_hz} Hz; alle müssen gleich sein</translation>
     </message>
     <message>
-        <source>inputs: on no line do all {count} move independently at {excited_above} of the largest amplitude or more; excite them one after another, with independent signals, or in as many experiments as there are inputs</source>
-        <translation>Eingänge: auf keiner Linie bewegen sich alle {count} unabhängig mit mindestens {excited_above} der größten Amplitude; sie nacheinander, mit unabhängigen Signalen oder in so vielen Experimenten anregen, wie es Eingänge gibt</translation>
+        <source>inputs: on no line are all {count} excited independently with at least {excited_above} of the largest amplitude; excite them one after another, with independent signals, or in as many experiments as there are inputs</source>
+        <translation>Eingänge: Auf keiner Linie sind alle {count} unabhängig mit mindestens {excited_above} der größten Amplitude angeregt; regen Sie sie nacheinander, mit unabhängigen Signalen oder in so vielen Experimenten an, wie es Eingänge gibt</translation>
     </message>
     <message>
         <source>periodic response: a period of {period} samples, {skip_periods} periods skipped; the record needs &apos;# history: periodic&apos; and &apos;# period_samples: N&apos;</source>
@@ -4819,16 +4797,16 @@
         <translation>Experimente: Perioden von {periods} Abtastwerten; alle müssen gleich sein</translation>
     </message>
     <message>
-        <source>loops: {lag_samples} samples of lag, least swing {least_swing}; use 0 or more, and a swing in (0, 1)</source>
-        <translation>Schleifen: {lag_samples} Abtastwerte Nachlauf, kleinster Hub {least_swing}; 0 oder mehr und einen Hub in (0, 1) verwenden</translation>
-    </message>
-    <message>
         <source>loops: {inputs} samples of input, {outputs} of output, {lag_samples} of lag; input and output must be equally long, with at least three samples left</source>
         <translation>Schleifen: {inputs} Abtastwerte des Eingangs, {outputs} des Ausgangs, {lag_samples} Nachlauf; gleich viele und mindestens drei sind nötig</translation>
     </message>
     <message>
-        <source>loops: the input makes no whole cycle from one turning point to the next of its kind; record one cycle more</source>
-        <translation>Schleifen: der Eingang macht keinen ganzen Zyklus von einem Wendepunkt zum nächsten gleicher Art; einen Zyklus mehr aufzeichnen</translation>
+        <source>loops: lag of {lag_samples} samples, minimum swing {least_swing}; the lag must be 0 or more, the swing in (0, 1)</source>
+        <translation>Schleifen: Nachlauf von {lag_samples} Abtastwerten, kleinster Hub {least_swing}; der Nachlauf muss mindestens 0 sein, der Hub in (0, 1) liegen</translation>
+    </message>
+    <message>
+        <source>loops: the input makes no whole cycle from one turning point to the next one of the same kind; record another cycle</source>
+        <translation>Schleifen: Der Eingang durchläuft keinen ganzen Zyklus von einem Wendepunkt zum nächsten gleicher Art; zeichnen Sie einen weiteren Zyklus auf</translation>
     </message>
     <message>
         <source>amplitude dependence: {count} loops whose amplitudes differ by less than a factor of {least_spread}; record growing or decaying cycles</source>
@@ -4847,8 +4825,8 @@
         <translation>{side}: ein Wert ist nicht endlich</translation>
     </message>
     <message>
-        <source>signals: {inputs} samples of input, {outputs} of output; their numbers must be equal</source>
-        <translation>Signale: {inputs} Abtastwerte des Eingangs, {outputs} des Ausgangs; es müssen gleich viele sein</translation>
+        <source>signals: {inputs} samples of input, {outputs} of output; both numbers must be equal</source>
+        <translation>Signale: {inputs} Abtastwerte des Eingangs, {outputs} des Ausgangs; beide Anzahlen müssen gleich sein</translation>
     </message>
     <message>
         <source>signals: rate {rate_hz} Hz; use a positive number</source>
@@ -4879,8 +4857,8 @@
         <translation>{name}: konstant bei {signal} über {count} Abtastwerte; nichts lässt sich identifizieren, einen Lauf mit Bewegung aufzeichnen</translation>
     </message>
     <message>
-        <source>resampling by {factor}: {count} samples leave {left} after the filter, fewer than {shortest}; record longer or lower the rate less</source>
-        <translation>Neuabtastung um {factor}: {count} Abtastwerte lassen nach dem Filter {left}, weniger als {shortest}; länger aufzeichnen oder die Rate weniger senken</translation>
+        <source>resampling by {factor}: of {count} samples {left} remain after filtering, fewer than {shortest}; record longer or use a larger factor</source>
+        <translation>Neuabtastung um {factor}: Von {count} Abtastwerten bleiben nach dem Filtern {left}, weniger als {shortest}; zeichnen Sie länger auf oder verwenden Sie einen größeren Faktor</translation>
     </message>
     <message>
         <source>resampling factor {factor}: not in (0, 1]; use one such as 0.15</source>
@@ -4891,20 +4869,19 @@
         <translation>Neuabtastungsfaktor {factor}: kein Bruch mit einem Nenner bis {finest}; {fraction} verwenden</translation>
     </message>
     <message>
-        <source>least step {least_step}: not in (0, 1]; use one such as 0.01</source>
-        <translation>kleinster Sprung {least_step}: nicht in (0, 1]; etwa 0.01 verwenden</translation>
+        <source>minimum step {least_step}: not in (0, 1]; use a value such as 0.01</source>
+        <translation>kleinster Sprung {least_step}: nicht in (0, 1]; verwenden Sie einen Wert wie 0.01</translation>
     </message>
     <message>
         <source>steps: the record has no {axis}.{needed}; it has {names}</source>
         <translation>Sprünge: die Aufzeichnung hat kein {axis}.{needed}; vorhanden: {names}</translation>
     </message>
     <message>
-        <source>steps: {axis}.{drive} holds no jump between two holds of {shortest_hold} rows and {shortest_hold_s} s; record a staircase</source>
-        <translation>Sprünge: {axis}.{drive} enthält keinen Sprung zwischen zwei Ruhephasen von {shortest_hold} Zeilen und {shortest_hold_s} s; eine Treppe aufzeichnen</translation>
+        <source>steps: {axis}.{drive} holds no jump between two holds of at least {shortest_hold} rows and {shortest_hold_s} s; record a staircase</source>
+        <translation>Sprünge: {axis}.{drive} enthält keinen Sprung zwischen zwei Ruhephasen von mindestens {shortest_hold} Zeilen und {shortest_hold_s} s; zeichnen Sie eine Treppe auf</translation>
     </message>
     <message>
         <source>microscope: {name} = {value}: must be more than 0</source>
-        <extracomment>Of light that falls anywhere on a pixel, px². The camera and objective where a robot file names none: AxioCam HRm behind 20× / 0.4.</extracomment>
         <translation>Mikroskop: {name} = {value}: muss größer als 0 sein</translation>
     </message>
     <message>
@@ -4960,8 +4937,8 @@
         <translation>muss innerhalb von ± inertia {inertia} liegen</translation>
     </message>
     <message>
-        <source>must be at most the hub&apos;s</source>
-        <translation>darf höchstens so groß wie bei der Nabe sein</translation>
+        <source>must be at most the diameter of the hub</source>
+        <translation>darf höchstens so groß wie der Durchmesser der Nabe sein</translation>
     </message>
     <message>
         <source>a {kind} needs it</source>
@@ -4992,12 +4969,12 @@
         <translation>der Ausschnitt mit seiner Umgebung reicht von {inner} bis {outer} m; er muss zwischen Nabe {hub_radius} und Rand {rim_radius} m bleiben</translation>
     </message>
     <message>
-        <source>{count} of them leave nothing between them; make them smaller or fewer</source>
-        <translation>{count} davon lassen nichts zwischen sich; kleiner machen oder weniger nehmen</translation>
+        <source>{count} of them leave no material in between; make them smaller, or use fewer</source>
+        <translation>{count} davon lassen kein Material dazwischen; machen Sie sie kleiner oder verwenden Sie weniger</translation>
     </message>
     <message>
-        <source>its ring from {inner} to {outer} m meets another&apos;s, which ends at {one_outer} m; put them into separate rings</source>
-        <translation>ihr Ring von {inner} bis {outer} m trifft einen anderen, der bei {one_outer} m endet; in getrennte Ringe legen</translation>
+        <source>its ring from {inner} to {outer} m overlaps another one, which ends at {one_outer} m; put the cut-outs into separate rings</source>
+        <translation>ihr Ring von {inner} bis {outer} m überschneidet einen anderen, der bei {one_outer} m endet; legen Sie die Aussparungen in getrennte Ringe</translation>
     </message>
     <message>
         <source>{name}: the name must end with .vtu</source>
@@ -5024,6 +5001,10 @@
         <translation>am Rand</translation>
     </message>
     <message>
+        <source>between hub and rim</source>
+        <translation>zwischen Nabe und Rand</translation>
+    </message>
+    <message>
         <source>{where}, r {radius} mm, {degrees}°</source>
         <translation>{where}, r {radius} mm, {degrees}°</translation>
     </message>
@@ -5036,12 +5017,12 @@
         <translation>die Platte fließt innerhalb des Bewegungsbereichs: {stress} MPa {place_text} bei zn {zn} µm, thx {thx} µrad, thy {thy} µrad; ihre Streckgrenze ist {yield_stress} MPa: dünner oder breiter machen</translation>
     </message>
     <message>
-        <source>robot {robot}: axis.{axis} has no mass and stiffness of its own; give mass, damping and stiffness to put the plate&apos;s there</source>
-        <translation>Roboter {robot}: axis.{axis} hat keine eigene Masse und Steifigkeit; Masse, Dämpfung und Steifigkeit angeben, damit die der Platte dorthin kommen</translation>
+        <source>robot {robot}: axis.{axis} has no mass and stiffness that the plate could replace; give it mass, damping and stiffness</source>
+        <translation>Roboter {robot}: axis.{axis} hat keine Masse und Steifigkeit, die die Platte ersetzen könnte; geben Sie Masse, Dämpfung und Steifigkeit an</translation>
     </message>
     <message>
-        <source>the plate gives an impossible robot: {problem}</source>
-        <translation>die Platte ergibt einen unmöglichen Roboter: {problem}</translation>
+        <source>the plate would make the robot invalid: {problem}</source>
+        <translation>mit der Platte wäre der Roboter ungültig: {problem}</translation>
     </message>
     <message>
         <source>robot {name}: plate.pin.length: missing, and robot.pin_length too; give one</source>
@@ -5052,7 +5033,7 @@
         <translation>Roboter {name}: plate.pin.length = {length} m: muss {low} bis {high} m sein, das {shortest}- bis {longest}-Fache des Durchmessers; er wird als Balken berechnet</translation>
     </message>
     <message>
-        <source>axis {axis}: speed {speed}: must be a finite number above 0, of an axis with a target</source>
+        <source>axis {axis}: speed {speed}: must be a finite number above 0, for an axis with a target</source>
         <translation>Achse {axis}: Geschwindigkeit {speed}: muss eine endliche Zahl über 0 sein, für eine Achse mit Ziel</translation>
     </message>
     <message>
@@ -5092,12 +5073,12 @@
         <translation>Trajektorie: Roboter {name} hat keine Achse {axis}, nur {axes}; die Spalte umbenennen oder den passenden Roboter wählen</translation>
     </message>
     <message>
-        <source>trajectory: axis {name} is given in {unit}, but the robot&apos;s moves in {expected}</source>
-        <translation>Trajektorie: Achse {name} ist in {unit} angegeben, die des Roboters bewegt sich in {expected}</translation>
+        <source>trajectory: axis {name} is in units of {unit}, but the robot moves it in units of {expected}; correct the unit</source>
+        <translation>Trajektorie: Achse {name} ist in Einheiten von {unit}, der Roboter bewegt sie aber in Einheiten von {expected}; die Einheit korrigieren</translation>
     </message>
     <message>
-        <source>trajectory: axis {name} is moved by a force and has no controller in the robot file, so nothing would make it follow; add [axis.{key}.controller]</source>
-        <translation>Trajektorie: Achse {name} wird von einer Kraft bewegt und hat in der Roboterdatei keinen Regler, also folgt sie nicht; [axis.{key}.controller] ergänzen</translation>
+        <source>trajectory: axis {name} is moved by a force and has no controller in the robot file, so it cannot follow commands; add [axis.{key}.controller]</source>
+        <translation>Trajektorie: Achse {name} wird von einer Kraft bewegt und hat in der Roboterdatei keinen Regler, kann also Sollwerten nicht folgen; [axis.{key}.controller] ergänzen</translation>
     </message>
     <message>
         <source>move or shrink the trajectory so that it stays inside the axis range</source>
@@ -5120,16 +5101,16 @@
         <translation>dort liegen die Zeilen {interval} s auseinander, das Gerät hält jede und springt dann: die Trajektorie mit {rate} Hz neu abtasten (linear oder kubisch)</translation>
     </message>
     <message>
-        <source>trajectory: it cannot begin at {begin_s} s: must be 0 to {time_s} s, before its last row</source>
-        <translation>Trajektorie: sie kann nicht bei {begin_s} s beginnen: muss 0 bis {time_s} s sein, vor ihrer letzten Zeile</translation>
+        <source>trajectory: it cannot begin at {begin_s} s; choose a time from 0 to {time_s} s, before the last row</source>
+        <translation>Trajektorie: Sie kann nicht bei {begin_s} s beginnen; eine Zeit von 0 bis {time_s} s wählen, vor der letzten Zeile</translation>
     </message>
     <message>
         <source>trajectory: repeated {times} times: must be 1 to {most_times}</source>
         <translation>Trajektorie: {times}-mal wiederholt: muss 1 bis {most_times} sein</translation>
     </message>
     <message>
-        <source>trajectory: repeated {times} times it has {count} rows: at most {most_rows}; repeat it less often</source>
-        <translation>Trajektorie: {times}-mal wiederholt hat sie {count} Zeilen: höchstens {most_rows}; weniger oft wiederholen</translation>
+        <source>trajectory: repeated {times} times, it has {count} rows (at most {most_rows}); repeat it less often</source>
+        <translation>Trajektorie: {times}-mal wiederholt hat sie {count} Zeilen (höchstens {most_rows}); weniger oft wiederholen</translation>
     </message>
     <message>
         <source>trajectory: axis {axis} ends {apart} from where it begins, so it cannot be repeated; return to the start in its file</source>
@@ -5184,8 +5165,8 @@
         <translation>{name}: {speed} innerhalb einer Zeitkonstante von {time_constant_s} s ist mehr, als die Achsen beschleunigen können; höchstens {most} verwenden oder mindestens {other} s</translation>
     </message>
     <message>
-        <source>axis {axis}: width {width}: must be above 0 and at most {most}, a hundredth of the range</source>
-        <translation>Achse {axis}: eine Weite von {width}: muss über 0 und höchstens {most} sein, ein Hundertstel des Bereichs</translation>
+        <source>axis {axis}: the width {width} must be above 0 and at most {most}, a hundredth of the range</source>
+        <translation>Achse {axis}: die Weite {width} muss über 0 und höchstens {most} sein, ein Hundertstel des Bereichs</translation>
     </message>
     <message>
         <source>axis {axis}: the one-sided approach to {target} begins at {begin}, outside {low} to {high}; stay {width} away from that end, or switch the approach off</source>
@@ -5204,17 +5185,12 @@
         <translation>die Inverse von Achse {axis} stellt ihre Spannung; erst die Inverse abschalten</translation>
     </message>
     <message>
-        <source>cannot change a compensation while it moves; stop it or wait</source>
-        <extracomment>The axes whose switches were looked for last.</extracomment>
-        <translation>eine Kompensation lässt sich nicht während einer Bewegung ändern; anhalten oder warten</translation>
-    </message>
-    <message>
         <source>cells: the positions of the axes are unknown; home them, or reconnect</source>
         <translation>Zellen: die Positionen der Achsen sind unbekannt; referenzieren oder neu verbinden</translation>
     </message>
     <message>
-        <source>cells: the list has {most}; remove one</source>
-        <translation>Zellen: die Liste hat {most}; eine entfernen</translation>
+        <source>cells: the list is full ({most} cells); remove one</source>
+        <translation>Zellen: die Liste ist voll ({most} Zellen); entfernen Sie eine</translation>
     </message>
     <message>
         <source>axis {axis}: range {low} to {high}: the low end must be lower</source>
@@ -5231,6 +5207,10 @@
     <message>
         <source>z-stack: {count} pictures: must be at most {most}; use a larger step</source>
         <translation>Z-Stapel: {count} Bilder: höchstens {most}; einen größeren Schritt nehmen</translation>
+    </message>
+    <message>
+        <source>the return to the start position failed: {error}</source>
+        <translation>Rückfahrt zur Startposition nicht möglich: {error}</translation>
     </message>
     <message>
         <source>z-stack: there is no picture; open a camera</source>
@@ -5273,20 +5253,16 @@
         <translation>Sollwert {index}: Differenzen {values}: höchstens 32 und 24 Bit</translation>
     </message>
     <message>
-        <source>set-point: {count} bytes: must be {size} an axis</source>
+        <source>set-point: {count} bytes: must be {size} per axis</source>
         <translation>Sollwert: {count} Byte: müssen {size} je Achse sein</translation>
+    </message>
+    <message>
+        <source>profile: {size} bytes: must be {quadratic_size} per segment</source>
+        <translation>Profil: {size} Byte: müssen {quadratic_size} je Segment sein</translation>
     </message>
     <message>
         <source>profile, segments {values}: a number does not fit</source>
         <translation>Profil, Segmente {values}: eine Zahl passt nicht</translation>
-    </message>
-    <message>
-        <source>profile: {size} bytes: must be {quadratic_size} a segment</source>
-        <translation>Profil: {size} Byte: müssen {quadratic_size} je Segment sein</translation>
-    </message>
-    <message>
-        <source>profile of {count} ticks: a board counts {most} at most; make it shorter</source>
-        <translation>Profil von {count} Takten: eine Karte zählt höchstens {most}; verkürzen</translation>
     </message>
     <message>
         <source>{folder}: folder not found; create it, or name another one</source>
@@ -5311,10 +5287,6 @@
     <message>
         <source>{filename}: this file of the 3-D view cannot be read: {strerror}; install RoTeMiNa again</source>
         <translation>{filename}: diese Datei der 3D-Ansicht kann nicht gelesen werden: {strerror}; RoTeMiNa neu installieren</translation>
-    </message>
-    <message>
-        <source>the 3-D view cannot listen on {host}: {strerror}; a firewall or a limit of open files may forbid it</source>
-        <translation>die 3D-Ansicht kann an {host} nicht lauschen: {strerror}; vielleicht verbietet es eine Firewall oder eine Grenze für offene Dateien</translation>
     </message>
     <message>
         <source>reading before</source>
@@ -5417,11 +5389,6 @@
         <translation>die Spitze ist unterwegs zu einem Ziel; warten oder erst anhalten</translation>
     </message>
     <message>
-        <source>{trouble}; nothing moves</source>
-        <extracomment>Why the latest run was ended from here; empty if it was not.</extracomment>
-        <translation>{trouble}; nichts bewegt sich</translation>
-    </message>
-    <message>
         <source>axis {axis} is not a stepper axis; only these have backlash</source>
         <translation>Achse {axis} ist keine Schrittmotorachse; nur diese haben Spiel</translation>
     </message>
@@ -5463,16 +5430,15 @@
     </message>
     <message>
         <source>robot {name} has no tip for a floor to limit</source>
-        <extracomment>The tip&apos;s bounds; None where there is no tip. To what ranges of axes were narrowed; replaced as a whole.</extracomment>
         <translation>Roboter {name} hat keine Spitze, für die ein Boden gelten könnte</translation>
+    </message>
+    <message>
+        <source>tip: the clearance {clearance} m below the tip must be a finite number, 0 or more</source>
+        <translation>Spitze: der Abstand {clearance} m unter der Spitze muss eine endliche Zahl sein, 0 oder mehr</translation>
     </message>
     <message>
         <source>tip: too fast this close to its floor; move more slowly</source>
         <translation>Spitze: so dicht über dem Boden zu schnell; langsamer fahren</translation>
-    </message>
-    <message>
-        <source>{out}; axis {axes} does not bring it nearer in this direction</source>
-        <translation>{out}; Achse {axes} bringt sie in dieser Richtung nicht näher</translation>
     </message>
     <message>
         <source>the device failed ({fault}); reconnect, then check its position</source>
@@ -5504,7 +5470,7 @@
     </message>
     <message>
         <source>the input devices are released</source>
-        <extracomment>What the pad on the screen can hold. Everything else has buttons of its own there, and a dead-man of the pad would only keep it from acting. What is wrong with files of the user&apos;s, told at the start. Calibrations of sensors: those that are on correct readings from the start. The pad on the screen and its keys: a device like any other. To be penetrated one after the other; for the thread of whoever shows them.</extracomment>
+        <extracomment>Buttons of the on-screen pad. All other actions have their own buttons in the window. The pad has no dead-man button, because such a button would only block the pad. Problems with the user&apos;s files, which :meth:`start` reports. Calibrations of sensors; those in use correct the readings from the start. The on-screen pad and its keys, an input device like any other. Cells to be penetrated one after the other; used only by the thread that shows them.</extracomment>
         <translation>die Eingabegeräte werden losgelassen</translation>
     </message>
     <message>
@@ -5517,7 +5483,6 @@
     </message>
     <message>
         <source>nothing is playing</source>
-        <extracomment>Axes move back to where a playback was paused at this share of their greatest speed.</extracomment>
         <translation>es läuft nichts, was sich anhalten ließe</translation>
     </message>
     <message>
@@ -5527,10 +5492,6 @@
     <message>
         <source>axis {axis} is at {at}, outside {low} to {high}; move it inside first</source>
         <translation>Achse {axis} ist bei {at}, außerhalb von {low} bis {high}; sie erst hineinfahren</translation>
-    </message>
-    <message>
-        <source>tip: {told}, by command or by reading: it may only move back inside, slowly and with confirmation, by axes that bring it nearer. Move it back, or repair the wrong sensor</source>
-        <translation>Spitze: {told}, nach Sollwert oder Messwert: sie darf nur langsam und bestätigt zurück, mit Achsen, die sie näher bringen. Zurückfahren oder den falschen Sensor instand setzen</translation>
     </message>
     <message>
         <source>the tip cannot be moved: {locked}</source>
@@ -5614,7 +5575,7 @@
     </message>
     <message>
         <source>the model predicts an overshoot beyond the range of more than {margin} (1 % of the range): smooth or stretch the trajectory, or keep it away from the end of the range</source>
-        <extracomment>How far beyond its range, in shares of it, an axis may be predicted to swing.</extracomment>
+        <extracomment>Permitted predicted overshoot beyond the range, relative to the length of the range.</extracomment>
         <translation>das Modell sagt ein Überschwingen um mehr als {margin} (1 % des Bereichs) über den Bereich hinaus voraus: die Trajektorie glätten, strecken oder vom Ende des Bereichs fernhalten</translation>
     </message>
     <message>
@@ -5636,10 +5597,6 @@
     <message>
         <source>{text} is not an amount; enter one such as 200urad, 5um or 30%</source>
         <translation>{text} ist keine Größe; eine wie 200urad, 5um oder 30% eingeben</translation>
-    </message>
-    <message>
-        <source>a set-point was farther away than the axis can move in that time; it was refused</source>
-        <translation>ein Sollwert war weiter entfernt, als die Achse in dieser Zeit fahren kann; er wurde abgelehnt</translation>
     </message>
     <message>
         <source>distance from the low switch to zero</source>
@@ -5666,16 +5623,8 @@
         <translation>{name}: keine simulierte Maschine; den Simulator verbinden</translation>
     </message>
     <message>
-        <source>{address}: not a video, or a truncated or unknown one; choose another file</source>
-        <translation>{address}: kein Video, oder ein unvollständiges oder unbekanntes; eine andere Datei wählen</translation>
-    </message>
-    <message>
         <source>{path}: not a picture; choose a TIFF or PNG file</source>
         <translation>{path}: kein Bild; eine TIFF- oder PNG-Datei wählen</translation>
-    </message>
-    <message>
-        <source>{port}: the controller has not answered for {seconds} s; it ends its motion within half a second plus braking. Check the machine, then reconnect</source>
-        <translation>{port}: die Steuerung antwortet seit {seconds} s nicht; sie beendet ihre Bewegung innerhalb einer halben Sekunde zuzüglich der Bremszeit. Die Maschine prüfen, dann neu verbinden</translation>
     </message>
     <message>
         <source>{name}: axis {axis} is not a piezo in open loop, which {what} needs</source>
@@ -5683,12 +5632,7 @@
     </message>
     <message>
         <source>inverse of axis {axis}: the axis is at {at}, but the inverse covers {low} to {high}: move the axis there first</source>
-        <extracomment>In what each axis that has an inverse has gone beyond it; replaced as a whole.</extracomment>
         <translation>Inverse von Achse {axis}: die Achse ist bei {at}, die Inverse reicht von {low} bis {high}: die Achse erst dorthin fahren</translation>
-    </message>
-    <message>
-        <source>{name}: no joystick reports; check whether one is plugged in</source>
-        <translation>{name}: kein Joystick meldet sich; prüfen, ob einer angesteckt ist</translation>
     </message>
     <message>
         <source>{where}, column {column}: {strip} is not a number</source>
@@ -5735,16 +5679,8 @@
         <translation>{count} Pakete, Versionen wie verlangt</translation>
     </message>
     <message>
-        <source>all for the platform {platform}</source>
-        <translation>alle für die Plattform {platform}</translation>
-    </message>
-    <message>
         <source>it ended without a message</source>
         <translation>es endete ohne Meldung</translation>
-    </message>
-    <message>
-        <source>by software ({renderer})</source>
-        <translation>durch Software ({renderer})</translation>
     </message>
     <message>
         <source>none connected</source>
@@ -5763,12 +5699,20 @@
         <translation>es fehlen: {names}</translation>
     </message>
     <message>
+        <source>all libraries of the platform {platform} found</source>
+        <translation>alle Bibliotheken der Plattform {platform} gefunden</translation>
+    </message>
+    <message>
         <source>Qt does not start on {platform}: {reason}</source>
         <translation>Qt startet auf {platform} nicht: {reason}</translation>
     </message>
     <message>
         <source>{platform}: no display for a window</source>
         <translation>{platform}: keine Anzeige für ein Fenster</translation>
+    </message>
+    <message>
+        <source>software rendering ({renderer})</source>
+        <translation>Darstellung durch Software ({renderer})</translation>
     </message>
     <message>
         <source>no OpenGL</source>
@@ -5923,8 +5867,12 @@
         <translation>Geschrieben von RoTeMiNa {version} aus {file}.</translation>
     </message>
     <message>
-        <source>No axis has a gap: none was seen to move.</source>
-        <translation>Keine Achse hat eine Abweichung: keine bewegte sich sichtbar.</translation>
+        <source>No axis has a gap: none moved.</source>
+        <translation>Keine Achse hat eine Abweichung: keine hat sich bewegt.</translation>
+    </message>
+    <message>
+        <source>The gaps refer to the model {model}; {told} was in use during the run.</source>
+        <translation>Die Abweichungen beziehen sich auf das Modell {model}; während des Laufs war {told} in Gebrauch.</translation>
     </message>
     <message>
         <source>Largest gap: {axis}, {gap}</source>
@@ -5937,10 +5885,6 @@
     <message>
         <source>The run was stopped early.</source>
         <translation>Der Lauf wurde vorzeitig angehalten.</translation>
-    </message>
-    <message>
-        <source>The figures are from the model {model}; {told} was in use during the run.</source>
-        <translation>Die Zahlen stammen vom Modell {model}; während des Laufs wurde {told} verwendet.</translation>
     </message>
     <message>
         <source>date</source>
@@ -6015,6 +5959,10 @@
         <translation>die Beschleunigungsgrenze {limit}</translation>
     </message>
     <message>
+        <source>axis {axis}: {parameter} {asked} is beyond {used}, the {side} permitted by {cause}</source>
+        <translation>Achse {axis}: {parameter} {asked} liegt jenseits der Grenze {used} ({side}), Ursache: {cause}</translation>
+    </message>
+    <message>
         <source>the range {low} to {high}</source>
         <translation>der Bereich {low} bis {high}</translation>
     </message>
@@ -6024,7 +5972,7 @@
     </message>
     <message>
         <source>silent: a streaming device has sent nothing for {limit} s and counts as released. Check its battery, radio link or cable; then release it and start again</source>
-        <extracomment>Actions that last as long as they are held, and are never *pressed*. What it said last; None as long as it has said nothing that still holds. Why nothing can be made of what it says; None: something can. Why it was lost in the last step; None: it was not. Actions pressed in the last step, and those held.</extracomment>
+        <extracomment>Actions that last while their button is held. They are never reported as pressed. Latest reading; None if no reading is valid. Why the device cannot be used; None if it can. Why the device was lost in the last step; None if it was not. Actions pressed in the last step, and actions held.</extracomment>
         <translation>stumm: ein laufend sendendes Gerät hat seit {limit} s nichts gesendet und gilt als losgelassen. Batterie, Funkverbindung oder Kabel prüfen; dann loslassen und neu beginnen</translation>
     </message>
     <message>
@@ -6044,13 +5992,8 @@
         <translation>Achse {axis}: ein Sollwert von {speed} Schritten/s liegt über ihrer Grenze {limit}</translation>
     </message>
     <message>
-        <source>set-point {index}: it is not known where it begins</source>
-        <translation>Sollwert {index}: es ist nicht bekannt, wo er beginnt</translation>
-    </message>
-    <message>
-        <source>{name}: no picture could be read for {seconds} s; the log has the cause. Check the camera and its cable, and open it again</source>
-        <extracomment>Since the camera was opened.</extracomment>
-        <translation>{name}: Seit {seconds} s konnte kein Bild gelesen werden; die Ursache steht im Protokoll. Prüfen Sie Kamera und Kabel, und öffnen Sie sie erneut</translation>
+        <source>set-point {index}: its start position is unknown</source>
+        <translation>Sollwert {index}: seine Startposition ist unbekannt</translation>
     </message>
     <message>
         <source>the controller is locked by an alarm; clear the fault, then home</source>
@@ -6061,8 +6004,8 @@
         <translation>die Steuerung prüft G-Code nur und bewegt nichts ($C); den Fehler quittieren</translation>
     </message>
     <message>
-        <source>the controller sleeps, its motors are without current; clear the fault, then home</source>
-        <translation>die Steuerung schläft, ihre Motoren sind stromlos; den Fehler quittieren, dann Referenzfahrt</translation>
+        <source>the controller sleeps and its motors have no current; clear the fault, then home</source>
+        <translation>die Steuerung schläft, und ihre Motoren sind stromlos; den Fehler quittieren, dann Referenzfahrt</translation>
     </message>
     <message>
         <source>the controller waits for a tool change; clear the fault to end it</source>
@@ -6081,28 +6024,28 @@
         <translation>die Schutztür wurde geöffnet und ist wieder geschlossen; den Fehler quittieren</translation>
     </message>
     <message>
-        <source>the controller was paused (feed hold), by a button of its own or another program; clear the fault</source>
-        <translation>die Steuerung wurde unterbrochen (Vorschubhalt), durch eine eigene Taste oder ein anderes Programm; den Fehler quittieren</translation>
+        <source>the controller was paused (feed hold) by one of its buttons or by another program; clear the fault</source>
+        <translation>die Steuerung wurde durch eine ihrer Tasten oder ein anderes Programm unterbrochen (Vorschubhalt); den Fehler quittieren</translation>
     </message>
     <message>
         <source>the controller reports a state that this program does not know, {state}; check the machine, then clear the fault</source>
         <translation>die Steuerung meldet einen Zustand, den dieses Programm nicht kennt, {state}; die Maschine prüfen, dann den Fehler quittieren</translation>
     </message>
     <message>
-        <source>it is no line that this driver sends</source>
-        <translation>keine Zeile, die dieser Treiber sendet</translation>
-    </message>
-    <message>
         <source>{modes} is missing</source>
         <translation>{modes} fehlt</translation>
     </message>
     <message>
-        <source>{word} is no word</source>
-        <translation>{word} ist kein Wort</translation>
+        <source>this driver never sends such a line</source>
+        <translation>eine solche Zeile sendet dieser Treiber nie</translation>
     </message>
     <message>
-        <source>no axis {letter} is known</source>
-        <translation>keine Achse {letter} ist bekannt</translation>
+        <source>{word} is not a valid word</source>
+        <translation>{word} ist kein gültiges Wort</translation>
+    </message>
+    <message>
+        <source>unknown axis {letter}</source>
+        <translation>unbekannte Achse {letter}</translation>
     </message>
     <message>
         <source>{letter} must be {low} to {high}</source>
@@ -6117,36 +6060,101 @@
         <translation>nichts kam an; prüfen: Versorgung und Kabel der Steuerung, und ob dies ihr Anschluss ist</translation>
     </message>
     <message>
-        <source>{count} bytes arrived that are no text; the baud rate is wrong (GRBL: 115200), or the line is disturbed</source>
+        <source>{count} bytes arrived that are not text; the baud rate is wrong (GRBL: 115200), or there is interference on the line</source>
         <translation>{count} Byte kamen an, die kein Text sind; die Baudrate ist falsch (GRBL: 115200), oder die Leitung ist gestört</translation>
     </message>
     <message>
-        <source>what was sent came back and nothing else; turn off the echo of the adapter or modem, and check that a controller is connected behind it</source>
-        <translation>das Gesendete kam zurück und sonst nichts; das Echo des Adapters oder Modems abschalten und prüfen, ob dahinter eine Steuerung angeschlossen ist</translation>
+        <source>only an echo of the sent bytes arrived; turn off the echo of the adapter or modem, and check that a controller is connected to it</source>
+        <translation>nur ein Echo der gesendeten Bytes kam an; schalten Sie das Echo des Adapters oder Modems ab, und prüfen Sie, ob eine Steuerung daran angeschlossen ist</translation>
+    </message>
+    <message>
+        <source>a controller answers, but the line also echoes the sent bytes ({reply}); turn off the echo of the adapter or modem</source>
+        <translation>eine Steuerung antwortet, aber die Leitung gibt auch die gesendeten Bytes zurück ({reply}); schalten Sie das Echo des Adapters oder Modems ab</translation>
+    </message>
+    <message>
+        <source>text arrived that is not a report of GRBL 1.1, grblHAL or FluidNC ({reply}); check which device is connected, and the baud rate</source>
+        <translation>der empfangene Text ist keine Meldung von GRBL 1.1, grblHAL oder FluidNC ({reply}); prüfen Sie, welches Gerät angeschlossen ist, und die Baudrate</translation>
     </message>
     <message>
         <source>a controller with GRBL 0.9 or older answered ({reply}); this driver needs GRBL 1.1, grblHAL or FluidNC: update its firmware</source>
         <translation>eine Steuerung mit GRBL 0.9 oder älter antwortete ({reply}); dieser Treiber braucht GRBL 1.1, grblHAL oder FluidNC: ihre Firmware aktualisieren</translation>
     </message>
     <message>
-        <source>a controller answers, but the line also returns what is sent ({reply}); turn off the echo of the adapter or modem</source>
-        <translation>eine Steuerung antwortet, aber die Leitung gibt auch das Gesendete zurück ({reply}); das Echo des Adapters oder Modems abschalten</translation>
-    </message>
-    <message>
-        <source>text arrived that is no report of GRBL 1.1, grblHAL or FluidNC ({reply}); check which device is connected, and the baud rate</source>
-        <translation>Text kam an, der keine Meldung von GRBL 1.1, grblHAL oder FluidNC ist ({reply}); prüfen, welches Gerät angeschlossen ist, und die Baudrate</translation>
-    </message>
-    <message>
         <source>{begin} … {end} ({count} characters)</source>
         <translation>{begin} … {end} ({count} Zeichen)</translation>
     </message>
     <message>
-        <source>{name}:{line}: the line has no line end, which every file of this program has: the file was cut off here; copy it again, delete the line, or end it with a line break if it is whole</source>
-        <translation>{name}:{line}: Der Zeile fehlt das Zeilenende, das jede Datei dieses Programms hat: Die Datei wurde hier abgeschnitten; erneut kopieren, die Zeile löschen oder, falls sie vollständig ist, mit einem Zeilenumbruch abschließen</translation>
+        <source>{name}:{line}: the last line has no line end, but this program always writes one: the file was cut off here; copy it again, delete the line, or add a line break if the line is complete</source>
+        <translation>{name}:{line}: Der letzten Zeile fehlt das Zeilenende, das dieses Programm immer schreibt: Die Datei wurde hier abgeschnitten; erneut kopieren, die Zeile löschen oder, falls sie vollständig ist, mit einem Zeilenumbruch abschließen</translation>
     </message>
     <message>
         <source>{name}:{line}: the last number {number} has fewer digits than all above it, and the line has no line end: the file was cut off here; copy it again, or delete the line</source>
         <translation>{name}:{line}: Die letzte Zahl {number} hat weniger Stellen als alle darüber, und der Zeile fehlt das Zeilenende: Die Datei wurde hier abgeschnitten; erneut kopieren oder die Zeile löschen</translation>
+    </message>
+    <message>
+        <source>a compensation cannot be changed while the machine moves; stop it or wait</source>
+        <translation>eine Kompensation lässt sich nicht ändern, während sich die Maschine bewegt; halten Sie sie an, oder warten Sie</translation>
+    </message>
+    <message>
+        <source>board {address}: {count} requests are already waiting; try again later</source>
+        <translation>Karte {address}: Es warten bereits {count} Anfragen; versuchen Sie es später erneut</translation>
+    </message>
+    <message>
+        <source>profile of {count} ticks: a board can run {most} ticks at most; shorten the profile</source>
+        <translation>Profil von {count} Takten: eine Karte kann höchstens {most} Takte ausführen; verkürzen Sie das Profil</translation>
+    </message>
+    <message>
+        <source>{name}: {address}: choose a camera from the list</source>
+        <translation>{name}: {address}: wählen Sie eine Kamera aus der Liste</translation>
+    </message>
+    <message>
+        <source>it cannot search for cameras; see the log for the cause. Update or remove this plugin</source>
+        <translation>es kann nicht nach Kameras suchen; die Ursache steht im Protokoll. Aktualisieren oder entfernen Sie dieses Plugin</translation>
+    </message>
+    <message>
+        <source>{name}: there is no camera source {source}; installed: {known}</source>
+        <translation>{name}: die Kameraquelle {source} gibt es nicht; installiert: {known}</translation>
+    </message>
+    <message>
+        <source>there is no camera source {source}; available: {known}</source>
+        <translation>die Kameraquelle {source} gibt es nicht; vorhanden: {known}</translation>
+    </message>
+    <message>
+        <source>{name}: no picture could be read for {seconds} s; see the log for the cause. Check the camera and its cable, and open it again</source>
+        <translation>{name}: Seit {seconds} s konnte kein Bild gelesen werden; die Ursache steht im Protokoll. Prüfen Sie Kamera und Kabel, und öffnen Sie sie erneut</translation>
+    </message>
+    <message>
+        <source>axis {name} reads {at} during a move from {start} to {end} (controller coordinates); check the direction and the settings of this axis, then home</source>
+        <translation>Achse {name} steht während einer Bewegung von {start} nach {end} bei {at} (Koordinaten der Steuerung); prüfen Sie Richtung und Einstellungen dieser Achse, dann Referenzfahrt</translation>
+    </message>
+    <message>
+        <source>axis {name} is at {at} instead of {end} (controller coordinates)</source>
+        <translation>Achse {name} steht bei {at} statt {end} (Koordinaten der Steuerung)</translation>
+    </message>
+    <message>
+        <source>axis {axis}: the excitation would take more than {most_rows} rows at {rate} Hz; shorten it, move faster or lower the rate</source>
+        <translation>Achse {axis}: die Anregung hätte mehr als {most_rows} Zeilen bei {rate} Hz; kürzen, schneller fahren oder die Rate senken</translation>
+    </message>
+    <message>
+        <source>axis {names}: unstable with these effects: {named}. A motion grows by a factor of e every {fastest} s; change or remove one of them</source>
+        <translation>Achse {names}: mit diesen Effekten instabil: {named}. Eine Bewegung wächst alle {fastest} s um den Faktor e; ändern oder entfernen Sie einen davon</translation>
+    </message>
+    <message>
+        <source>{trouble}; no move was started</source>
+        <translation>{trouble}; es wurde keine Bewegung gestartet</translation>
+    </message>
+    <message>
+        <source>there is no picture; open a camera and wait for its first picture</source>
+        <extracomment>Why the latest run was aborted; empty if it was not.</extracomment>
+        <translation>kein Bild; eine Kamera öffnen und ihr erstes Bild abwarten</translation>
+    </message>
+    <message>
+        <source>the 3-D view cannot listen on {host}: {strerror}; a firewall or the limit on open files may prevent it</source>
+        <translation>die 3D-Ansicht kann an {host} nicht lauschen: {strerror}; vielleicht verhindert es eine Firewall oder die Grenze für offene Dateien</translation>
+    </message>
+    <message>
+        <source>its report descriptor is truncated: the item at byte {at} of {count} needs {size} bytes of data</source>
+        <translation>der Report-Deskriptor ist abgeschnitten: das Element bei Byte {at} von {count} braucht {size} Datenbytes</translation>
     </message>
 </context>
 </TS>

@@ -164,6 +164,10 @@
         <translation>getrennt</translation>
     </message>
     <message>
+        <source>the device has briefly stopped responding</source>
+        <translation>das Gerät antwortet kurz nicht</translation>
+    </message>
+    <message>
         <source>the device answers again</source>
         <translation>das Gerät antwortet wieder</translation>
     </message>
@@ -260,20 +264,12 @@
         <translation>Den Fehler des Geräts quittieren</translation>
     </message>
     <message>
-        <source>Write all rows into a text file</source>
-        <translation>Alle Zeilen in eine Textdatei schreiben</translation>
-    </message>
-    <message>
         <source>Save faults</source>
         <translation>Fehler speichern</translation>
     </message>
     <message>
         <source>Text (*.txt)</source>
         <translation>Text (*.txt)</translation>
-    </message>
-    <message>
-        <source>not connected; reconnect in the panel Connection</source>
-        <translation>nicht verbunden; im Panel Verbindung neu verbinden</translation>
     </message>
     <message>
         <source>there is no fault</source>
@@ -286,10 +282,6 @@
     <message>
         <source>Reason</source>
         <translation>Grund</translation>
-    </message>
-    <message>
-        <source>For training: start a virtual board, connect to its ports, and inject faults. The virtual board is a process of its own. The built-in simulator has neither lines nor boards that could fail; the panel Effects sets the effects of its machine.</source>
-        <translation>Zum Üben: eine virtuelle Steuerkarte starten, mit ihren Anschlüssen verbinden und Fehler einspeisen. Sie ist ein eigener Prozess. Der eingebaute Simulator hat weder Leitungen noch Karten, die ausfallen könnten; die Effekte seiner Maschine stellt das Panel Effekte ein.</translation>
     </message>
     <message>
         <source>no virtual board is running; start it first</source>
@@ -312,6 +304,10 @@
         <translation>Keine virtuelle Steuerkarte läuft.</translation>
     </message>
     <message>
+        <source>For training: start a virtual board, connect to its ports, and inject faults. The virtual board runs as a separate process. The built-in simulator has neither lines nor boards that could fail; set the effects of its machine in the Effects panel.</source>
+        <translation>Zum Üben: Starten Sie eine virtuelle Karte, verbinden Sie sich mit ihren Anschlüssen und speisen Sie Fehler ein. Die virtuelle Karte läuft als eigener Prozess. Der eingebaute Simulator hat weder Leitungen noch Karten, die ausfallen könnten; die Effekte seiner Maschine stellen Sie im Fenster Effekte ein.</translation>
+    </message>
+    <message>
         <source>it is already running</source>
         <translation>sie läuft schon</translation>
     </message>
@@ -322,10 +318,6 @@
     <message>
         <source>{about} locked</source>
         <translation>gesperrt: {about}</translation>
-    </message>
-    <message>
-        <source>the device is silent for a short time</source>
-        <translation>das Gerät schweigt kurz</translation>
     </message>
     <message>
         <source>The next bytes are lost, doubled or corrupted by one bit, or extra bytes arrive</source>
@@ -372,8 +364,16 @@
         <translation>Die gewählten oder alle Zeilen als Text kopieren (Strg+C)</translation>
     </message>
     <message>
+        <source>Write all rows to a text file</source>
+        <translation>Alle Zeilen in eine Textdatei schreiben</translation>
+    </message>
+    <message>
         <source>Clear all rows</source>
         <translation>Alle Zeilen löschen</translation>
+    </message>
+    <message>
+        <source>not connected; reconnect in the Connection panel</source>
+        <translation>nicht verbunden; im Fenster Verbindung neu verbinden</translation>
     </message>
     <message>
         <source>Faults, newest first</source>

@@ -54,6 +54,10 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
         <translation>Was es bedeutet: {meaning}</translation>
     </message>
     <message>
+        <source>Undecided: {effects} would explain these records equally well. Do not rule any of them out.</source>
+        <translation>Nicht entschieden: {effects} würde diese Aufzeichnungen gleich gut erklären. Keinen davon ausschließen.</translation>
+    </message>
+    <message>
         <source>What to do: {advice}</source>
         <translation>Was zu tun ist: {advice}</translation>
     </message>
@@ -92,6 +96,10 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     <message>
         <source>%v of %m</source>
         <translation>%v von %m</translation>
+    </message>
+    <message>
+        <source>Figures with their target levels</source>
+        <translation>Kennwerte mit ihren Zielwerten</translation>
     </message>
     <message>
         <source>Cases</source>
@@ -152,6 +160,14 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     <message>
         <source>Record</source>
         <translation>Aufzeichnung</translation>
+    </message>
+    <message>
+        <source>Records by their share of this cell, largest first</source>
+        <translation>Aufzeichnungen nach ihrem Anteil an dieser Zelle, der größte zuerst</translation>
+    </message>
+    <message>
+        <source>No record has samples in this cell.</source>
+        <translation>Keine Aufzeichnung hat Messwerte in dieser Zelle.</translation>
     </message>
     <message>
         <source>{doing}, about {time:.0f} s left</source>
@@ -486,6 +502,10 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
         <translation>{axis} {tap}, {regime}, {low:g} bis {high:g} Hz</translation>
     </message>
     <message>
+        <source>{place}: gap rms [noise floors] by motion and frequency band; the headings are the lower ends of the bands in Hz. Click a cell to see its traces.</source>
+        <translation>{place}: Abweichung rms [Rauschgrenzen] nach Bewegungsart und Frequenzband; die Überschriften nennen die unteren Bandgrenzen in Hz. Eine Zelle anklicken, um die Verläufe zu sehen.</translation>
+    </message>
+    <message>
         <source>{low} to {high} Hz</source>
         <translation>{low} bis {high} Hz</translation>
     </message>
@@ -686,8 +706,8 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
         <translation>und</translation>
     </message>
     <message>
-        <source>the records name no axis of the robot</source>
-        <translation>die Aufzeichnungen nennen keine Achse des Roboters</translation>
+        <source>the records contain no axis of the robot</source>
+        <translation>die Aufzeichnungen enthalten keine Achse des Roboters</translation>
     </message>
     <message>
         <source>It is coupled to axis {axis}, whose gap is larger and not explained.</source>
@@ -696,6 +716,10 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     <message>
         <source>{group} ({percent})</source>
         <translation>{group} ({percent})</translation>
+    </message>
+    <message>
+        <source>Judging by simple features, the rest depends on {groups}.</source>
+        <translation>Nach einfachen Merkmalen hängt der Rest ab von {groups}.</translation>
     </message>
     <message>
         <source>{n} spikes or dropouts of the sensor were left out.</source>
@@ -718,10 +742,6 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
         <translation>{listed}: kein gemessener Kanal (u, ref oder meas), nur Sollwerte; Aufzeichnungen der echten Maschine angeben</translation>
     </message>
     <message>
-        <source>{name}: robot {robot_name} has no axis {axis}; its axes are {names}; name the right robot by --robot</source>
-        <translation>{name}: Roboter {robot_name} hat keine Achse {axis}; seine Achsen sind {names}; den richtigen Roboter mit --robot angeben</translation>
-    </message>
-    <message>
         <source>{name}: axis {axis} is in units of {units}, but robot {robot_name} moves it in units of {unit}; correct the unit</source>
         <translation>{name}: Achse {axis} steht in Einheiten von {units}, Roboter {robot_name} bewegt sie in Einheiten von {unit}; die Einheit berichtigen</translation>
     </message>
@@ -732,10 +752,6 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     <message>
         <source>{name}: {count} rows; a diagnosis needs {least_rows} rows or more in each record: leave it out, or record longer</source>
         <translation>{name}: {count} Zeilen; eine Diagnose braucht mindestens {least_rows} Zeilen je Aufzeichnung: weglassen oder länger aufzeichnen</translation>
-    </message>
-    <message>
-        <source>{name}: axis {quoted} is moved by a force, and no {axis}.u column tells which: add it, or write &apos;# mode: closed_loop&apos; and give the robot file its controller</source>
-        <translation>{name}: Achse {quoted} wird von einer Kraft bewegt, und keine Spalte {axis}.u sagt, von welcher: hinzufügen, oder &apos;# mode: closed_loop&apos; schreiben und der Roboterdatei ihren Regler geben</translation>
     </message>
     <message>
         <source>{low} to {high}</source>
@@ -750,10 +766,6 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
         <translation>{name}: Achse {axis} wird mit {speed} {unit}/s bewegt, dem {times}-Fachen ihrer Grenzgeschwindigkeit: das sieht nach einem Einheitenfehler der Zeit aus; die Einheit von t berichtigen, etwa ms statt s</translation>
     </message>
     <message>
-        <source>{name}: {axis}.{tap} is {gain} × what {axis}.cmd asks for: this looks like a unit error, a factor of {text}; correct the unit of the column that is wrong</source>
-        <translation>{name}: {axis}.{tap} ist das {gain}-Fache dessen, was {axis}.cmd verlangt: das sieht nach einem Einheitenfehler aus, einem Faktor {text}; die Einheit der falschen Spalte berichtigen</translation>
-    </message>
-    <message>
         <source>{name}: {axis}.u is {gain} × cmd/gain, the output of the amplifier: this looks like a unit error, or a voltage before the amplifier; correct the column, leave it out, or correct the gain in the robot file</source>
         <translation>{name}: {axis}.u ist das {gain}-Fache von cmd/gain, der Ausgabe des Verstärkers: das sieht nach einem Einheitenfehler oder einer Spannung vor dem Verstärker aus; die Spalte berichtigen, weglassen oder gain in der Roboterdatei berichtigen</translation>
     </message>
@@ -762,15 +774,11 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
         <translation>{factor}, etwa {wrong} gelesen als {right}</translation>
     </message>
     <message>
-        <source>{name}: &apos;# history: periodic&apos; with period_samples = {period}, but {axis}.cmd at row {row} is not what it was a period before; correct period_samples, or write &apos;# history: unknown&apos;</source>
-        <translation>{name}: &apos;# history: periodic&apos; mit period_samples = {period}, aber {axis}.cmd ist in Zeile {row} nicht, was es eine Periode vorher war; period_samples berichtigen oder &apos;# history: unknown&apos; schreiben</translation>
-    </message>
-    <message>
         <source>, which may be too little</source>
         <translation>, was zu wenig sein kann</translation>
     </message>
     <message>
-        <source>{name}: {axis}.meas stands at exactly {stand} for {percent} % of the rows, while the axis is commanded to move (first at t = {time_s} s): the sensor is {what}; repair it, stay within what it can read, or leave the column out</source>
+        <source>{name}: {axis}.meas stays at exactly {stand} for {percent} % of the rows, while the axis is commanded to move (first at t = {time_s} s): the sensor is {what}; repair it, stay within its measuring range, or leave the column out</source>
         <translation>{name}: {axis}.meas steht in {percent} % der Zeilen bei genau {stand}, während die Achse sich bewegen soll (zuerst bei t = {time_s} s): der Sensor ist {what}; ihn reparieren, in seinem Messbereich bleiben oder die Spalte weglassen</translation>
     </message>
     <message>
@@ -1048,10 +1056,6 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
         <translation>Urteil</translation>
     </message>
     <message>
-        <source>Axes and channels whose gap exceeds the noise floor beyond doubt. Shares are of the squared gap above the floors; intervals are 95 % intervals.</source>
-        <translation>Achsen und Kanäle, deren Abweichung zweifelsfrei über der Rauschgrenze liegt. Anteile beziehen sich auf das Quadrat oberhalb der Rauschgrenzen; Intervalle sind 95-%-Intervalle.</translation>
-    </message>
-    <message>
         <source>channel</source>
         <translation>Kanal</translation>
     </message>
@@ -1084,8 +1088,12 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
         <translation>schlechteste Bewegungsart</translation>
     </message>
     <message>
-        <source>No axis has a gap that exceeds the noise floor beyond doubt.</source>
-        <translation>Keine Achse hat eine Abweichung, die zweifelsfrei über der Rauschgrenze liegt.</translation>
+        <source>Axes and channels whose gap certainly exceeds the noise floor. Shares are of the squared gap above the floors; intervals are 95 % intervals.</source>
+        <translation>Achsen und Kanäle, deren Abweichung sicher über der Rauschgrenze liegt. Anteile beziehen sich auf das Quadrat der Abweichung oberhalb der Rauschgrenzen; Intervalle sind 95-%-Intervalle.</translation>
+    </message>
+    <message>
+        <source>No axis has a gap that certainly exceeds the noise floor.</source>
+        <translation>Keine Achse hat eine Abweichung, die sicher über der Rauschgrenze liegt.</translation>
     </message>
     <message>
         <source>{axis} at {tap}, by band and regime</source>
@@ -1196,6 +1204,18 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
         <translation>Wert</translation>
     </message>
     <message>
+        <source>If a parameter is at a bound, the equations fit only in part. Where no interval is given, the data do not bound the value.</source>
+        <translation>Liegt ein Parameter an einer Grenze, passen die Gleichungen nur zum Teil. Wo kein Intervall steht, begrenzen die Daten den Wert nicht.</translation>
+    </message>
+    <message>
+        <source>No effect was fitted.</source>
+        <translation>Es wurde kein Effekt angepasst.</translation>
+    </message>
+    <message>
+        <source>Effects of the corrected model</source>
+        <translation>Effekte des korrigierten Modells</translation>
+    </message>
+    <message>
         <source>95 % interval</source>
         <translation>95-%-Intervall</translation>
     </message>
@@ -1206,18 +1226,6 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     <message>
         <source>at a bound</source>
         <translation>an einer Grenze</translation>
-    </message>
-    <message>
-        <source>A parameter at a bound may stand for more than it can express. Where no interval is given, the data do not bound it.</source>
-        <translation>Ein Parameter an einer Grenze kann für mehr stehen, als er ausdrücken kann. Wo kein Intervall steht, begrenzen ihn die Daten nicht.</translation>
-    </message>
-    <message>
-        <source>Nothing that the model lacks was fitted.</source>
-        <translation>Nichts wurde angepasst, was dem Modell fehlt.</translation>
-    </message>
-    <message>
-        <source>What corrects the model</source>
-        <translation>Was das Modell korrigiert</translation>
     </message>
     <message>
         <source>parameters, SI</source>
@@ -1352,24 +1360,20 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
         <translation>Keine Karte nach Band und Bewegungsart: keine Aufzeichnung ist gleichmäßig und lange genug abgetastet.</translation>
     </message>
     <message>
-        <source>{name}: it holds measurements of {one_name} again ({channel}); give each record once, and parts of one record without overlap</source>
-        <translation>{name}: enthält noch einmal Messungen von {one_name} ({channel}); jede Aufzeichnung einmal angeben und Teile ohne Überschneidung</translation>
-    </message>
-    <message>
         <source>pause = {pause_s} s: must be 0 s or more</source>
         <translation>pause = {pause_s} s: muss 0 s oder mehr sein</translation>
     </message>
     <message>
-        <source>axis {missing} of the commands: the motion before has {names}; name a record of all axes that are commanded</source>
-        <translation>Achse {missing} der Sollwerte: die Bewegung davor hat {names}; eine Aufzeichnung aller bewegten Achsen angeben</translation>
+        <source>axis {missing} of the commands is not in the previous motion, which has {names}; name a record of all commanded axes</source>
+        <translation>Achse {missing} der Sollwerte fehlt in der Bewegung davor, die {names} hat; eine Aufzeichnung aller bewegten Achsen angeben</translation>
     </message>
     <message>
-        <source>the motion before and the commands differ in mode; name a record of one</source>
+        <source>the previous motion and the commands differ in mode; name a record of the same mode</source>
         <translation>die Bewegung davor und die Sollwerte unterscheiden sich in mode; eine Aufzeichnung mit demselben mode angeben</translation>
     </message>
     <message>
-        <source>axis {axis} of the commands: the diagnosed robot {name} has {names}</source>
-        <translation>Achse {axis} der Sollwerte: der diagnostizierte Roboter {name} hat {names}</translation>
+        <source>axis {axis} of the commands is no axis of the diagnosed robot {name}, which has {names}</source>
+        <translation>Achse {axis} der Sollwerte gibt es beim diagnostizierten Roboter {name} nicht; er hat {names}</translation>
     </message>
     <message>
         <source>axis {axis} of the commands is in units of {units}, but the diagnosed robot {name} moves it in units of {unit}; correct the unit</source>
@@ -1548,8 +1552,8 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
         <translation>geschlossen {share}</translation>
     </message>
     <message>
-        <source>{name}: it describes another robot than the one that was diagnosed, {robot_name}: they differ in {differences}; diagnose again with this file, or leave it out to write the diagnosed one</source>
-        <translation>{name}: beschreibt einen anderen Roboter als den diagnostizierten, {robot_name}: sie unterscheiden sich in {differences}; mit dieser Datei neu diagnostizieren oder sie weglassen, um den diagnostizierten zu schreiben</translation>
+        <source>{name}: this file does not describe the diagnosed robot {robot_name} (differences: {differences}); diagnose again with this file, or omit it to write the diagnosed robot</source>
+        <translation>{name}: diese Datei beschreibt nicht den diagnostizierten Roboter {robot_name} (Unterschiede: {differences}); mit dieser Datei neu diagnostizieren oder sie weglassen, um den diagnostizierten Roboter zu schreiben</translation>
     </message>
     <message>
         <source>{fspath} already exists; name another file</source>
@@ -1588,10 +1592,6 @@ Starten drücken; Kennwerte und Verwechslungsmatrix erscheinen, wenn alle Fälle
     <message>
         <source>Score finished cases</source>
         <translation>Fertige bewerten</translation>
-    </message>
-    <message>
-        <source>Figures beside their target levels</source>
-        <translation>Kennwerte neben ihren Zielwerten</translation>
     </message>
     <message>
         <source>True cause and cause named first</source>
@@ -1756,10 +1756,6 @@ Starten drücken; Kennwerte und Verwechslungsmatrix erscheinen, wenn alle Fälle
     <message>
         <source>{place}: no record is long enough and evenly sampled for a map</source>
         <translation>{place}: keine Aufzeichnung ist gleichmäßig und lang genug für eine Karte</translation>
-    </message>
-    <message>
-        <source>{place}: gap rms [noise floors] by motion and frequency, from … Hz on. Click a cell to see its traces.</source>
-        <translation>{place}: Abweichung rms [Rauschgrenzen], nach Bewegungsart und Frequenz ab … Hz. Eine Zelle anklicken, um die Verläufe zu sehen.</translation>
     </message>
     <message>
         <source>Model to be diagnosed; initially the nominal one</source>
@@ -1954,10 +1950,6 @@ Starten drücken; Kennwerte und Verwechslungsmatrix erscheinen, wenn alle Fälle
         <translation>Diese Bewegungen können die Effekte nicht unterscheiden: sie sind zu kurz, zu klein oder zu ähnlich.</translation>
     </message>
     <message>
-        <source>Undecided: {effects} would explain these records equally well. Take the whole set as the answer.</source>
-        <translation>Nicht entschieden: {effects} würde diese Aufzeichnungen ebenso gut erklären. Die ganze Menge als Antwort nehmen.</translation>
-    </message>
-    <message>
         <source>Press “Play next experiment …” to distinguish them.</source>
         <translation>„Nächstes Experiment …“ drücken, um sie zu unterscheiden.</translation>
     </message>
@@ -2014,14 +2006,6 @@ Starten drücken; Kennwerte und Verwechslungsmatrix erscheinen, wenn alle Fälle
         <translation>Abweichung [{unit}]: &lt;span style=&quot;color:{command}&quot;&gt;gesamt&lt;/span&gt;, &lt;span style=&quot;color:{real}&quot;&gt;in diesem Band&lt;/span&gt;: {rms} rms in {time:.3g} s</translation>
     </message>
     <message>
-        <source>Records by their share of this place, largest first</source>
-        <translation>Aufzeichnungen nach ihrem Anteil an dieser Stelle, der größte zuerst</translation>
-    </message>
-    <message>
-        <source>No record has rows at this place.</source>
-        <translation>Keine Aufzeichnung hat eine Zeile an dieser Stelle.</translation>
-    </message>
-    <message>
         <source>the process of the diagnosis ended (status {status}) without an answer, perhaps for lack of memory; diagnose again with fewer or shorter records</source>
         <translation>der Prozess der Diagnose endete (Status {status}) ohne Antwort, vielleicht aus Mangel an Speicher; mit weniger oder kürzeren Aufzeichnungen neu diagnostizieren</translation>
     </message>
@@ -2042,6 +2026,14 @@ Starten drücken; Kennwerte und Verwechslungsmatrix erscheinen, wenn alle Fälle
         <translation>Der Messwert driftet unabhängig von der Bewegung, auch in Ruhe.</translation>
     </message>
     <message>
+        <source>{name}: robot {robot_name} has no axis {axis}; its axes are {names}; select the right robot with --robot</source>
+        <translation>{name}: Roboter {robot_name} hat keine Achse {axis}; seine Achsen sind {names}; den richtigen Roboter mit --robot angeben</translation>
+    </message>
+    <message>
+        <source>{name}: axis {quoted} is moved by a force, but there is no {axis}.u column: add it, or write &apos;# mode: closed_loop&apos; and add the controller to the robot file</source>
+        <translation>{name}: Achse {quoted} wird von einer Kraft bewegt, aber die Spalte {axis}.u fehlt: sie hinzufügen, oder &apos;# mode: closed_loop&apos; schreiben und den Regler in der Roboterdatei ergänzen</translation>
+    </message>
+    <message>
         <source>The axis was commanded but not measured: it is not diagnosed.</source>
         <translation>Die Achse bekam Sollwerte, wurde aber nicht gemessen: sie wird nicht diagnostiziert.</translation>
     </message>
@@ -2056,10 +2048,6 @@ Starten drücken; Kennwerte und Verwechslungsmatrix erscheinen, wenn alle Fälle
     <message>
         <source>No independent reference (ref) was recorded: effects of the sensor cannot be distinguished from those of the axis.</source>
         <translation>Keine unabhängige Referenz (ref) wurde aufgezeichnet: Effekte des Sensors lassen sich nicht von denen der Achse trennen.</translation>
-    </message>
-    <message>
-        <source>The rest depends on {groups}, as far as simple features predict it.</source>
-        <translation>Der Rest hängt ab von {groups}, soweit einfache Merkmale ihn vorhersagen.</translation>
     </message>
     <message>
         <source>Its gap comes from the causes on other axes.</source>
@@ -2162,8 +2150,16 @@ Starten drücken; Kennwerte und Verwechslungsmatrix erscheinen, wenn alle Fälle
         <translation>An {n} Stellen einer Aufzeichnung fehlen Zeilen; die Sollwerte gelten dort als konstant.</translation>
     </message>
     <message>
+        <source>{name}: &apos;# history: periodic&apos; with period_samples = {period}, but {axis}.cmd at row {row} differs from its value one period earlier; correct period_samples, or write &apos;# history: unknown&apos;</source>
+        <translation>{name}: &apos;# history: periodic&apos; mit period_samples = {period}, aber {axis}.cmd weicht in Zeile {row} von seinem Wert eine Periode früher ab; period_samples berichtigen oder &apos;# history: unknown&apos; schreiben</translation>
+    </message>
+    <message>
         <source>A command of {value} is outside the range {low} to {high}; the model has no end stops.</source>
         <translation>Ein Sollwert von {value} liegt außerhalb des Bereichs {low} bis {high}; das Modell hat keine Anschläge.</translation>
+    </message>
+    <message>
+        <source>{name}: {axis}.{tap} is {gain} × {axis}.cmd: this looks like a unit error, a factor of {text}; correct the unit of the wrong column</source>
+        <translation>{name}: {axis}.{tap} ist das {gain}-Fache von {axis}.cmd: das sieht nach einem Einheitenfehler aus, einem Faktor {text}; die Einheit der falschen Spalte berichtigen</translation>
     </message>
     <message>
         <source>The {tap} channel is {gain} × the command, which no single effect causes: check signs, units and the gain in the robot file.</source>
@@ -2208,6 +2204,10 @@ Starten drücken; Kennwerte und Verwechslungsmatrix erscheinen, wenn alle Fälle
     <message>
         <source>the records move none of these axes: {axes}; play a motion of your own</source>
         <translation>die Aufzeichnungen bewegen keine dieser Achsen: {axes}; eine eigene Bewegung abspielen</translation>
+    </message>
+    <message>
+        <source>{name}: it contains the same measurements as {one_name} ({channel}); give each record once, and parts of one record without overlap</source>
+        <translation>{name}: enthält dieselben Messungen wie {one_name} ({channel}); jede Aufzeichnung einmal angeben und Teile ohne Überschneidung</translation>
     </message>
 </context>
 <context>

@@ -8,15 +8,15 @@
         <translation>stellt virtuelle Karten bereit, die sich wie die echten verhalten, mit dem Modell des Roboters dahinter</translation>
     </message>
     <message>
-        <source>Serve the boards of a robot, with its model and effects behind them, on pseudo-terminals or on sockets of this machine, byte by byte as fast as a real line. Two ports are a line for each board; one port for more than three axes is a bus that both share. Lines on standard input inject faults: drop N, double N, corrupt N, garbage N, delay T ms (each towards &apos;board&apos; or &apos;host&apos;), silence T s, space T s, reset BOARD, brown-out BOARD, freeze AXIS, thaw AXIS, lose AXIS N, joystick X Y Z BUTTONS.</source>
-        <translation>Stellt die Karten eines Roboters, mit seinem Modell und dessen Effekten dahinter, an Pseudoterminals oder Sockets dieses Rechners bereit, Byte für Byte so schnell wie eine echte Leitung. Zwei Anschlüsse sind je eine Leitung für jede Karte; ein Anschluss für mehr als drei Achsen ist ein Bus, den sich beide teilen. Zeilen auf der Standardeingabe erzeugen Fehler: drop N, double N, corrupt N, garbage N, delay T ms (jeweils in Richtung &apos;board&apos; oder &apos;host&apos;), silence T s, space T s, reset BOARD, brown-out BOARD, freeze AXIS, thaw AXIS, lose AXIS N, joystick X Y Z BUTTONS.</translation>
+        <source>Serve the boards of a robot, with its model and effects behind them, on pseudo-terminals or on sockets of this computer, at the byte rate of a real serial line. With two ports, each board has its own line. With one port and more than three axes, both boards share the line as a bus. Commands on standard input, one per line, inject faults: drop N, double N, corrupt N, garbage N, delay T ms (each towards &apos;board&apos; or &apos;host&apos;), silence T s, space T s, reset BOARD, brown-out BOARD, freeze AXIS, thaw AXIS, lose AXIS N, joystick X Y Z BUTTONS.</source>
+        <translation>Stellt die Karten eines Roboters, mit seinem Modell und dessen Effekten dahinter, an Pseudoterminals oder Sockets dieses Rechners bereit, mit der Byterate einer echten seriellen Leitung. Bei zwei Anschlüssen hat jede Karte ihre eigene Leitung. Bei einem Anschluss und mehr als drei Achsen teilen sich beide Karten die Leitung als Bus. Befehle auf der Standardeingabe, einer je Zeile, erzeugen Fehler: drop N, double N, corrupt N, garbage N, delay T ms (jeweils in Richtung &apos;board&apos; oder &apos;host&apos;), silence T s, space T s, reset BOARD, brown-out BOARD, freeze AXIS, thaw AXIS, lose AXIS N, joystick X Y Z BUTTONS.</translation>
     </message>
     <message>
-        <source>name of the pseudo-terminal</source>
-        <translation>Name des Pseudoterminals</translation>
+        <source>path of a symbolic link to the pseudo-terminal</source>
+        <translation>Pfad eines symbolischen Links auf das Pseudoterminal</translation>
     </message>
     <message>
-        <source>listen at this address instead; only 127.0.0.1 or ::1, port 0 for any free port</source>
+        <source>listen on this address instead; only 127.0.0.1 or ::1, port 0 for any free port</source>
         <translation>stattdessen an dieser Adresse lauschen; nur 127.0.0.1 oder ::1, Port 0 für einen beliebigen freien</translation>
     </message>
     <message>
@@ -28,8 +28,8 @@
         <translation>Bitrate der Leitungen, 125000 oder 9600 (Vorgabe: %(default)s)</translation>
     </message>
     <message>
-        <source>clock E of the boards&apos; chips in MHz; half the clock halves the rates (default: 4)</source>
-        <translation>Takt E der Prozessoren auf den Karten in MHz; der halbe Takt halbiert die Raten (Vorgabe: 4)</translation>
+        <source>E clock of the boards&apos; microcontrollers, MHz; 2 halves their tick rate (default: 4)</source>
+        <translation>E-Takt der Mikrocontroller auf den Karten, MHz; 2 halbiert ihre Tickrate (Vorgabe: 4)</translation>
     </message>
     <message>
         <source>transmit bytes without delay</source>
@@ -44,8 +44,8 @@
         <translation>referenziert und ohne Fehler beginnen</translation>
     </message>
     <message>
-        <source>random disturbances of the lines per second (default: 0)</source>
-        <translation>zufällige Störungen der Leitungen je Sekunde (Vorgabe: 0)</translation>
+        <source>average number of random line faults per second (default: 0)</source>
+        <translation>mittlere Zahl zufälliger Leitungsfehler je Sekunde (Vorgabe: 0)</translation>
     </message>
     <message>
         <source>end when standard input closes</source>
@@ -60,8 +60,8 @@
         <translation>Kalibriert den Sensor einer Achse gegen einen Laser: „plan“ schreibt die Bewegung, „fit“ erstellt aus Aufzeichnungen mit meas und ref der Achse eine Kalibrierung, „run“ erledigt beides am Simulator, „show“ zeigt eine Kalibrierung, „list“ die gespeicherten.</translation>
     </message>
     <message>
-        <source>print what a calibration holds</source>
-        <translation>zeigt, was eine Kalibrierung enthält</translation>
+        <source>print the contents of a calibration</source>
+        <translation>zeigt den Inhalt einer Kalibrierung</translation>
     </message>
     <message>
         <source>list the stored calibrations of a robot</source>
@@ -76,8 +76,8 @@
         <translation>erstellt aus Aufzeichnungen eine Kalibrierung</translation>
     </message>
     <message>
-        <source>record of the laser itself, one for each RECORD; the motion matches their clocks</source>
-        <translation>eigene Aufzeichnung des Lasers, eine je RECORD; die Bewegung gleicht die Uhren ab</translation>
+        <source>separate record of the laser, one for each RECORD; the motion aligns their clocks</source>
+        <translation>getrennte Aufzeichnung des Lasers, eine je RECORD; die Bewegung gleicht die Uhren ab</translation>
     </message>
     <message>
         <source>calibrate on the simulator, with the effects of the robot file</source>
@@ -132,8 +132,8 @@
         <translation>vergleicht das Modell mit einer Aufzeichnung der echten Maschine</translation>
     </message>
     <message>
-        <source>Simulate the nominal model with the commands of a record, and print how far the real machine is from it in each measured signal (u, ref, meas). With --with, print how far two runs of the machine are apart.</source>
-        <translation>Simuliert das nominale Modell mit den Sollwerten einer Aufzeichnung und gibt aus, wie weit die echte Maschine in jedem gemessenen Signal (u, ref, meas) davon entfernt ist. Mit --with: wie weit zwei Läufe der Maschine auseinanderliegen.</translation>
+        <source>Simulate the nominal model with the commands of a record, and print how far the real machine deviates from it in each measured signal (u, ref, meas). With --with, print how far two runs of the machine differ.</source>
+        <translation>Simuliert das nominale Modell mit den Sollwerten einer Aufzeichnung und gibt aus, wie weit die echte Maschine in jedem gemessenen Signal (u, ref, meas) davon abweicht. Mit --with: wie weit zwei Läufe der Maschine voneinander abweichen.</translation>
     </message>
     <message>
         <source>a record file (.csv, .gz)</source>
@@ -144,8 +144,8 @@
         <translation>mit diesem Lauf der Maschine statt mit dem Modell vergleichen</translation>
     </message>
     <message>
-        <source>fit these by least squares first: gain, offset</source>
-        <translation>diese zuerst nach kleinsten Quadraten anpassen: gain, offset</translation>
+        <source>fit these parameters by least squares first: gain, offset</source>
+        <translation>diese Parameter zuerst nach kleinsten Quadraten anpassen: gain, offset</translation>
     </message>
     <message>
         <source>write the figures as JSON (&apos;-&apos; prints them)</source>
@@ -168,28 +168,28 @@
         <translation>schreibt eine Trajektorie mit Sollwerten, die ihre Hysterese kompensieren</translation>
     </message>
     <message>
-        <source>Send a trajectory through the inverse that a file recommends, check the result against the robot&apos;s limits, and write it: any player can play it. The axis must start at rest after a rise from the low end of its range.</source>
-        <translation>Schickt eine Trajektorie durch die Inverse, die eine Datei empfiehlt, prüft das Ergebnis gegen die Grenzen des Roboters und schreibt es; jeder Abspieler kann es abspielen. Die Achse muss in Ruhe beginnen, nach einem Anstieg vom unteren Ende ihres Bereichs.</translation>
+        <source>Convert a trajectory with the recommended inverse of a file, check the result against the robot&apos;s limits, and write it, so that any player can play it. The axis must start at rest after a rise from the low end of its range.</source>
+        <translation>Wandelt eine Trajektorie mit der empfohlenen Inversen einer Datei um, prüft das Ergebnis gegen die Grenzen des Roboters und schreibt es, sodass jeder Abspieler es abspielen kann. Die Achse muss in Ruhe beginnen, nach einem Anstieg vom unteren Ende ihres Bereichs.</translation>
     </message>
     <message>
-        <source>a file that train wrote</source>
-        <translation>eine Datei, die train geschrieben hat</translation>
+        <source>file written by &apos;rotemina compensate train&apos;</source>
+        <translation>Datei, die &apos;rotemina compensate train&apos; geschrieben hat</translation>
     </message>
     <message>
         <source>compare the commands of inverses for measured positions with the recorded ones</source>
         <translation>vergleicht die Sollwerte von Inversen zu gemessenen Positionen mit den aufgezeichneten</translation>
     </message>
     <message>
-        <source>Feed the positions of records to each inverse of a file, and print the difference between its command and the recorded one. Rows with unknown history count from the first sweep over the whole range on.</source>
-        <translation>Gibt die Positionen von Aufzeichnungen in jede Inverse einer Datei und zeigt den Unterschied zwischen ihrem Sollwert und dem aufgezeichneten. Zeilen mit unbekannter Vorgeschichte zählen ab dem ersten Durchlauf des ganzen Bereichs.</translation>
+        <source>Feed the positions of records to each inverse of a file, and print the difference between its command and the recorded one. If the history is unknown, rows count only after the first sweep over the whole range.</source>
+        <translation>Gibt die Positionen von Aufzeichnungen in jede Inverse einer Datei und zeigt den Unterschied zwischen ihrem Sollwert und dem aufgezeichneten. Ist die Vorgeschichte unbekannt, zählen Zeilen erst nach dem ersten Durchlauf des ganzen Bereichs.</translation>
     </message>
     <message>
         <source>train the inverses of an axis with records, or with the simulator</source>
         <translation>trainiert die Inversen einer Achse mit Aufzeichnungen oder mit dem Simulator</translation>
     </message>
     <message>
-        <source>Train inverses of all kinds with records that have cmd and meas (or ref), compare them on rows that none was trained with, and recommend one with the reason.</source>
-        <translation>Trainiert Inverse aller Arten mit Aufzeichnungen, die cmd und meas (oder ref) haben, vergleicht sie an Zeilen, mit denen keine trainiert wurde, und empfiehlt eine mit Begründung.</translation>
+        <source>Train inverses of all kinds with records that have cmd and meas (or ref), compare them on rows that were not used for training, and recommend one, with the reason.</source>
+        <translation>Trainiert Inverse aller Arten mit Aufzeichnungen, die cmd und meas (oder ref) haben, vergleicht sie an Zeilen, die nicht zum Training dienten, und empfiehlt eine mit Begründung.</translation>
     </message>
     <message>
         <source>axis to be compensated (default: the only piezo axis of the record)</source>
@@ -236,7 +236,7 @@
         <translation>Interpolation zwischen Zeilen (Vorgabe: hold, wie ein Gerät)</translation>
     </message>
     <message>
-        <source>check this machine, and advise what to do</source>
+        <source>check this computer, and advise what to do</source>
         <translation>prüft diesen Rechner und rät, was zu tun ist</translation>
     </message>
     <message>
@@ -252,12 +252,12 @@
         <translation>prüfen, ob dieser serielle Anschluss die Bitrate der Karten erreicht, 125000 Baud; das kann das angeschlossene Gerät zurücksetzen</translation>
     </message>
     <message>
-        <source>list drivers, and check whether they keep the contract</source>
-        <translation>listet Treiber auf und prüft, ob sie die Vereinbarung einhalten</translation>
+        <source>list drivers, and check whether they meet the driver contract</source>
+        <translation>listet Treiber auf und prüft, ob sie die Treiber-Vereinbarung einhalten</translation>
     </message>
     <message>
-        <source>The installed drivers: built in, and of plugins.</source>
-        <translation>Die installierten Treiber: eingebaute und solche aus Plugins.</translation>
+        <source>List the installed drivers, both built-in and from plugins.</source>
+        <translation>Listet die installierten Treiber auf, eingebaute und solche aus Plugins.</translation>
     </message>
     <message>
         <source>print one line for each driver (default)</source>
@@ -268,7 +268,7 @@
         <translation>prüft, ob ein Treiber die Vereinbarung einhält</translation>
     </message>
     <message>
-        <source>Open a driver and measure whether it keeps the contract. On a real device, only the checks without motion run unless --move is given. Exit status: 0 all passed, 1 a check failed.</source>
+        <source>Open a driver and measure whether it meets the contract. On a real device, only the checks without motion run unless --move is given. Exit status: 0 all passed, 1 a check failed.</source>
         <translation>Öffnet einen Treiber und misst, ob er die Vereinbarung einhält. An einem echten Gerät laufen ohne --move nur die Prüfungen, die nichts bewegen. Rückgabewert: 0 alle bestanden, 1 eine nicht bestanden.</translation>
     </message>
     <message>
@@ -284,7 +284,7 @@
         <translation>die Achsen eines echten Geräts bewegen lassen</translation>
     </message>
     <message>
-        <source>also print what each check demands</source>
+        <source>also print what each check requires</source>
         <translation>auch ausgeben, was jede Prüfung verlangt</translation>
     </message>
     <message>
@@ -292,8 +292,8 @@
         <translation>listet die Effekte auf, die eine simulierte Maschine haben kann, zeigt und prüft sie</translation>
     </message>
     <message>
-        <source>The installed effects: built in, and of plugins.</source>
-        <translation>Die installierten Effekte: eingebaute und solche aus Plugins.</translation>
+        <source>List the installed effects, both built-in and from plugins.</source>
+        <translation>Listet die installierten Effekte auf, eingebaute und solche aus Plugins.</translation>
     </message>
     <message>
         <source>print one line for each effect (default)</source>
@@ -428,12 +428,12 @@
         <translation>Diagnostiziert die Abweichung zwischen dem Modell und Aufzeichnungen der echten Maschine.</translation>
     </message>
     <message>
-        <source>write the corrected model&apos;s answer to new commands</source>
+        <source>write the response of the corrected model to new commands</source>
         <translation>schreibt die Antwort des korrigierten Modells auf neue Sollwerte</translation>
     </message>
     <message>
-        <source>Drive the corrected model of a diagnosis with the commands of a trajectory or record, and write the expected record, without noise, rounding and chance.</source>
-        <translation>Führt dem korrigierten Modell einer Diagnose die Sollwerte einer Trajektorie oder Aufzeichnung zu und schreibt die erwartete Aufzeichnung, ohne Rauschen, Rundung und Zufall.</translation>
+        <source>Drive the corrected model of a diagnosis with the commands of a trajectory or record, and write the expected record, without noise, rounding and random effects.</source>
+        <translation>Führt dem korrigierten Modell einer Diagnose die Sollwerte einer Trajektorie oder Aufzeichnung zu und schreibt die erwartete Aufzeichnung, ohne Rauschen, Rundung und zufällige Effekte.</translation>
     </message>
     <message>
         <source>file of &apos;gap diagnose --json&apos;</source>
@@ -448,8 +448,8 @@
         <translation>Datei für die Aufzeichnung (Vorgabe: COMMANDS-predicted.csv in diesem Ordner)</translation>
     </message>
     <message>
-        <source>the motion before this one; the model starts with its memory of it</source>
-        <translation>die Bewegung davor; das Modell beginnt mit seinem Gedächtnis daran</translation>
+        <source>the motion before this one; the model starts in the state after that motion</source>
+        <translation>die Bewegung davor; das Modell beginnt im Zustand nach dieser Bewegung</translation>
     </message>
     <message>
         <source>seconds between the end of that motion and the first command (default: 0)</source>
@@ -460,8 +460,8 @@
         <translation>schreibt eine Roboterdatei mit den angepassten Effekten</translation>
     </message>
     <message>
-        <source>Write the diagnosed robot with the fitted effects after its own ones, as a robot file for --robot of every command.</source>
-        <translation>Schreibt den diagnostizierten Roboter mit den angepassten Effekten hinter seinen eigenen, als Roboterdatei für --robot aller Befehle.</translation>
+        <source>Write the diagnosed robot as a robot file for the option --robot of every command. The fitted effects are appended to its own effects.</source>
+        <translation>Schreibt den diagnostizierten Roboter als Roboterdatei für die Option --robot aller Befehle. Die angepassten Effekte stehen hinter seinen eigenen.</translation>
     </message>
     <message>
         <source>keep the text of this robot file with its comments; it must be the diagnosed robot (default: the shipped robot if it is the same, else a new text)</source>
@@ -472,8 +472,8 @@
         <translation>diagnostiziert Maschinen mit bekannten Ursachen, je eine Zeile</translation>
     </message>
     <message>
-        <source>Diagnose machines. Each is a folder with robot.toml, records train_*.csv for the diagnosis, records test_*.csv that no fit uses, and its known causes in truth.toml (optional). Print one line each: first cause, sets, how much of the gap closes on the test records, the remainder beside the figure to beat, time, verdict.</source>
-        <translation>Diagnostiziert Maschinen. Jede ist ein Ordner mit robot.toml, Aufzeichnungen train_*.csv für die Diagnose, Aufzeichnungen test_*.csv, die keine Anpassung benutzt, und ihren bekannten Ursachen in truth.toml (optional). Gibt je eine Zeile aus: erste Ursache, Mengen, wie viel der Abweichung sich an den Testaufzeichnungen schließt, den Rest neben dem zu unterbietenden Wert, Zeit, Urteil.</translation>
+        <source>Diagnose machines. Each is a folder with robot.toml, records train_*.csv for the diagnosis, records test_*.csv that no fit uses, and its known causes in truth.toml (optional). Print one line each: first cause, sets, how much of the gap closes on the test records, the remaining error and the figure to beat, time, verdict.</source>
+        <translation>Diagnostiziert Maschinen. Jede ist ein Ordner mit robot.toml, Aufzeichnungen train_*.csv für die Diagnose, Aufzeichnungen test_*.csv, die keine Anpassung benutzt, und ihren bekannten Ursachen in truth.toml (optional). Gibt je eine Zeile aus: erste Ursache, Mengen, wie viel der Abweichung sich an den Testaufzeichnungen schließt, den Restfehler und den zu unterbietenden Wert, Zeit, Urteil.</translation>
     </message>
     <message>
         <source>folder of a machine, or of several machines</source>
@@ -484,16 +484,16 @@
         <translation>die Ergebnisse als JSON schreiben (&apos;-&apos; gibt sie aus)</translation>
     </message>
     <message>
-        <source>write a page</source>
-        <translation>eine Seite schreiben</translation>
+        <source>write a page with all results</source>
+        <translation>eine Seite mit allen Ergebnissen schreiben</translation>
     </message>
     <message>
-        <source>processes of a diagnosis</source>
-        <translation>Prozesse einer Diagnose</translation>
+        <source>parallel processes of a diagnosis</source>
+        <translation>parallele Prozesse einer Diagnose</translation>
     </message>
     <message>
-        <source>time limit of a machine, s (default: 1800)</source>
-        <translation>Zeitgrenze einer Maschine, s (Vorgabe: 1800)</translation>
+        <source>time limit for each machine, s (default: 1800)</source>
+        <translation>Zeitgrenze für jede Maschine, s (Vorgabe: 1800)</translation>
     </message>
     <message>
         <source>run the sealed self-test of the diagnosis and score it</source>
@@ -520,8 +520,8 @@
         <translation>jeden N-ten Fall ab dem I-ten bearbeiten</translation>
     </message>
     <message>
-        <source>cases of your own</source>
-        <translation>eigene Fälle</translation>
+        <source>folder of your own cases</source>
+        <translation>Ordner mit eigenen Fällen</translation>
     </message>
     <message>
         <source>their labels, as JSON</source>
@@ -532,7 +532,7 @@
         <translation>Ordner für die Ergebnisse, eine Datei je Fall (Vorgabe: rotemina-blind-SEED in diesem Ordner)</translation>
     </message>
     <message>
-        <source>write a page, with its picture beside it (seeds from 1000 on)</source>
+        <source>write a page, with its picture next to it (seeds from 1000 on)</source>
         <translation>eine Seite schreiben, mit ihrem Bild daneben (Startwerte ab 1000)</translation>
     </message>
     <message>
@@ -544,8 +544,8 @@
         <translation>auch die Ergebnisse dieses Ordners in der Kalibrierung zählen, etwa die des anderen Generators; mehrfach möglich</translation>
     </message>
     <message>
-        <source>score finished cases, and diagnose no more</source>
-        <translation>abgeschlossene Fälle bewerten und keine weiteren diagnostizieren</translation>
+        <source>score the finished cases, and diagnose no others</source>
+        <translation>die abgeschlossenen Fälle bewerten und keine weiteren diagnostizieren</translation>
     </message>
     <message>
         <source>let three naive methods answer the same cases, for comparison (takes longer)</source>
@@ -556,11 +556,11 @@
         <translation>findet, wo Modell und Maschine sich unterscheiden, welche Effekte das bewirken und wie weit die Abweichung schrumpft</translation>
     </message>
     <message>
-        <source>Compare the model with records of the real machine, name the effects that the model lacks, and prove it with data that the fit never used. Several records of one robot are diagnosed together; they may differ in rate, length, axes and signals.</source>
+        <source>Compare the model with records of the real machine, name the effects that the model lacks, and prove this with data that the fit never used. Several records of one robot are diagnosed together; they may differ in rate, length, axes and signals.</source>
         <translation>Vergleicht das Modell mit Aufzeichnungen der echten Maschine, nennt die Effekte, die dem Modell fehlen, und belegt das mit Daten, die die Anpassung nie benutzt hat. Mehrere Aufzeichnungen eines Roboters werden gemeinsam diagnostiziert; sie dürfen sich in Rate, Länge, Achsen und Signalen unterscheiden.</translation>
     </message>
     <message>
-        <source>write the diagnosis as JSON, with suggested experiments beside it (&apos;-&apos; prints it)</source>
+        <source>write the diagnosis as JSON, and suggested experiments next to it (&apos;-&apos; prints it)</source>
         <translation>die Diagnose als JSON schreiben, mit vorgeschlagenen Versuchen daneben (&apos;-&apos; gibt sie aus)</translation>
     </message>
     <message>
@@ -588,8 +588,8 @@
         <translation>berechnet Spannung, Reaktionen, Steifigkeit, Reibung im Sitz, Moden, Sicherheit gegen Fließen</translation>
     </message>
     <message>
-        <source>Move the pin&apos;s bottom slowly to a place (by default to the end of the range of every axis), and report.</source>
-        <translation>Bewegt das untere Ende des Stifts langsam an einen Ort (Vorgabe: Ende des Bereichs jeder Achse) und berichtet.</translation>
+        <source>Move the pin&apos;s bottom slowly to a position (by default the upper end of the range of every axis), and print the results.</source>
+        <translation>Bewegt das untere Ende des Stifts langsam an eine Position (Vorgabe: oberes Ende des Bereichs jeder Achse) und gibt die Ergebnisse aus.</translation>
     </message>
     <message>
         <source>displacement along the pin, µm</source>
@@ -624,8 +624,8 @@
         <translation>schreibt eine Roboterdatei mit Steifigkeit, Masse und Kopplungen der Platte</translation>
     </message>
     <message>
-        <source>Turn the plate into entries of a robot file, and print how far they are from its present ones. Damping stays.</source>
-        <translation>Wandelt die Platte in Einträge einer Roboterdatei um und gibt aus, wie weit sie von den vorhandenen entfernt sind. Die Dämpfung bleibt.</translation>
+        <source>Turn the plate into entries of a robot file, and print how far they differ from its present ones. Damping is not changed.</source>
+        <translation>Wandelt die Platte in Einträge einer Roboterdatei um und gibt aus, wie weit sie von den vorhandenen abweichen. Die Dämpfung bleibt unverändert.</translation>
     </message>
     <message>
         <source>elements around the circumference (default: %(default)s)</source>
@@ -644,15 +644,15 @@
         <translation>Datei für die Aufzeichnung (Vorgabe: TRAJECTORY-record.csv in diesem Ordner)</translation>
     </message>
     <message>
-        <source>send every set-point through the inverse that this file recommends</source>
-        <translation>jeden Sollwert durch die Inverse schicken, die diese Datei empfiehlt</translation>
+        <source>convert every set-point with the recommended inverse of this file</source>
+        <translation>jeden Sollwert mit der empfohlenen Inversen dieser Datei umwandeln</translation>
     </message>
     <message>
-        <source>close the loop that this file of rotemina tune has chosen, with --compensate as feed-forward if given</source>
-        <translation>den Regelkreis schließen, den diese Datei von rotemina tune gewählt hat, gegebenenfalls mit --compensate als Vorsteuerung</translation>
+        <source>control the axis with the loop chosen in this file of &apos;rotemina tune&apos;; --compensate, if given, becomes its feed-forward</source>
+        <translation>die Achse mit dem Regelkreis regeln, der in dieser Datei von &apos;rotemina tune&apos; gewählt ist; --compensate, falls angegeben, wird seine Vorsteuerung</translation>
     </message>
     <message>
-        <source>seed of the sensors&apos; noise (default: 0)</source>
+        <source>seed of the sensor noise (default: 0)</source>
         <translation>Startwert des Sensorrauschens (Vorgabe: 0)</translation>
     </message>
     <message>
@@ -672,8 +672,8 @@
         <translation>schreibt ein Paket mit einem lauffähigen, getesteten Plugin</translation>
     </message>
     <message>
-        <source>Write a package rotemina-NAME into a folder of its own. Existing files are not overwritten.</source>
-        <translation>Schreibt ein Paket rotemina-NAME in einen eigenen Ordner. Vorhandene Dateien werden nicht überschrieben.</translation>
+        <source>Write a package into a new folder rotemina-NAME. Existing files are not overwritten.</source>
+        <translation>Schreibt ein Paket in einen neuen Ordner rotemina-NAME. Vorhandene Dateien werden nicht überschrieben.</translation>
     </message>
     <message>
         <source>small letters, digits, single underscores</source>
@@ -684,8 +684,8 @@
         <translation>übergeordneter Ordner (Vorgabe: dieser)</translation>
     </message>
     <message>
-        <source>print one line for each plugin, and why any was left out</source>
-        <translation>gibt eine Zeile je Plugin aus, und warum eines ausgelassen ist</translation>
+        <source>print one line for each plugin, and why a plugin was not loaded</source>
+        <translation>gibt eine Zeile je Plugin aus, und warum ein Plugin nicht geladen wurde</translation>
     </message>
     <message>
         <source>only this kind</source>
@@ -696,12 +696,12 @@
         <translation>führt die Prüfungen für die Art des Plugins aus</translation>
     </message>
     <message>
-        <source>Import a plugin anew and run the checks of its kind. For the driver of a real device, no check moves an axis (see `rotemina driver check`). Exit status: 0 all passed, 1 a check failed.</source>
+        <source>Import a plugin again and run the checks of its kind. For the driver of a real device, no check moves an axis (see `rotemina driver check`). Exit status: 0 all passed, 1 a check failed.</source>
         <translation>Importiert ein Plugin neu und führt die Prüfungen seiner Art aus. Beim Treiber eines echten Geräts bewegt keine Prüfung eine Achse (siehe `rotemina driver check`). Rückgabewert: 0 alle bestanden, 1 eine nicht bestanden.</translation>
     </message>
     <message>
-        <source>kind, where several kinds share the name</source>
-        <translation>Art, wenn mehrere Arten den Namen teilen</translation>
+        <source>kind, if plugins of several kinds have this name</source>
+        <translation>Art, wenn Plugins mehrerer Arten diesen Namen haben</translation>
     </message>
     <message>
         <source>inspect recordings of sessions, recover and export them</source>
@@ -712,8 +712,8 @@
         <translation>Zeigt Aufnahmen von Sitzungen, stellt sie nach einem Absturz wieder her und exportiert Abschnitte als Aufzeichnungen oder als abspielbare Trajektorien.</translation>
     </message>
     <message>
-        <source>print what a recording holds</source>
-        <translation>zeigt, was eine Aufnahme enthält</translation>
+        <source>print the contents of a recording</source>
+        <translation>zeigt den Inhalt einer Aufnahme</translation>
     </message>
     <message>
         <source>list the events as well</source>
@@ -756,12 +756,12 @@
         <translation>simuliert den Roboter mit seinen Effekten für die Sollwerte einer Datei</translation>
     </message>
     <message>
-        <source>Drive the model, with the effects and the noise of its robot file, with the commands of a trajectory or record, and write what the machine would record: cmd, u, ref and meas. Long files need no more memory than short ones.</source>
-        <translation>Führt dem Modell, mit den Effekten und dem Rauschen seiner Roboterdatei, die Sollwerte einer Trajektorie oder Aufzeichnung zu und schreibt, was die Maschine aufzeichnen würde: cmd, u, ref und meas. Lange Dateien brauchen nicht mehr Speicher als kurze.</translation>
+        <source>Drive the model, with the effects and the noise of its robot file, with the commands of a trajectory or record, and write what the machine would record: cmd, u, ref and meas. Memory use does not grow with the length of the file.</source>
+        <translation>Führt dem Modell, mit den Effekten und dem Rauschen seiner Roboterdatei, die Sollwerte einer Trajektorie oder Aufzeichnung zu und schreibt, was die Maschine aufzeichnen würde: cmd, u, ref und meas. Der Speicherbedarf wächst nicht mit der Länge der Datei.</translation>
     </message>
     <message>
-        <source>take the effects of this robot file instead</source>
-        <translation>stattdessen die Effekte dieser Roboterdatei nehmen</translation>
+        <source>use the effects of this robot file instead of those of --robot</source>
+        <translation>die Effekte dieser Roboterdatei statt derer von --robot nehmen</translation>
     </message>
     <message>
         <source>seed of noise and random effects (default: 0)</source>
@@ -776,15 +776,15 @@
         <translation>Beschleunigungen und Gelenkkräfte als CSV schreiben</translation>
     </message>
     <message>
-        <source>serve an emulated G-code stage, to try the driver gcode</source>
+        <source>serve an emulated G-code stage, to try out the driver gcode</source>
         <translation>stellt einen emulierten G-Code-Tisch bereit, um den Treiber gcode zu erproben</translation>
     </message>
     <message>
-        <source>Serve a GRBL controller with the axes of a robot behind it, byte by byte, on a pseudo-terminal. The robot file gives its settings, and may have stepper axes only. Lines on standard input: limit (a limit switch closes), power (its supply fails and returns), door and closed (its safety door opens and closes).</source>
-        <translation>Stellt eine GRBL-Steuerung mit den Achsen eines Roboters dahinter an einem Pseudoterminal bereit, Byte für Byte. Die Roboterdatei gibt die Einstellungen vor und darf nur Schrittmotorachsen haben. Zeilen auf der Standardeingabe: limit (ein Endschalter schließt), power (die Versorgung fällt aus und kehrt zurück), door und closed (die Schutztür öffnet und schließt).</translation>
+        <source>Emulate a GRBL controller that drives the axes of a robot, on a pseudo-terminal. The robot file defines its settings, and must contain only stepper axes. Commands on standard input, one per line: limit (a limit switch closes), power (the supply fails and returns), door (the safety door opens), closed (the door closes).</source>
+        <translation>Emuliert an einem Pseudoterminal eine GRBL-Steuerung, die die Achsen eines Roboters antreibt. Die Roboterdatei bestimmt ihre Einstellungen und darf nur Schrittmotorachsen enthalten. Befehle auf der Standardeingabe, einer je Zeile: limit (ein Endschalter schließt), power (die Versorgung fällt aus und kehrt zurück), door (die Schutztür öffnet), closed (die Tür schließt).</translation>
     </message>
     <message>
-        <source>greatest speed of an axis, or of all axes of this unit; needed for axes whose speed the robot file does not limit</source>
+        <source>maximum speed of an axis, or of all axes with this unit; needed for axes whose speed the robot file does not limit</source>
         <translation>Höchstgeschwindigkeit einer Achse oder aller Achsen dieser Einheit; nötig für Achsen, deren Geschwindigkeit die Roboterdatei nicht begrenzt</translation>
     </message>
     <message>
@@ -792,35 +792,35 @@
         <translation>alle Achsen gemeinsam referenzieren, wie GRBL ohne Zusätze</translation>
     </message>
     <message>
-        <source>find the gains of a position loop on the simulated axis</source>
+        <source>find gains for a position loop with the simulated axis</source>
         <translation>findet die Verstärkungen eines Lageregelkreises an der simulierten Achse</translation>
     </message>
     <message>
-        <source>Search the gains of a PI or PID loop with notch and low-pass for one axis, by NSGA-II on the simulated loop with the effects and the noise of its robot file: least tracking error against least effort or settling time, with a bound on the peak sensitivity of axes whose gain and resonance are off by 5 %. Ctrl-C ends the search and keeps the points found so far.</source>
-        <translation>Sucht die Verstärkungen eines PI- oder PID-Kreises mit Kerbfilter und Tiefpass für eine Achse, mit NSGA-II am simulierten Kreis mit den Effekten und dem Rauschen der Roboterdatei: kleinster Folgefehler gegen kleinsten Stellaufwand oder kürzeste Einschwingzeit, mit einer Schranke für die maximale Empfindlichkeit von Achsen, deren Verstärkung und Resonanz um 5 % abweichen. Strg-C beendet die Suche und behält die bisher gefundenen Punkte.</translation>
+        <source>Search for the gains of a PI or PID loop with a notch and a low-pass filter for one axis. NSGA-II simulates the loop with the effects and the noise of the robot file. It minimizes the tracking error and, as second objective, the control effort or the settling time. The peak sensitivity stays bounded even if the gain and the resonance of the axis differ by 5 %. Ctrl-C ends the search and keeps the points found so far.</source>
+        <translation>Sucht die Verstärkungen eines PI- oder PID-Kreises mit Kerbfilter und Tiefpass für eine Achse. NSGA-II simuliert den Kreis mit den Effekten und dem Rauschen der Roboterdatei. Minimiert werden der Folgefehler und, als zweites Ziel, der Stellaufwand oder die Einschwingzeit. Die maximale Empfindlichkeit bleibt beschränkt, auch wenn Verstärkung und Resonanz der Achse um 5 % abweichen. Strg-C beendet die Suche und behält die bisher gefundenen Punkte.</translation>
     </message>
     <message>
-        <source>file of the result, TOML</source>
-        <translation>Datei des Ergebnisses, TOML</translation>
+        <source>TOML file for the result; with --choose, the file to change</source>
+        <translation>TOML-Datei für das Ergebnis; mit --choose die Datei, die geändert wird</translation>
     </message>
     <message>
         <source>axis to be tuned</source>
         <translation>Achse, die abgestimmt wird</translation>
     </message>
     <message>
-        <source>feed forward through the inverse that this file recommends</source>
-        <translation>mit der Inversen vorsteuern, die diese Datei empfiehlt</translation>
+        <source>use the recommended inverse of this file as feed-forward</source>
+        <translation>die empfohlene Inverse dieser Datei als Vorsteuerung benutzen</translation>
     </message>
     <message>
         <source>rate of the loop (default: 5000)</source>
         <translation>Rate des Regelkreises (Vorgabe: 5000)</translation>
     </message>
     <message>
-        <source>delay of the outputs in intervals</source>
-        <translation>Verzögerung der Ausgänge in Intervallen</translation>
+        <source>delay of the outputs, in sampling periods</source>
+        <translation>Verzögerung der Ausgänge, in Abtastperioden</translation>
     </message>
     <message>
-        <source>second objective beside the tracking error (default: effort)</source>
+        <source>second objective in addition to the tracking error (default: effort)</source>
         <translation>zweites Ziel neben dem Folgefehler (Vorgabe: effort)</translation>
     </message>
     <message>
@@ -828,7 +828,7 @@
         <translation>Anzahl der Kerne (Vorgabe: alle)</translation>
     </message>
     <message>
-        <source>write the result as JSON too (&apos;-&apos; prints it)</source>
+        <source>also write the result as JSON (&apos;-&apos; prints it)</source>
         <translation>das Ergebnis auch als JSON schreiben (&apos;-&apos; gibt es aus)</translation>
     </message>
     <message>

@@ -64,10 +64,6 @@
         <translation>Die Kennwerte als Text kopieren</translation>
     </message>
     <message>
-        <source>Write the figures into a file</source>
-        <translation>Die Kennwerte in eine Datei schreiben</translation>
-    </message>
-    <message>
         <source>from {tap}</source>
         <translation>von {tap}</translation>
     </message>
@@ -113,7 +109,6 @@
     </message>
     <message>
         <source>Amplitude of the excitation</source>
-        <extracomment>Waits until the dry run of the motion has ended.</extracomment>
         <translation>Amplitude der Anregung</translation>
     </message>
     <message>
@@ -413,6 +408,10 @@
         <translation>es gibt noch keine Zahlen</translation>
     </message>
     <message>
+        <source>Write the figures to a file</source>
+        <translation>Die Kennwerte in eine Datei schreiben</translation>
+    </message>
+    <message>
         <source>Save results</source>
         <translation>Ergebnisse speichern</translation>
     </message>
@@ -457,16 +456,20 @@
         <translation>Endfehler</translation>
     </message>
     <message>
+        <source>largest step, at {time:.4g} s [normalised]</source>
+        <translation>größter Sprung, bei {time:.4g} s [normiert]</translation>
+    </message>
+    <message>
+        <source>{n} of {steps} steps are smaller than 10 times the noise, so noise dominates overshoot and times. Record larger steps.</source>
+        <translation>{n} von {steps} Sprüngen sind kleiner als das Zehnfache des Rauschens; das Rauschen bestimmt dann Überschwingen und Zeiten. Größere Sprünge aufzeichnen.</translation>
+    </message>
+    <message>
         <source>noise rms</source>
         <translation>Rauschen rms</translation>
     </message>
     <message>
         <source>input</source>
         <translation>Eingang</translation>
-    </message>
-    <message>
-        <source>largest step, at {time:.4g} s [1]</source>
-        <translation>größter, bei {time:.4g} s [1]</translation>
     </message>
     <message>
         <source>rise</source>
@@ -707,10 +710,6 @@
     <message>
         <source>The input takes up to {ramp:.3g} ms from level to level, as fast as its limits allow. All times count from the start of that ramp, for the model too.</source>
         <translation>Der Eingang braucht bis zu {ramp:.3g} ms von Stufe zu Stufe, so schnell die Grenzen es erlauben. Alle Zeiten zählen ab Beginn dieser Rampe, auch die des Modells.</translation>
-    </message>
-    <message>
-        <source>{n} of {steps} steps are smaller than 10 times the noise, which determines overshoot and times. Record larger steps.</source>
-        <translation>{n} von {steps} Sprüngen sind kleiner als das 10-fache Rauschen, das Überschwingen und Zeiten bestimmt. Größere Sprünge aufzeichnen.</translation>
     </message>
     <message>
         <source>{name}: {n} of {steps} steps give no value; at the end of the hold the axis still moves, or noise exceeds the band.</source>

@@ -145,7 +145,6 @@
     </message>
     <message>
         <source>When silent: stop</source>
-        <extracomment>What the choice says, and what it means.</extracomment>
         <translation>Wenn es schweigt: anhalten</translation>
     </message>
     <message>
@@ -238,7 +237,6 @@
     </message>
     <message>
         <source>Leave the set-up</source>
-        <extracomment>Made when somebody sets up for the first time: most who open the window never do.</extracomment>
         <translation>Einrichten beenden</translation>
     </message>
     <message>
@@ -283,7 +281,6 @@
     </message>
     <message>
         <source>Input devices: {error}. An automatic profile is used instead.</source>
-        <extracomment>What was chosen: the name of a file, or automatic. Whether what is used was changed since, and no file has it.</extracomment>
         <translation>Eingabegeräte: {error}. Stattdessen wird ein automatisches Profil verwendet.</translation>
     </message>
     <message>
@@ -380,7 +377,6 @@
     </message>
     <message>
         <source>pad</source>
-        <extracomment>What the pad on the screen and its buttons are called.</extracomment>
         <translation>Bildschirmfeld</translation>
     </message>
     <message>
@@ -433,7 +429,6 @@
     </message>
     <message>
         <source>{action}: the threshold of {percent:g} % of the deflection must be {least:g} to 100 % in either direction</source>
-        <extracomment>What the device is to do now; None: the profile has nothing for it.</extracomment>
         <translation>{action}: die Schwelle von {percent:g} % der Auslenkung muss {least:g} bis 100 % in eine der Richtungen betragen</translation>
     </message>
     <message>
@@ -744,7 +739,6 @@
     </message>
     <message>
         <source>no axis is chosen: choose the axes to measure</source>
-        <extracomment>What is in use. What was changed, and is not yet in use. Of the latest measurement: axes that stay as they were, and why.</extracomment>
         <translation>keine Achse gewählt: die zu messenden wählen</translation>
     </message>
     <message>

@@ -177,7 +177,7 @@
     </message>
     <message>
         <source>there is no picture</source>
-        <extracomment>Whether a move is planned; a stop ends that at once, before it is told of.</extracomment>
+        <extracomment>Whether a move is planned. A stop cancels it at once, before the next refresh.</extracomment>
         <translation>kein Bild</translation>
     </message>
     <message>
@@ -190,7 +190,7 @@
     </message>
     <message>
         <source>a video is being recorded; end it first</source>
-        <extracomment>Whether films begin and end with recordings.</extracomment>
+        <extracomment>Whether videos start and end with recordings.</extracomment>
         <translation>ein Video läuft; zuerst beenden</translation>
     </message>
     <message>
@@ -358,7 +358,7 @@
         <translation>Schwarz und Weiß bei 0,1 und 99,9 % der Pixel</translation>
     </message>
     <message>
-        <source>Whole range</source>
+        <source>Full range</source>
         <translation>Ganzer Bereich</translation>
     </message>
     <message>
@@ -498,6 +498,10 @@
         <translation>In eine Zelle klicken: Umriss suchen; nichts bewegt sich</translation>
     </message>
     <message>
+        <source>Tools next to the picture</source>
+        <translation>Werkzeuge neben dem Bild</translation>
+    </message>
+    <message>
         <source>Map of the tip</source>
         <translation>Karte der Spitze</translation>
     </message>
@@ -542,6 +546,10 @@
         <translation>Die Spitze über beide Orte heben, verfahren, absenken</translation>
     </message>
     <message>
+        <source>{way} from here; longest move: {axis}</source>
+        <translation>{way} von hier; längster Weg: {axis}</translation>
+    </message>
+    <message>
         <source>Far away: go there?</source>
         <translation>Weit entfernt: hinfahren?</translation>
     </message>
@@ -570,20 +578,12 @@
         <translation>Spitze x, y, z [mm]: {place}</translation>
     </message>
     <message>
-        <source>{way} from here; farthest: {axis}</source>
-        <translation>{way} von hier; am weitesten: {axis}</translation>
-    </message>
-    <message>
         <source>Show all of the picture (F)</source>
         <translation>Das ganze Bild zeigen (F)</translation>
     </message>
     <message>
         <source>One camera pixel per screen pixel (1)</source>
         <translation>Ein Kamerapixel je Bildschirmpixel (1)</translation>
-    </message>
-    <message>
-        <source>Tools beside the picture</source>
-        <translation>Werkzeuge neben dem Bild</translation>
     </message>
     <message>
         <source>track the tip</source>
@@ -700,10 +700,6 @@
     <message>
         <source>, mirrored</source>
         <translation>, gespiegelt</translation>
-    </message>
-    <message>
-        <source>{sizes} ± {doubts:.2f} nm/px, turned {rotation:.3f} ± {doubt:.3f}°, skew {skew:.3f}°{hand}</source>
-        <translation>{sizes} ± {doubts:.2f} nm/px, gedreht {rotation:.3f} ± {doubt:.3f}°, Scherung {skew:.3f}°{hand}</translation>
     </message>
     <message>
         <source>move {number}: {size:.2f} px</source>
@@ -854,6 +850,10 @@ Membran: {ahead} zur Membrannormalen</translation>
     <message>
         <source>{name}: {found}, residual {residual:.2f} px, {when}</source>
         <translation>{name}: {found}, Restfehler {residual:.2f} px, {when}</translation>
+    </message>
+    <message>
+        <source>{sizes} ± {doubts:.2f} nm/px, rotated {rotation:.3f} ± {doubt:.3f}°, skew {skew:.3f}°{hand}</source>
+        <translation>{sizes} ± {doubts:.2f} nm/px, gedreht {rotation:.3f} ± {doubt:.3f}°, Scherung {skew:.3f}°{hand}</translation>
     </message>
     <message>
         <source>{phase}: picture {done} of {moves}</source>

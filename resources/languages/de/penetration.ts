@@ -5,6 +5,7 @@
     <name>panels</name>
     <message>
         <source>Penetration</source>
+        <extracomment>The parameters are saved this long after the latest change.</extracomment>
         <translation>Penetration</translation>
     </message>
 </context>
@@ -343,10 +344,6 @@
         <translation>Pause</translation>
     </message>
     <message>
-        <source>At rest on the membrane before the thrust</source>
-        <translation>In Ruhe auf der Membran vor dem Einstich</translation>
-    </message>
-    <message>
         <source>Depth</source>
         <translation>Tiefe</translation>
     </message>
@@ -463,8 +460,8 @@
         <translation>Scharfstellen</translation>
     </message>
     <message>
-        <source>Nothing was done: the penetration went on just before the press. Read the button, then press again.</source>
-        <translation>Nichts wurde ausgeführt: die Penetration ging kurz vor dem Drücken weiter. Die Taste lesen, dann noch einmal drücken.</translation>
+        <source>Nothing was done: the penetration entered another phase just before you pressed. Read the button, then press again.</source>
+        <translation>Nichts wurde ausgeführt: Die Penetration ist kurz vor dem Drücken in eine andere Phase übergegangen. Lesen Sie die Taste, und drücken Sie dann noch einmal.</translation>
     </message>
     <message>
         <source>Prepare</source>
@@ -624,7 +621,7 @@
     </message>
     <message>
         <source>The tip approaches until it touches the membrane.</source>
-        <extracomment>The phases of the strip, in their order. Phases in which the parameters are those of a run.</extracomment>
+        <extracomment>The phases shown in the bar, in their order. A second press within this time is ignored. An alarmed operator may press twice, and the second press must neither stop nor start a retraction. Phases in which the parameters belong to a run and cannot be changed.</extracomment>
         <translation>Die Spitze nähert sich, bis sie die Membran berührt.</translation>
     </message>
     <message>
@@ -634,10 +631,6 @@
     <message>
         <source>Free the axes</source>
         <translation>Achsen freigeben</translation>
-    </message>
-    <message>
-        <source> Why: {reason}.</source>
-        <translation> Grund: {reason}.</translation>
     </message>
     <message>
         <source>Cannot be armed now: {why_not}</source>
@@ -742,6 +735,10 @@
     <message>
         <source>the penetration is not armed; arm it first</source>
         <translation>die Penetration ist nicht scharf; zuerst scharfstellen</translation>
+    </message>
+    <message>
+        <source> Reason: {reason}.</source>
+        <translation> Grund: {reason}.</translation>
     </message>
     <message>
         <source>Armed: all axes are reserved. Nothing moves until you press Start.</source>
@@ -849,7 +846,7 @@
     </message>
     <message>
         <source>table: {n} points; must be 2 to {most}, one per line, from 0, 0 to 1, 1</source>
-        <extracomment>What a table begins with: slow first, fast in the middle.</extracomment>
+        <extracomment>Suggested table: slow at first, fast in the middle.</extracomment>
         <translation>Tabelle: {n} Punkte; erlaubt 2 bis {most}, je eine Zeile, von 0, 0 bis 1, 1</translation>
     </message>
     <message>
@@ -961,6 +958,10 @@
         <translation>Weg, über den sich diese Steigung um ebenso viel ändern darf</translation>
     </message>
     <message>
+        <source>Time at rest on the membrane before the thrust</source>
+        <translation>Ruhezeit auf der Membran vor dem Einstich</translation>
+    </message>
+    <message>
         <source>Depth of the thrust, from the position of rest on the membrane</source>
         <translation>Tiefe des Einstichs, von der Ruheposition auf der Membran</translation>
     </message>
@@ -1014,7 +1015,7 @@
     </message>
     <message>
         <source>Distance from the present position of the axis, above 0 µm</source>
-        <extracomment>Whether the simulator has no cell that could be penetrated.</extracomment>
+        <extracomment>Whether a simulator without a cell is in use.</extracomment>
         <translation>Abstand von der jetzigen Position der Achse, über 0 µm</translation>
     </message>
     <message>
@@ -1043,7 +1044,7 @@
     </message>
     <message>
         <source>a cell at {at} of {axis} must be within {least} to {most}; move the axis away from its end first</source>
-        <extracomment>Where a cell is put and how stiff it is beside the axis itself, unless told otherwise.</extracomment>
+        <extracomment>Default distance ahead of the tip, m, and default stiffness relative to the axis.</extracomment>
         <translation>eine Zelle bei {at} von {axis} muss in {least} bis {most} liegen; die Achse zuerst vom Ende wegfahren</translation>
     </message>
     <message>

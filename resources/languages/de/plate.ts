@@ -27,6 +27,10 @@
         <translation>Farben</translation>
     </message>
     <message>
+        <source>Quantity shown by the colours</source>
+        <translation>Größe, die die Farben zeigen</translation>
+    </message>
+    <message>
         <source>{axis} of the hub</source>
         <translation>{axis} der Nabe</translation>
     </message>
@@ -203,8 +207,8 @@
         <translation>DIE PLATTE FLIESST: {said}</translation>
     </message>
     <message>
-        <source>between, r {radius:.2f} mm, {degrees:.0f}°</source>
-        <translation>dazwischen, r {radius:.2f} mm, {degrees:.0f}°</translation>
+        <source>between hub and rim, r {radius:.2f} mm, {degrees:.0f}°</source>
+        <translation>zwischen Nabe und Rand, r {radius:.2f} mm, {degrees:.0f}°</translation>
     </message>
     <message>
         <source>at the hub, r {radius:.2f} mm, {degrees:.0f}°</source>
@@ -269,10 +273,6 @@
     <message>
         <source>View</source>
         <translation>Ansicht</translation>
-    </message>
-    <message>
-        <source>Quantity of the colours</source>
-        <translation>Größe der Farben</translation>
     </message>
 </context>
 </TS>

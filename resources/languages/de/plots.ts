@@ -23,6 +23,10 @@
         <translation>Cursor außerhalb</translation>
     </message>
     <message>
+        <source>a cursor is outside the measured samples</source>
+        <translation>ein Cursor liegt außerhalb der Messwerte</translation>
+    </message>
+    <message>
         <source>Plots of the axes</source>
         <translation>Diagramme der Achsen</translation>
     </message>
@@ -75,10 +79,6 @@
         <translation>Gespeichert: {path}</translation>
     </message>
     <message>
-        <source>Another run beside the present one</source>
-        <translation>Ein anderer Lauf neben dem aktuellen</translation>
-    </message>
-    <message>
         <source>No other run</source>
         <translation>Nur dieser</translation>
     </message>
@@ -95,8 +95,20 @@
         <translation>Aufzeichnung …</translation>
     </message>
     <message>
+        <source>Second run, drawn together with the present one</source>
+        <translation>Zweiter Lauf, zusammen mit dem aktuellen gezeichnet</translation>
+    </message>
+    <message>
+        <source>Keep this run: it stays visible together with the next one.</source>
+        <translation>Lauf merken: Er bleibt zusammen mit dem nächsten sichtbar.</translation>
+    </message>
+    <message>
         <source>Record …: one of the library.</source>
         <translation>Aufzeichnung …: eine aus der Bibliothek.</translation>
+    </message>
+    <message>
+        <source>Record as the second run</source>
+        <translation>Aufzeichnung als zweiter Lauf</translation>
     </message>
     <message>
         <source>Cursors</source>
@@ -143,10 +155,6 @@
         <translation>Rot: über der Schleppgrenze, {bound}</translation>
     </message>
     <message>
-        <source>Record beside the present run</source>
-        <translation>Aufzeichnung neben dem aktuellen Lauf</translation>
-    </message>
-    <message>
         <source>The library has no records: play or record a motion first.</source>
         <translation>Die Bibliothek hat keine Aufzeichnungen: zuerst eine Bewegung abspielen oder aufnehmen.</translation>
     </message>
@@ -179,10 +187,6 @@
         <translation>Es gibt keinen zweiten Lauf zum Ausrichten: einen wählen.</translation>
     </message>
     <message>
-        <source>Keep this run: it stays visible beside the next one.</source>
-        <translation>Lauf merken: er bleibt neben dem folgenden zu sehen.</translation>
-    </message>
-    <message>
         <source>Latest run: the record that was opened or played last.</source>
         <translation>Letzter Lauf: die zuletzt geöffnete oder abgespielte Aufzeichnung.</translation>
     </message>
@@ -209,10 +213,6 @@
     <message>
         <source>Cursors: Δx and Δy of each loop appear above it.</source>
         <translation>Cursor: Δx und Δy jeder Schleife stehen darüber.</translation>
-    </message>
-    <message>
-        <source>a cursor is where nothing was measured</source>
-        <translation>ein Cursor steht, wo nichts gemessen wurde</translation>
     </message>
     <message>
         <source>plots: there are no samples, so no run to keep</source>

@@ -247,10 +247,6 @@
         <translation>Die Aufzeichnung mit dem verwendeten Modell vergleichen</translation>
     </message>
     <message>
-        <source>its file is where it was</source>
-        <translation>die Datei ist an ihrem Ort</translation>
-    </message>
-    <message>
         <source>Export a record</source>
         <translation>Aufzeichnung exportieren</translation>
     </message>
@@ -343,6 +339,10 @@
         <translation>Den Abschnitt am aktuellen Zeitpunkt der Wiedergabe beenden</translation>
     </message>
     <message>
+        <source>its file has not moved</source>
+        <translation>die Datei wurde nicht verschoben</translation>
+    </message>
+    <message>
         <source>Delete {names}? This permanently deletes {size} from the disk. Files in other folders stay; only their entries are removed.</source>
         <translation>{names} löschen? Das löscht {size} endgültig vom Datenträger. Dateien in anderen Ordnern bleiben; nur ihre Einträge werden entfernt.</translation>
     </message>
@@ -411,16 +411,16 @@
         <translation>Ab jetzt alle Signale und Ereignisse aufnehmen</translation>
     </message>
     <message>
+        <source>wait until the running task has finished</source>
+        <translation>warten Sie, bis die laufende Aufgabe fertig ist</translation>
+    </message>
+    <message>
         <source>Write the remark into the recording with the present time</source>
         <translation>Die Bemerkung mit der aktuellen Zeit in die Aufnahme schreiben</translation>
     </message>
     <message>
         <source>Starting the recording …</source>
         <translation>Die Aufnahme beginnt …</translation>
-    </message>
-    <message>
-        <source>wait for the running work</source>
-        <translation>warten, bis die laufende Arbeit fertig ist</translation>
     </message>
     <message>
         <source>Ending the recording: {size} are being merged …</source>

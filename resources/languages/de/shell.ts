@@ -469,7 +469,7 @@
     </message>
     <message>
         <source>the system reports: “{text}”</source>
-        <extracomment>Each language by what it calls itself.</extracomment>
+        <extracomment>Names of the languages, each in its own language.</extracomment>
         <translation>das System meldet: „{text}“</translation>
     </message>
     <message>
@@ -568,10 +568,6 @@
         <translation>&amp;Beenden</translation>
     </message>
     <message>
-        <source>Stop and leave</source>
-        <translation>Anhalten und beenden</translation>
-    </message>
-    <message>
         <source>there is no trajectory; load one first</source>
         <translation>es gibt keine Trajektorie; erst eine laden</translation>
     </message>
@@ -606,6 +602,10 @@
     <message>
         <source>Stop and loc&amp;k</source>
         <translation>Halt und s&amp;perren</translation>
+    </message>
+    <message>
+        <source>Stop the machine and quit</source>
+        <translation>Maschine anhalten und Programm beenden</translation>
     </message>
     <message>
         <source>Re&amp;lease the lock</source>
@@ -656,6 +656,18 @@
         <translation>Anhalten und trennen</translation>
     </message>
     <message>
+        <source>Up to twice the normal size</source>
+        <translation>Bis zum Doppelten der normalen Größe</translation>
+    </message>
+    <message>
+        <source>Depends on the height of the screen</source>
+        <translation>Richtet sich nach der Höhe des Bildschirms</translation>
+    </message>
+    <message>
+        <source>Type part of its name</source>
+        <translation>Einen Teil des Namens eingeben</translation>
+    </message>
+    <message>
         <source>The panel that has the focus</source>
         <translation>Das Panel mit dem Fokus</translation>
     </message>
@@ -678,10 +690,6 @@
     <message>
         <source>Larger text</source>
         <translation>Größere Schrift</translation>
-    </message>
-    <message>
-        <source>Up to twice</source>
-        <translation>Bis zum Doppelten</translation>
     </message>
     <message>
         <source>Smaller text</source>
@@ -900,8 +908,12 @@
         <translation>keine Meldung wird gezeigt</translation>
     </message>
     <message>
-        <source>Window delay: at most {usual} ms in 99 %, worst {worst} ms</source>
-        <translation>Verzögerung des Fensters: in 99 % höchstens {usual} ms, schlimmstens {worst} ms</translation>
+        <source>Window delay: 99th percentile {usual} ms, worst {worst} ms</source>
+        <translation>Verzögerung des Fensters: 99. Perzentil {usual} ms, höchstens {worst} ms</translation>
+    </message>
+    <message>
+        <source>no help page describes it</source>
+        <translation>keine Hilfeseite beschreibt sie</translation>
     </message>
     <message>
         <source>Messages, newest first</source>
@@ -954,6 +966,10 @@
     <message>
         <source>Layout</source>
         <translation>Anordnung</translation>
+    </message>
+    <message>
+        <source>The window closes as soon as everything is written. Close it again to quit at once; the recording can then be recovered at the next start.</source>
+        <translation>Das Fenster schließt, sobald alles geschrieben ist. Nochmals schließen beendet sofort; die Aufnahme lässt sich dann beim nächsten Start wiederherstellen.</translation>
     </message>
     <message>
         <source>The machine is moving. Quitting stops it.</source>
@@ -1116,6 +1132,22 @@
         <translation>Spielt ab, {share:.0f} %</translation>
     </message>
     <message>
+        <source>it continues automatically</source>
+        <translation>sie läuft von selbst weiter</translation>
+    </message>
+    <message>
+        <source>{moved}; Resume asks how to continue.</source>
+        <translation>{moved}; Weiter fragt, wie es weitergehen soll.</translation>
+    </message>
+    <message>
+        <source>{stopped}. Resume continues from here.</source>
+        <translation>{stopped}. Weiter setzt von hier fort.</translation>
+    </message>
+    <message>
+        <source>At rest; Resume continues from here, End ends the playback.</source>
+        <translation>In Ruhe; Weiter setzt von hier fort, Ende beendet die Wiedergabe.</translation>
+    </message>
+    <message>
         <source>Paused at row {row}</source>
         <translation>Pause in Zeile {row}</translation>
     </message>
@@ -1220,7 +1252,7 @@
         <translation>Die Bahn wird geprüft; dann fahren die Achsen.</translation>
     </message>
     <message>
-        <source>The axes move to where the trajectory begins.</source>
+        <source>The axes are moving to the start of the trajectory.</source>
         <translation>Die Achsen fahren zum Anfang der Trajektorie.</translation>
     </message>
     <message>
@@ -1248,10 +1280,6 @@
         <translation>die Position ist noch nicht bekannt</translation>
     </message>
     <message>
-        <source>it moves on by itself</source>
-        <translation>sie bewegt sich von selbst weiter</translation>
-    </message>
-    <message>
         <source>its button starts the run</source>
         <translation>ihre Taste startet den Lauf</translation>
     </message>
@@ -1276,20 +1304,8 @@
         <translation>Es geht weiter, sobald die Achsen ruhen und die Bahn geprüft ist.</translation>
     </message>
     <message>
-        <source>{moved}; Resume asks how to go on.</source>
-        <translation>{moved}; Weiter fragt, wie es weitergeht.</translation>
-    </message>
-    <message>
         <source>{excess}. Check the machine, then resume or end.</source>
         <translation>{excess}. Die Maschine prüfen, dann Weiter oder Ende.</translation>
-    </message>
-    <message>
-        <source>{stopped}. Resume goes on from here.</source>
-        <translation>{stopped}. Weiter fährt von hier fort.</translation>
-    </message>
-    <message>
-        <source>At rest; Resume goes on from here, End gives it up.</source>
-        <translation>In Ruhe; Weiter fährt von hier fort, Ende bricht ab.</translation>
     </message>
     <message>
         <source>{stopped}. The next command moves it again.</source>
@@ -1350,11 +1366,6 @@
     <message>
         <source>Phase of the session</source>
         <translation>Phase der Sitzung</translation>
-    </message>
-    <message>
-        <source>time [s]</source>
-        <extracomment>What is drawn how, in every plot and theme: two lines that colour-blind eyes confuse differ in their dashes. Dense noise is slow to draw wider than 1 px or dashed: what is measured is neither.</extracomment>
-        <translation>Zeit [s]</translation>
     </message>
     <message>
         <source>{doing} About {left} left.</source>
@@ -1525,10 +1536,6 @@
         <translation>Archive (*.zip)</translation>
     </message>
     <message>
-        <source>The support bundle is written.</source>
-        <translation>Das Support-Paket wird geschrieben.</translation>
-    </message>
-    <message>
         <source>Pages (*.html)</source>
         <translation>Seiten (*.html)</translation>
     </message>
@@ -1541,12 +1548,12 @@
         <translation>Eine Seite mit Datum, Maschine, Modell, Kurven, Abweichung, Ereignissen und Notiz des Laufs schreiben und öffnen</translation>
     </message>
     <message>
-        <source>Saved {path}</source>
-        <translation>Gespeichert: {path}</translation>
+        <source>{path}: no program is set up to open it; open it in a browser</source>
+        <translation>{path}: kein Programm ist zum Öffnen eingerichtet; öffnen Sie die Datei in einem Browser</translation>
     </message>
     <message>
-        <source>{path}: nothing here opens it; open it in a browser</source>
-        <translation>{path}: nichts hier öffnet es; in einem Browser öffnen</translation>
+        <source>Saved {path}</source>
+        <translation>Gespeichert: {path}</translation>
     </message>
     <message>
         <source>Run report</source>
@@ -1566,7 +1573,6 @@
     </message>
     <message>
         <source>Switching the model …</source>
-        <extracomment>Of what plays, pauses and resumes: what a press does now, and since when. Makes a request once the machine rests, as one whose effects were switched soon does.</extracomment>
         <translation>Modell wird gewechselt …</translation>
     </message>
     <message>
@@ -1595,7 +1601,7 @@
     </message>
     <message>
         <source>Not played: {why}. Press Play again.</source>
-        <extracomment>Said where a request to play is withdrawn before it has had an effect.</extracomment>
+        <extracomment>Reported when a request to play is withdrawn before it had an effect.</extracomment>
         <translation>Nicht abgespielt: {why}. Noch einmal auf Abspielen drücken.</translation>
     </message>
     <message>
@@ -1704,7 +1710,7 @@
     </message>
     <message>
         <source>SIMULATOR</source>
-        <extracomment>A device is being opened that has never said what it is. What may be a real machine, and looks like one.</extracomment>
+        <extracomment>A device is being opened that has not identified itself yet. Kinds that may be a real machine. They are drawn alike.</extracomment>
         <translation>SIMULATOR</translation>
     </message>
     <message>
@@ -1718,10 +1724,6 @@
     <message>
         <source>CONNECTING …</source>
         <translation>VERBINDET …</translation>
-    </message>
-    <message>
-        <source>Boards that say that a program emulates them: no real machine moves.</source>
-        <translation>Karten, die melden, dass ein Programm sie nachbildet: keine echte Maschine bewegt sich.</translation>
     </message>
     <message>
         <source>The device has not said yet what it is: treat it as a real machine.</source>
@@ -1978,6 +1980,10 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Der eingebaute Simulator: keine echte Maschine bewegt sich.</translation>
     </message>
     <message>
+        <source>Boards that identify themselves as emulated: no real machine moves.</source>
+        <translation>Karten, die sich als nachgebildet melden: keine echte Maschine bewegt sich.</translation>
+    </message>
+    <message>
         <source>Commands of this window move a real machine.</source>
         <translation>Befehle dieses Fensters bewegen eine echte Maschine.</translation>
     </message>
@@ -2024,10 +2030,6 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
     <message>
         <source>Time of the recording. Marks, by importance: faults; stops, refusals and warnings; others</source>
         <translation>Zeit der Aufnahme. Marken nach Wichtigkeit: Fehler; Halte, Ablehnungen und Warnungen; andere</translation>
-    </message>
-    <message>
-        <source>The window closes as soon as everything is written. Close it again to leave at once; the recording can then be recovered at the next start.</source>
-        <translation>Das Fenster schließt, sobald alles geschrieben ist. Nochmals schließen beendet sofort; die Aufnahme lässt sich dann beim nächsten Start wiederherstellen.</translation>
     </message>
     <message>
         <source>{doing} Cancelling.</source>
@@ -2090,14 +2092,6 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Alle Panels zurücksetzen</translation>
     </message>
     <message>
-        <source>By the height of the screen</source>
-        <translation>Nach der Höhe des Bildschirms</translation>
-    </message>
-    <message>
-        <source>By letters of its name</source>
-        <translation>Nach Buchstaben des Namens</translation>
-    </message>
-    <message>
         <source>Log, settings, versions and record for support</source>
         <translation>Protokoll, Einstellungen, Versionen und Aufzeichnung für den Support</translation>
     </message>
@@ -2126,10 +2120,6 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Hilfe zur gewählten Meldung</translation>
     </message>
     <message>
-        <source>no page describes it</source>
-        <translation>keine Seite beschreibt sie</translation>
-    </message>
-    <message>
         <source>select one message</source>
         <translation>eine Meldung wählen</translation>
     </message>
@@ -2152,6 +2142,10 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
     <message>
         <source>The bundle will contain these files. User names, home folders and the name of this computer are already removed. Nothing is sent: you choose where the archive is saved.</source>
         <translation>Diese Dateien wird das Paket enthalten. Benutzernamen, Heimatordner und der Name dieses Rechners sind schon entfernt. Nichts wird gesendet: das Archiv wird am gewählten Ort gespeichert.</translation>
+    </message>
+    <message>
+        <source>The support bundle is being written.</source>
+        <translation>Das Support-Paket wird geschrieben.</translation>
     </message>
     <message>
         <source>Write all files into one zip archive</source>
@@ -2207,7 +2201,7 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
     </message>
     <message>
         <source>Program error: {error}. The log has details; please save a support bundle.</source>
-        <extracomment>What a panel may raise in slots and timers before it is left out.</extracomment>
+        <extracomment>Faults in slots and timers after which a panel is removed.</extracomment>
         <translation>Programmfehler: {error}. Das Protokoll enthält Einzelheiten; bitte ein Support-Paket speichern.</translation>
     </message>
     <message>
@@ -2245,50 +2239,6 @@ Bedienfenster eines hybriden Roboters zur Zellmanipulation, mit Diagnose der Abw
         <translation>Die Anordnung {name!r} ist nicht lesbar; löschen und neu speichern.</translation>
     </message>
     <message>
-        <source>Reload</source>
-        <translation>Neu laden</translation>
-    </message>
-    <message>
-        <source>Reload {name}</source>
-        <translation>{name} neu laden</translation>
-    </message>
-    <message>
-        <source>Plugin</source>
-        <translation>Plugin</translation>
-    </message>
-    <message>
-        <source>no package that is installed has a panel of this name</source>
-        <translation>kein installiertes Paket hat ein Panel dieses Namens</translation>
-    </message>
-    <message>
-        <source>its package has the driver in use; restart the program</source>
-        <translation>sein Paket enthält den verwendeten Treiber; das Programm neu starten</translation>
-    </message>
-    <message>
-        <source>Importing {name} …</source>
-        <translation>{name} wird importiert …</translation>
-    </message>
-    <message>
-        <source>the machine is moving; stop it first</source>
-        <translation>die Maschine bewegt sich; erst anhalten</translation>
-    </message>
-    <message>
-        <source>panels in the centre need a restart</source>
-        <translation>Panels in der Mitte brauchen einen Neustart</translation>
-    </message>
-    <message>
-        <source>Panel {name!r} is reloaded</source>
-        <translation>Panel {name!r} ist neu geladen</translation>
-    </message>
-    <message>
-        <source>Panel {name!r} is not reloaded: {reason}</source>
-        <translation>Panel {name!r} ist nicht neu geladen: {reason}</translation>
-    </message>
-    <message>
-        <source>Reload &amp;plugin</source>
-        <translation>&amp;Plugin neu laden</translation>
-    </message>
-    <message>
         <source>the connection has changed meanwhile</source>
         <translation>die Verbindung hat sich inzwischen geändert</translation>
     </message>
@@ -2317,8 +2267,8 @@ Bedienfenster eines hybriden Roboters zur Zellmanipulation, mit Diagnose der Abw
         <translation>Langsam zurückfahren und weiter</translation>
     </message>
     <message>
-        <source>Move to the row at which it goes on at a tenth of the axes&apos; greatest speed, then resume</source>
-        <translation>Mit einem Zehntel der größten Geschwindigkeit zu der Zeile fahren, bei der es weitergeht, dann fortsetzen</translation>
+        <source>Move back to the pause position at a tenth of the axes&apos; maximum speed, then resume</source>
+        <translation>Mit einem Zehntel der Höchstgeschwindigkeit der Achsen zur Pausenposition zurückfahren, dann fortsetzen</translation>
     </message>
     <message>
         <source>Start over</source>
@@ -2337,12 +2287,12 @@ Bedienfenster eines hybriden Roboters zur Zellmanipulation, mit Diagnose der Abw
         <translation>Nichts bewegen; Weiter fragt noch einmal</translation>
     </message>
     <message>
-        <source>{moved}. How to go on?</source>
-        <translation>{moved}. Wie soll es weitergehen?</translation>
+        <source>{moved}. How do you want to continue?</source>
+        <translation>{moved}. Wie möchten Sie fortfahren?</translation>
     </message>
     <message>
-        <source>What the header has no room for</source>
-        <translation>Wofür die Kopfzeile keinen Platz hat</translation>
+        <source>Indicators that do not fit into the header</source>
+        <translation>Anzeigen, die nicht in die Kopfzeile passen</translation>
     </message>
 </context>
 </TS>

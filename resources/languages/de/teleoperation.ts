@@ -96,6 +96,7 @@
     </message>
     <message>
         <source>Press and drag: the cross moves x and y, the slider z; both spring back when released.</source>
+        <extracomment>When its lease expires, the pad releases everything. Renewals are therefore much more frequent.</extracomment>
         <translation>Drücken und ziehen: das Kreuz bewegt x und y, der Schieber z; beim Loslassen kehren beide zurück.</translation>
     </message>
     <message>
@@ -211,6 +212,10 @@ Leer  Kupplung</translation>
         <translation>Kontaktverstärkung</translation>
     </message>
     <message>
+        <source>Impedance: gain of the contact force, in percent of the highest safe gain; 0: none</source>
+        <translation>Impedanz: Verstärkung der Kontaktkraft, in Prozent der höchsten sicheren; 0: keine</translation>
+    </message>
+    <message>
         <source>above 0, up to {most}</source>
         <translation>über 0, bis {most}</translation>
     </message>
@@ -271,10 +276,6 @@ Leer  Kupplung</translation>
         <translation>Die Stellung des Joysticks bestimmt die Position der Spitze; losgelassen kehrt sie zurück.</translation>
     </message>
     <message>
-        <source>The stick&apos;s position sets a speed; when released, the tip rests.</source>
-        <translation>Die Stellung des Joysticks bestimmt eine Geschwindigkeit; losgelassen ruht die Spitze.</translation>
-    </message>
-    <message>
         <source>Impedance</source>
         <translation>Impedanz</translation>
     </message>
@@ -315,6 +316,10 @@ Leer  Kupplung</translation>
         <translation>Handsteuerung wartet: {reason}.</translation>
     </message>
     <message>
+        <source>The robot follows the stick.</source>
+        <translation>Der Roboter folgt dem Joystick.</translation>
+    </message>
+    <message>
         <source>input devices are being set up</source>
         <translation>Eingabegeräte werden eingerichtet</translation>
     </message>
@@ -327,8 +332,8 @@ Leer  Kupplung</translation>
         <translation>Spitze {name}</translation>
     </message>
     <message>
-        <source>not shared in this mode</source>
-        <translation>in diesem Modus nicht geteilt</translation>
+        <source>not available in this mode</source>
+        <translation>in diesem Modus nicht verfügbar</translation>
     </message>
     <message>
         <source>{left} – re-centre</source>
@@ -385,10 +390,6 @@ Leer  Kupplung</translation>
     <message>
         <source>Impedance with a spring: overshoots below 1, creeps above 1</source>
         <translation>Impedanz mit Feder: unter 1 schwingt sie über, über 1 kriecht sie</translation>
-    </message>
-    <message>
-        <source>Impedance: contact force relative to the largest safe force; 0: none</source>
-        <translation>Impedanz: Kontaktkraft relativ zur größten sicheren Kraft; 0: keine</translation>
     </message>
     <message>
         <source>{title}: {text!r} is not a number; enter one{unit} with a decimal point</source>
@@ -455,6 +456,10 @@ Leer  Kupplung</translation>
         <translation>Der Joystick neigt das Werkzeug, während die Tische seine Spitze am Ort halten.</translation>
     </message>
     <message>
+        <source>The stick&apos;s position sets a speed; when released, the tip stops.</source>
+        <translation>Die Stellung des Joysticks bestimmt eine Geschwindigkeit; beim Loslassen hält die Spitze an.</translation>
+    </message>
+    <message>
         <source>The stick pushes a virtual mass with or without a spring; a contact pushes back.</source>
         <translation>Der Joystick schiebt eine virtuelle Masse mit oder ohne Feder; ein Kontakt drückt zurück.</translation>
     </message>
@@ -469,10 +474,6 @@ Leer  Kupplung</translation>
     <message>
         <source>The input devices do not respond: stop the machine and restart the program.</source>
         <translation>Die Eingabegeräte antworten nicht: die Maschine anhalten und das Programm neu starten.</translation>
-    </message>
-    <message>
-        <source>Moves with the stick.</source>
-        <translation>Bewegt sich mit dem Joystick.</translation>
     </message>
     <message>
         <source>the input devices are being opened</source>

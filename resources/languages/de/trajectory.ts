@@ -103,6 +103,10 @@
         <translation>Schnellster Sollwert</translation>
     </message>
     <message>
+        <source>rate: {text!r} is not a number; enter one in Hz, such as 1000</source>
+        <translation>Rate: {text!r} ist keine Zahl; eine in Hz eingeben, etwa 1000</translation>
+    </message>
+    <message>
         <source>lowest</source>
         <translation>tiefster</translation>
     </message>
@@ -271,6 +275,10 @@
         <translation>Trajektorie erzeugen</translation>
     </message>
     <message>
+        <source>Replace the selected point with the present target of the machine</source>
+        <translation>Den gewählten Punkt durch das aktuelle Ziel der Maschine ersetzen</translation>
+    </message>
+    <message>
         <source>{n} taught points</source>
         <translation>{n} eingelernte Punkte</translation>
     </message>
@@ -313,10 +321,6 @@
     <message>
         <source>Add the present target of the machine after the selected point</source>
         <translation>Das aktuelle Ziel der Maschine hinter dem gewählten Punkt hinzufügen</translation>
-    </message>
-    <message>
-        <source>Replace the selected point by the present target of the machine</source>
-        <translation>Den gewählten Punkt durch das aktuelle Ziel der Maschine ersetzen</translation>
     </message>
     <message>
         <source>Remove the selected point</source>
@@ -423,16 +427,16 @@
         <translation>Geschwindigkeitsgrenze</translation>
     </message>
     <message>
-        <source>The robot file states no speed limit for these axes. Enter the greatest speed at which each may move.</source>
-        <translation>Die Roboterdatei nennt für diese Achsen keine Geschwindigkeitsgrenze. Für jede die größte Geschwindigkeit eingeben, mit der sie fahren darf.</translation>
-    </message>
-    <message>
         <source>the trajectory reaches {speed}</source>
         <translation>die Trajektorie erreicht {speed}</translation>
     </message>
     <message>
-        <source>Greatest speed of {axis}</source>
-        <translation>Größte Geschwindigkeit von {axis}</translation>
+        <source>The robot file states no speed limit for these axes. Enter the maximum speed at which each may move.</source>
+        <translation>Die Roboterdatei nennt für diese Achsen keine Geschwindigkeitsgrenze. Geben Sie für jede die höchste Geschwindigkeit ein, mit der sie fahren darf.</translation>
+    </message>
+    <message>
+        <source>Maximum speed of {axis}</source>
+        <translation>Höchste Geschwindigkeit von {axis}</translation>
     </message>
     <message>
         <source>In {unit}, above 0</source>

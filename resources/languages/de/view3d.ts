@@ -67,6 +67,10 @@
         <translation>Zelle</translation>
     </message>
     <message>
+        <source>The cell, with the tip 0.3 mm next to it, to scale</source>
+        <translation>Die Zelle, die Spitze 0,3 mm daneben, maßstäblich</translation>
+    </message>
+    <message>
         <source>Model and real</source>
         <translation>Modell und Maschine</translation>
     </message>
@@ -117,10 +121,6 @@
     <message>
         <source>View of the objective</source>
         <translation>Blick des Objektivs</translation>
-    </message>
-    <message>
-        <source>The cell, with the tip 0.3 mm beside it, to scale</source>
-        <translation>Die Zelle, die Spitze 0,3 mm daneben, maßstäblich</translation>
     </message>
     <message>
         <source>outdated: the last reading is {age_s:.1f} s old</source>

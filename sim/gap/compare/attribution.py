@@ -3,15 +3,16 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from rotemina.sim.effects.kinship import Family
+from rotemina.sim.effects import EffectFamily
 from rotemina.sim.gap.compare.explanations import Explanation, explanation, mean_squares
-from rotemina.sim.gap.fit.baseline import baseline, is_whole_own
-from rotemina.sim.gap.fit.catalogue import brought_along, is_of
-from rotemina.sim.gap.fit.evidence import Evidence
-from rotemina.sim.gap.fit.output_error import fit
-from rotemina.sim.gap.thresholds import LEAST_POWER, NEAR, SMALL
-from rotemina.sim.records.record import Tap
-from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.gap.fit import Evidence, baseline, brought_along, fit, is_of, is_whole_own
+from rotemina.sim.gap.limits import (
+    MAX_NEAR_SCORE_RATIO,
+    MIN_CAUSE_POWER,
+    MIN_CAUSE_SHARE,
+)
+from rotemina.sim.records import Tap
+from rotemina.sim.robot import AxisEffect
 
 _REFITTED = 5
 _SAME_MASS = 0.3  # relative difference of masses that are one
@@ -35,8 +36,8 @@ def attributed(evidence: Evidence, bare: Explanation, explained: Explanation) ->
             light = _with_another_mass(evidence, explained, one.id)
             without[one.id] = min(light, without[one.id], key=lambda one: one.score)
     for one in own:
-        least = max([SMALL, *(brought_along(one.id, cause) for cause in named)])
-        never = least >= 1.0 or (heavier and is_of(Family.GAIN, one.id))
+        least = max([MIN_CAUSE_SHARE, *(brought_along(one.id, cause) for cause in named)])
+        never = least >= 1.0 or (heavier and is_of(EffectFamily.GAIN, one.id))
         closes = closing(evidence, without[one.id], explained)
         if not never and _counts(bare, closes, least):
             found.append(_fitted(explained, one.id))
@@ -57,7 +58,7 @@ def closing(evidence: Evidence, before: Explanation, after: Explanation) -> dict
     return {
         tap: before.by_tap[tap] - left
         for tap, left in after.by_tap.items()
-        if seen[tap] - still[tap] >= LEAST_POWER
+        if seen[tap] - still[tap] >= MIN_CAUSE_POWER
     }
 
 
@@ -81,7 +82,7 @@ def without_own(
         for one in tried
         if len(one.causes) == len(others) + 1
         and not any(is_whole_own(own.id) for own in one.causes)
-        and one.score < NEAR * best.score  # without, it does worse still
+        and one.score < MAX_NEAR_SCORE_RATIO * best.score  # without, it does worse still
     ]
     return [
         replace(refitted, causes=refitted.fit.effects[: len(one.causes)])
@@ -92,7 +93,8 @@ def without_own(
 
 def _counts(bare: Explanation, closes: Mapping[Tap, float], least: float) -> bool:
     return any(
-        power >= max(least * (bare.by_tap[tap] - 1.0), LEAST_POWER) for tap, power in closes.items()
+        power >= max(least * (bare.by_tap[tap] - 1.0), MIN_CAUSE_POWER)
+        for tap, power in closes.items()
     )
 
 
@@ -120,7 +122,7 @@ def _gain_of(explained: Explanation) -> float:
     return sum(
         one.parameters["error"]
         for one in explained.fit.effects
-        if is_whole_own(one.id) and is_of(Family.GAIN, one.id)
+        if is_whole_own(one.id) and is_of(EffectFamily.GAIN, one.id)
     )
 
 

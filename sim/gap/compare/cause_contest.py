@@ -5,10 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from rotemina.sim.effects.formulation import Trait
-from rotemina.sim.effects.registry import effect_named
+from rotemina.sim.effects import EffectTrait, load_effect
 from rotemina.sim.gap.compare.attribution import attributed, closing, without_own
-from rotemina.sim.gap.compare.closed_share import closed
 from rotemina.sim.gap.compare.explanations import (
     MOST_STEPS,
     Explanation,
@@ -24,24 +22,22 @@ from rotemina.sim.gap.compare.rivals import Key, Rival, probability, rivals
 from rotemina.sim.gap.compare.substitutes import AT_THE_SENSOR, substitutes
 from rotemina.sim.gap.compare.verdict import stands
 from rotemina.sim.gap.compare.weights import weigh
-from rotemina.sim.gap.fit.baseline import is_own, is_whole_own
-from rotemina.sim.gap.fit.catalogue import kinship_of
-from rotemina.sim.gap.fit.evidence import Evidence
-from rotemina.sim.gap.fit.output_error import fit
-from rotemina.sim.gap.thresholds import (
-    ADEQUATE,
-    DISTINCT,
-    HALF,
-    MUCH,
-    NEAR,
-    REMAINDER,
-    SAME_SCORE,
-    SIGNIFICANCE,
-    SOME,
-    TIED,
+from rotemina.sim.gap.fit import Evidence, fit, is_own, is_whole_own, kinship_of
+from rotemina.sim.gap.limits import (
+    LARGE_SHARE,
+    MAX_CHANCE_SCORE_RATIO,
+    MAX_NEAR_SCORE_RATIO,
+    MAX_NOISE_POWER,
+    MAX_P_VALUE,
+    MAX_TIED_SCORE_RATIO,
+    MAX_UNMODELLED_SHARE,
+    MIN_DISTINCT_RATIO,
+    MIN_MAJORITY_SHARE,
+    MIN_SHARE_TO_NAME,
 )
-from rotemina.sim.records.record import Tap
-from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.gap.result import closed
+from rotemina.sim.records import Tap
+from rotemina.sim.robot import AxisEffect
 
 _TURNS = 6  # at most, in which rivals take a cause's place until none is likelier
 _WITHOUT_STEPS = 5  # of a fit without one of the causes, from where the others are
@@ -118,9 +114,9 @@ def _significant(
     while best.causes:
         p_values = {key: _p_value(selection, best, key, aside, remainders) for key in best.ids}
         doubtful = max(p_values, key=lambda key: p_values[key])
-        by_own = closed(selection.raw, selection.retuned.score) >= MUCH
+        by_own = closed(selection.raw, selection.retuned.score) >= LARGE_SHARE
         lone = alone and len(best.causes) == 1
-        if p_values[doubtful] <= SIGNIFICANCE or (lone and not by_own):
+        if p_values[doubtful] <= MAX_P_VALUE or (lone and not by_own):
             break
         dropped.add(doubtful)
         named = set(best.ids)
@@ -177,7 +173,10 @@ def _likelier(
         own[0]
         for key, own in ranked.items()
         if (own[0].effect, own[0].from_axis) not in {key, *without}
-        and (own[0].probability >= HALF or own[0].probability >= DISTINCT * probability(own, key))
+        and (
+            own[0].probability >= MIN_MAJORITY_SHARE
+            or own[0].probability >= MIN_DISTINCT_RATIO * probability(own, key)
+        )
     ]
     if not found:
         return None
@@ -222,11 +221,11 @@ def _p_value(
     beyond every catalogue is a small part of the gap where the last of its taps reads it.
     """
     without = _without(remainders.evidence, selection, best, key)
-    if max(best.by_tap.values()) < ADEQUATE or without.score <= 1.0:
+    if max(best.by_tap.values()) < MAX_NOISE_POWER or without.score <= 1.0:
         return 0.0
     last = next(tap for tap in (Tap.MEAS, Tap.REF, Tap.U) if tap in best.by_tap)
     raw = selection.bare.by_tap[last] + aside.get(last, 0.0)
-    if without.by_tap[last] - best.by_tap[last] >= REMAINDER * (raw - 1.0):
+    if without.by_tap[last] - best.by_tap[last] >= MAX_UNMODELLED_SHARE * (raw - 1.0):
         return 0.0
     share = (without.score - best.score) / (without.score - 1.0)
     return remainders.p_value(best, key, share)
@@ -278,13 +277,13 @@ def _bends_to(evidence: Evidence, best: Explanation, key: Key) -> bool:
     """Tell whether a cause closes so little beside a wander that it may only follow that."""
     others = [one for one in best.causes if (one.id, one.from_axis) != key]
     before = float(np.mean(evidence.residual(others) ** 2))
-    return closed(before, best.score) < (MUCH if _is_slow(key[0]) else SOME)
+    return closed(before, best.score) < (LARGE_SHARE if _is_slow(key[0]) else MIN_SHARE_TO_NAME)
 
 
 def _is_slow(effect_id: str) -> bool:
     """Tell whether an effect is fixed in time without coming again."""
-    effect = effect_named(effect_id)
-    lasting = Trait.LOCKED_TO_TIME in effect.formulations[0].traits
+    effect = load_effect(effect_id)
+    lasting = EffectTrait.LOCKED_TO_TIME in effect.formulations[0].traits
     return lasting and effect.identification.shows_as is None
 
 
@@ -323,7 +322,7 @@ def _one_of_each(found: Sequence[Explanation]) -> list[Explanation]:
         least[one.ids] = min(one.score, least.get(one.ids, one.score))
     kept: dict[object, Explanation] = {}
     for one in sorted(found, key=lambda one: (one.fit.parameters, one.score)):
-        if one.score <= SAME_SCORE * least[one.ids]:
+        if one.score <= MAX_CHANCE_SCORE_RATIO * least[one.ids]:
             kept.setdefault(one.ids, one)
     return list(kept.values())
 
@@ -332,7 +331,7 @@ def _with_retuned(
     evidence: Evidence, selection: Selection, best: Explanation
 ) -> tuple[Explanation, ...]:
     """Return what was tried, the model's own parameters by name if they come near."""
-    if not selection.tried or selection.retuned.score > NEAR * best.score:
+    if not selection.tried or selection.retuned.score > MAX_NEAR_SCORE_RATIO * best.score:
         return selection.tried
     named = attributed(evidence, selection.bare, selection.retuned)
     others = [one for one in selection.tried if one is not selection.retuned]
@@ -353,7 +352,7 @@ def _with_substitutes(
         own = is_own(evidence, cause)
         others = [one for one in best.causes if one is not cause and not is_own(evidence, one)]
         for asked in substitutes(evidence, cause):
-            well = TIED * best.score
+            well = MAX_TIED_SCORE_RATIO * best.score
             if own or not any(one.score < well and _is_by(one, [*others, asked]) for one in tried):
                 effects = beside(evidence, [*others, asked])
                 if own:  # in whose place it stands

@@ -9,19 +9,21 @@ nothing of the gap; it must instead close much of the remainder of the loop.
 from collections.abc import Sequence
 from dataclasses import replace
 
-from rotemina.sim.gap.compare.candidates import scouts
 from rotemina.sim.gap.compare.cause_contest import Ranking
-from rotemina.sim.gap.compare.closed_share import closed
-from rotemina.sim.gap.compare.diagnosis_progress import Account
+from rotemina.sim.gap.compare.effect_candidates import scouts
 from rotemina.sim.gap.compare.explanations import Explanation, named_as
 from rotemina.sim.gap.compare.forward_selection import possible_causes
 from rotemina.sim.gap.compare.parallel_fits import fitted, screened_beside
 from rotemina.sim.gap.compare.rivals import Key, rivals
-from rotemina.sim.gap.fit.baseline import is_own
-from rotemina.sim.gap.fit.catalogue import catalogue, kinship_of
-from rotemina.sim.gap.fit.evidence import Evidence
-from rotemina.sim.gap.thresholds import CLEARLY, NEARLY_ALL, NOTICED, SMALL
-from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.gap.fit import Evidence, catalogue, is_own, kinship_of
+from rotemina.sim.gap.limits import (
+    MIN_ALMOST_COMPLETE_SHARE,
+    MIN_CAUSE_SHARE,
+    MIN_DOMINANT_SHARE_OF_REMAINDER,
+    MIN_NOTICEABLE_POWER,
+)
+from rotemina.sim.gap.result import Account, closed
+from rotemina.sim.robot import AxisEffect
 
 _FITTED = 4  # of what else might be there, that are compared in full
 
@@ -44,11 +46,11 @@ def accompanied(
     companion = _companion(best)
     if companion is None or companion in best.ids:
         return best, ranked
-    if best.score < NOTICED or closed(raw, best.score) < 1.0 - SMALL:
+    if best.score < MIN_NOTICEABLE_POWER or closed(raw, best.score) < 1.0 - MIN_CAUSE_SHARE:
         return best, ranked
     found = _with_one_more(evidence, best, companion, account, jobs)
     least = min(found, key=lambda one: one.score, default=best)
-    if companion not in least.ids or least.score > NEARLY_ALL * best.score:
+    if companion not in least.ids or least.score > MIN_ALMOST_COMPLETE_SHARE * best.score:
         return best, ranked
     return least, {**ranked, companion: rivals(evidence, least, found, companion, raw)}
 
@@ -72,7 +74,9 @@ def _with_one_more(
 
     def looked(some: Sequence[AxisEffect]) -> list[AxisEffect]:
         looks = screened_beside(evidence, begun, some, account, jobs, briefly=True)
-        enough = [one for one in looks if one.cost <= CLEARLY * best.fit.cost]
+        enough = [
+            one for one in looks if one.cost <= MIN_DOMINANT_SHARE_OF_REMAINDER * best.fit.cost
+        ]
         return [one.effect for one in sorted(enough, key=lambda one: one.cost)]
 
     own = looked([AxisEffect(axis=evidence.axis, id=companion[0])])

@@ -3,8 +3,8 @@
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.gap.fit.evidence import Evidence
-from rotemina.sim.records.record import Tap
+from rotemina.sim.gap.fit import Evidence
+from rotemina.sim.records import Tap
 
 _LEVELS = 2  # positions between which an axis only ever went, that tell too little
 _STILL = 1e-3  # of the range of a command, within which positions are one

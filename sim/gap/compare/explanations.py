@@ -7,12 +7,9 @@ from functools import cached_property
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.gap.fit.baseline import baseline
-from rotemina.sim.gap.fit.evidence import Evidence
-from rotemina.sim.gap.fit.held_out import held_out
-from rotemina.sim.gap.fit.output_error import Fit, fit
-from rotemina.sim.records.record import Tap
-from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.gap.fit import Evidence, Fit, baseline, fit, held_out
+from rotemina.sim.records import Tap
+from rotemina.sim.robot import AxisEffect
 
 MOST_STEPS = 9
 

@@ -7,13 +7,8 @@ from math import inf
 
 import numpy as np
 
-from rotemina.sim.effects.formulation import Stage
-from rotemina.sim.effects.identification import Sign
-from rotemina.sim.effects.kinship import Family
-from rotemina.sim.effects.registry import effect_named
-from rotemina.sim.gap.compare.candidates import candidates, is_slow, scouts, siblings
-from rotemina.sim.gap.compare.closed_share import closed
-from rotemina.sim.gap.compare.diagnosis_progress import Account
+from rotemina.sim.effects import EffectFamily, EffectSignature, EffectStage, load_effect
+from rotemina.sim.gap.compare.effect_candidates import candidates, is_slow, scouts, siblings
 from rotemina.sim.gap.compare.explanations import (
     MOST_STEPS,
     Explanation,
@@ -22,40 +17,48 @@ from rotemina.sim.gap.compare.explanations import (
     untouched,
 )
 from rotemina.sim.gap.compare.parallel_fits import fitted, screened_beside
-from rotemina.sim.gap.compare.ranking import Grade
 from rotemina.sim.gap.compare.repeated_causes import has_overtone, is_own_mode
 from rotemina.sim.gap.compare.retuning import retuned
 from rotemina.sim.gap.compare.screening import Screened
-from rotemina.sim.gap.fit.baseline import is_own
-from rotemina.sim.gap.fit.catalogue import brought_along, is_of, kinship_of
-from rotemina.sim.gap.fit.evidence import Evidence
-from rotemina.sim.gap.fit.output_error import fit
-from rotemina.sim.gap.thresholds import (
-    ADEQUATE,
-    CLEARLY,
-    DISTINCT,
-    HALF,
-    HOPELESS,
-    LEAST_POWER,
-    MUCH,
-    NARROW,
-    NEAR,
-    NEARLY_ALL,
-    NEXT_TO_NOTHING,
-    NOTICED,
-    SAME_SCORE,
-    SEEN,
-    SMALL,
-    SOME,
+from rotemina.sim.gap.fit import (
+    Evidence,
+    brought_along,
+    fit,
+    is_of,
+    is_own,
+    kinship_of,
 )
-from rotemina.sim.records.record import Tap
-from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.gap.limits import (
+    HOPELESS_SCORE_RATIO,
+    LARGE_SHARE,
+    MAX_CHANCE_SCORE_RATIO,
+    MAX_NEAR_SCORE_RATIO,
+    MAX_NOISE_POWER,
+    MIN_ALMOST_COMPLETE_SHARE,
+    MIN_CAUSE_POWER,
+    MIN_CAUSE_SHARE,
+    MIN_DISTINCT_RATIO,
+    MIN_DOMINANT_SHARE_OF_REMAINDER,
+    MIN_MAJORITY_SHARE,
+    MIN_NOTICEABLE_POWER,
+    MIN_OBVIOUS_POWER,
+    MIN_SHARE_TO_NAME,
+    NARROW_FIT_SCORE_FACTOR,
+    NEGLIGIBLE_SHARE,
+)
+from rotemina.sim.gap.result import Account, Grade, closed
+from rotemina.sim.records import Tap
+from rotemina.sim.robot import AxisEffect
 
 MOST_CAUSES = 3
 _FITTED = 6  # effects that are fitted in full after screening
 _FITTED_LATER = 4
 _FITTED_SLOWLY = 2  # beside a cause that takes long to simulate
-_GO_ON = (SOME, HALF, 1.0)  # share closed by one, two causes, to look for another
+_GO_ON = (
+    MIN_SHARE_TO_NAME,
+    MIN_MAJORITY_SHARE,
+    1.0,
+)  # share closed by one, two causes, to look for another
 _BEAM = (2, 1, 1)  # explanations that are extended, with one, two, three causes
 _MISLED = 2.0  # times what its slopes promise of a re-tuning, that this leaves
 
@@ -97,11 +100,15 @@ def select(
     alone = retuned(evidence)
     account.tried((), alone.score, Grade.UNSEEN)
     # A single motion confirms little: a further cause must then take away most of what is left.
-    least = HALF if len(evidence.observations) > 1 else CLEARLY
+    least = (
+        MIN_MAJORITY_SHARE if len(evidence.observations) > 1 else MIN_DOMINANT_SHARE_OF_REMAINDER
+    )
     enters = partial(_enters, bare, aside, evidence.has(Tap.REF), least)
     best = alone if enters(bare, alone) else bare
     beam, tried = [bare], [alone]
-    if alone.score >= NOTICED and closed(bare.score, alone.score) >= _least_own(bare, alone):
+    if alone.score >= MIN_NOTICEABLE_POWER and closed(bare.score, alone.score) >= _least_own(
+        bare, alone
+    ):
         beam = [bare, alone]
     for level in range(MOST_CAUSES):
         found = _all_extended(evidence, beam, own, bare, account, jobs)
@@ -121,9 +128,9 @@ def select(
                 break
         elif level > 0 or _is_little(bare, best):
             break  # two causes may still do what one alone does not do better than a re-tuning
-        near = [one for one in found if one.score < DISTINCT * found[0].score]
+        near = [one for one in found if one.score < MIN_DISTINCT_RATIO * found[0].score]
         beam = _unlike(near)[: _BEAM[level]]
-        if best.score < NOTICED or closed(bare.score, best.score) < _GO_ON[level]:
+        if best.score < MIN_NOTICEABLE_POWER or closed(bare.score, best.score) < _GO_ON[level]:
             break
     simplest = _simplified(evidence, enters, best)
     return Selection(bare, alone, simplest, tuple(sorted(tried, key=lambda one: one.score)))
@@ -136,7 +143,7 @@ def _least_own(bare: Explanation, alone: Explanation) -> float:
     their bounds or curves do not keep that promise, it passes over what is really there.
     """
     promised = float(np.mean(bare.fit.beside**2))
-    return HALF if alone.fit.cost > _MISLED * promised else NEARLY_ALL
+    return MIN_MAJORITY_SHARE if alone.fit.cost > _MISLED * promised else MIN_ALMOST_COMPLETE_SHARE
 
 
 def possible_causes(evidence: Evidence) -> list[AxisEffect]:
@@ -154,11 +161,11 @@ def _is_told_otherwise(evidence: Evidence, candidate: AxisEffect) -> bool:
     A gain of the axis says what one of the sensor does, where no reference tells them apart. And
     rounded as well, an answer may be off by two halves of a cell.
     """
-    effect = effect_named(candidate.id)
-    of_the_sensor = _is_at_sensor(candidate) and is_of(Family.GAIN, effect.id)
+    effect = load_effect(candidate.id)
+    of_the_sensor = _is_at_sensor(candidate) and is_of(EffectFamily.GAIN, effect.id)
     if of_the_sensor and not evidence.has(Tap.REF):
         return True
-    return evidence.in_cells and effect.identification.shows_as is Sign.STEPS
+    return evidence.in_cells and effect.identification.shows_as is EffectSignature.STEPS
 
 
 def _enters(
@@ -179,7 +186,7 @@ def _enters(
     needed = max(_needed(after.causes, staged), default=0.0)
     return any(
         _closes(bare.by_tap[tap], before.by_tap[tap], left, needed, least, alone=not before.causes)
-        and before.by_tap[tap] - left >= NEXT_TO_NOTHING * aside.get(tap, 0.0)
+        and before.by_tap[tap] - left >= NEGLIGIBLE_SHARE * aside.get(tap, 0.0)
         for tap, left in after.by_tap.items()
     )
 
@@ -199,34 +206,36 @@ def _needed(causes: Sequence[AxisEffect], staged: bool) -> Iterator[float]:
 
 
 def _is_at_sensor(cause: AxisEffect) -> bool:
-    return effect_named(cause.id).stage is Stage.SENSOR
+    return load_effect(cause.id).stage is EffectStage.SENSOR
 
 
 def _closes(
     raw: float, before: float, after: float, needed: float, least: float, *, alone: bool
 ) -> bool:
     closing = before - after
-    if closing >= max(max(SMALL, needed) * (raw - 1.0), LEAST_POWER):
+    if closing >= max(max(MIN_CAUSE_SHARE, needed) * (raw - 1.0), MIN_CAUSE_POWER):
         return True
     if needed > 0.0:
         return False  # what another one brings along is how that differs from its formula
     if alone:
-        return before >= NOTICED and closing >= CLEARLY * (before - 1.0)
+        return before >= MIN_NOTICEABLE_POWER and closing >= MIN_DOMINANT_SHARE_OF_REMAINDER * (
+            before - 1.0
+        )
     # Beside other causes, less may be how these differ from their formulas.
-    return closing >= max(least * (before - 1.0), SEEN)
+    return closing >= max(least * (before - 1.0), MIN_OBVIOUS_POWER)
 
 
-def _is_little(bare: Explanation, begun: Explanation, seen: float = SEEN) -> bool:
+def _is_little(bare: Explanation, begun: Explanation, seen: float = MIN_OBVIOUS_POWER) -> bool:
     """Tell whether no single further cause can close its share of any tap's gap, or be seen."""
     return all(
-        left - 1.0 < min(max(SMALL * (bare.by_tap[tap] - 1.0), LEAST_POWER), seen)
+        left - 1.0 < min(max(MIN_CAUSE_SHARE * (bare.by_tap[tap] - 1.0), MIN_CAUSE_POWER), seen)
         for tap, left in begun.by_tap.items()
     )
 
 
 def _is_enough(bare: Explanation, best: Explanation) -> bool:
     """Tell whether no further cause can close its share, nor correct the model by much."""
-    return _is_little(bare, best) and closed(bare.score, best.score) > 1.0 - NEXT_TO_NOTHING
+    return _is_little(bare, best) and closed(bare.score, best.score) > 1.0 - NEGLIGIBLE_SHARE
 
 
 def _apart_from_own(
@@ -238,7 +247,7 @@ def _apart_from_own(
     later for one. That of a re-tuning ``alone`` is the simpler reason where it explains most.
     """
     apart = [one for one in found if not is_own_mode(evidence, one, one)]
-    if closed(bare.score, alone.score) < NEARLY_ALL:
+    if closed(bare.score, alone.score) < MIN_ALMOST_COMPLETE_SHARE:
         return apart
     return [one for one in apart if not is_own_mode(evidence, alone, one)]
 
@@ -259,7 +268,7 @@ def _all_extended(
     for begun in beam:
         found += _extended(evidence, begun, own, bare, account, jobs)
         if begun.causes and any(
-            closed(bare.score, one.score) > 1.0 - NEXT_TO_NOTHING for one in found
+            closed(bare.score, one.score) > 1.0 - NEGLIGIBLE_SHARE for one in found
         ):
             break
     return found
@@ -286,7 +295,7 @@ def _extended(
     account.tell("screening", None)
     first = scouts(evidence, free)
     looks = screened_beside(evidence, begun, first, account, jobs, briefly=little or slow)
-    if little and min(one.cost for one in looks) > MUCH * begun.score:
+    if little and min(one.cost for one in looks) > LARGE_SHARE * begun.score:
         return []
     most = _FITTED_LATER if begun.causes else _FITTED
     if slow:
@@ -296,15 +305,17 @@ def _extended(
     found = fitted(evidence, [[*begun.causes, one] for one in chosen], account, jobs, begun)
     others = [_informed(one, found) for one in siblings(chosen, free) if one not in first]
     best = min(found, key=lambda one: one.fit.cost)
-    if best.fit.cost < ADEQUATE:
+    if best.fit.cost < MAX_NOISE_POWER:
         # Other formulations, which take long, could do no better; but a curve bends to anything.
         others = [one for one in others if _is_bent_to(best, one, begun, found)]
     if others:
         slower = screened_beside(evidence, begun, others, account, jobs, briefly=True)
         least = min(one.fit.cost for one in found)
-        worth = CLEARLY if begun.causes else NEAR
+        worth = MIN_DOMINANT_SHARE_OF_REMAINDER if begun.causes else MAX_NEAR_SCORE_RATIO
         slower = [
-            one for one in slower if one.cost < max(worth * least, SOME * _quick(one.effect, found))
+            one
+            for one in slower
+            if one.cost < max(worth * least, MIN_SHARE_TO_NAME * _quick(one.effect, found))
         ]
         attempts = [[*begun.causes, one.effect] for one in slower]
         found += fitted(evidence, attempts, account, jobs, begun) if attempts else []
@@ -319,7 +330,7 @@ def _is_bent_to(
     Its quick form does much of it then.
     """
     imitates = kinship_of(best.causes[-1].id).family in kinship_of(slow.id).imitated_by
-    return imitates and closed(begun.fit.cost, _quick(slow, found)) >= MUCH
+    return imitates and closed(begun.fit.cost, _quick(slow, found)) >= LARGE_SHARE
 
 
 def _informed(slow: AxisEffect, found: Sequence[Explanation]) -> AxisEffect:
@@ -327,7 +338,7 @@ def _informed(slow: AxisEffect, found: Sequence[Explanation]) -> AxisEffect:
 
     Any other is returned as it is.
     """
-    begin = effect_named(slow.id).identification.from_other
+    begin = load_effect(slow.id).identification.from_other
     own = next((cause for one in found for cause in one.causes if cause.id == slow.id), None)
     if begin is None or own is None:
         return slow
@@ -353,7 +364,7 @@ def _in_other_words(
 
     The one that did best alone need not do so beside the others.
     """
-    if begun.score < NOTICED or len(begun.causes) < 2:
+    if begun.score < MIN_NOTICEABLE_POWER or len(begun.causes) < 2:
         return []
     attempts = [
         [other if one is cause else one for one in begun.causes]
@@ -369,12 +380,12 @@ def _twins(
     """Return effects that alone did about as well as a cause that alone did much."""
     alone = {one.ids[0]: one for one in reversed(tried) if len(one.causes) == 1}
     own = alone.get((cause.id, cause.from_axis))
-    if own is None or closed(bare.score, own.score) < SOME:
+    if own is None or closed(bare.score, own.score) < MIN_SHARE_TO_NAME:
         return []
     return [
         one.causes[0]
         for key, one in alone.items()
-        if key not in begun.ids and one.score < SAME_SCORE * own.score
+        if key not in begun.ids and one.score < MAX_CHANCE_SCORE_RATIO * own.score
     ]
 
 
@@ -387,7 +398,7 @@ def _chosen(looks: Sequence[Screened], most: int) -> list[AxisEffect]:
         key = one.effect.id, one.effect.from_axis
         if key not in taken and len(taken) == most:
             continue
-        if len(taken) >= 2 and one.cost > HOPELESS * least:
+        if len(taken) >= 2 and one.cost > HOPELESS_SCORE_RATIO * least:
             continue
         if taken.setdefault(key, 0) < 2:
             taken[key] += 1
@@ -416,7 +427,7 @@ def _unlike(found: Sequence[Explanation]) -> list[Explanation]:
     for one in found:
         apart = [one.held_out - other.held_out for other in unlike]
         if all(
-            float(gap @ gap) > (SAME_SCORE - 1.0) * float(one.held_out @ one.held_out)
+            float(gap @ gap) > (MAX_CHANCE_SCORE_RATIO - 1.0) * float(one.held_out @ one.held_out)
             for gap in apart
         ):
             unlike.append(one)
@@ -425,7 +436,7 @@ def _unlike(found: Sequence[Explanation]) -> list[Explanation]:
 
 def _merit(one: Explanation) -> float:
     narrow = sum(cause.formulation in kinship_of(cause.id).narrow for cause in one.causes)
-    return one.score * NARROW**narrow
+    return one.score * NARROW_FIT_SCORE_FACTOR**narrow
 
 
 def _simplified(

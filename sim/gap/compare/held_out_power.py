@@ -11,8 +11,8 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.gap.fit.evidence import Evidence
-from rotemina.sim.records.record import Tap
+from rotemina.sim.gap.fit import Evidence
+from rotemina.sim.records import Tap
 
 BLOCKS = 32  # into which the rows of a channel are cut
 MOST_COUNTED = 100.0  # independent rows, as which any number of rows counts at most

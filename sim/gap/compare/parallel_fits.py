@@ -10,13 +10,16 @@ from typing import TypeVar
 
 from joblib import Parallel, delayed
 
-from rotemina.sim.gap.compare.diagnosis_progress import Account
 from rotemina.sim.gap.compare.explanations import MOST_STEPS, Explanation, beside, explanation
-from rotemina.sim.gap.compare.ranking import Grade
 from rotemina.sim.gap.compare.screening import Screened, screen
-from rotemina.sim.gap.fit.evidence import Evidence
-from rotemina.sim.gap.fit.output_error import Fit, finished, sketched
-from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.gap.fit import (
+    Evidence,
+    Fit,
+    finished,
+    sketched,
+)
+from rotemina.sim.gap.result import Account, Grade
+from rotemina.sim.robot import AxisEffect
 
 _SKETCHED = 3  # steps after which attempts are compared
 _BEHIND = 3.0  # times the cost of the best, from which an attempt is given up

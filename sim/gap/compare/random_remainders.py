@@ -14,9 +14,9 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.gap.compare.explanations import Explanation
-from rotemina.sim.gap.fit.evidence import Evidence
-from rotemina.sim.gap.location.residual_features import lagged
-from rotemina.sim.records.record import Tap
+from rotemina.sim.gap.fit import Evidence
+from rotemina.sim.gap.location import apply_lag
+from rotemina.sim.records import Tap
 
 _DRAWS = 100
 _OF_MOTION = 0.6  # of the draws; the others are forces
@@ -103,8 +103,8 @@ def _of_motion(motions: Motions, travel: float, rng: np.random.Generator) -> Mot
     found = []
     for time_s, place in motions:
         step_s = (time_s[-1] - time_s[0]) / (len(time_s) - 1)
-        speed = lagged(np.gradient(place, step_s), speed_s / step_s)
-        active = lagged(np.abs(speed), active_s / step_s)
+        speed = apply_lag(np.gradient(place, step_s), speed_s / step_s)
+        active = apply_lag(np.abs(speed), active_s / step_s)
         seen = np.stack([place / travel, speed / pace, active / pace])
         found.append((time_s, np.cos(waves @ seen + phases).sum(axis=0)))
     return found
@@ -116,6 +116,6 @@ def _of_time(motions: Motions, rng: np.random.Generator) -> Motions:
     step_s = max(_GRID_S, longest_s / _MOST_KICKS)
     force = rng.normal(size=int(longest_s / step_s) + 2)
     for hz in _COLOUR_HZ:
-        force = lagged(force, 1.0 / (2.0 * np.pi * rng.uniform(*hz) * step_s))
+        force = apply_lag(force, 1.0 / (2.0 * np.pi * rng.uniform(*hz) * step_s))
     grid_s = step_s * np.arange(len(force))
     return [(time_s, np.interp(time_s - time_s[0], grid_s, force)) for time_s, _ in motions]

@@ -2,12 +2,11 @@
 
 import numpy as np
 
-from rotemina.sim.effects.formulation import Part, Stage
-from rotemina.sim.effects.registry import effect_named
+from rotemina.sim.effects import AddedStates, EffectStage, load_effect
 from rotemina.sim.gap.compare.explanations import Explanation
-from rotemina.sim.gap.fit.evidence import Evidence
-from rotemina.sim.records.record import Tap
-from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.gap.fit import Evidence
+from rotemina.sim.records import Tap
+from rotemina.sim.robot import AxisEffect
 
 _ONE_MODE = 0.03  # relative difference of frequencies that are one mode's
 _ONE_PERIOD = 0.003  # the same of periods, as multiples of another's
@@ -36,9 +35,9 @@ def is_own_mode(evidence: Evidence, tuned: Explanation, one: Explanation) -> boo
 
 def _is_mode(cause: AxisEffect) -> bool:
     """Tell whether a cause is linear states that the axis' own input drives."""
-    effect = effect_named(cause.id)
-    form = effect.formulation(cause.formulation)
-    return form is not None and isinstance(form.acts, Part) and not effect.coupled
+    effect = load_effect(cause.id)
+    form = effect.find_formulation(cause.formulation)
+    return form is not None and isinstance(form.acts, AddedStates) and not effect.coupled
 
 
 def has_overtone(evidence: Evidence, one: Explanation) -> bool:
@@ -51,7 +50,7 @@ def has_overtone(evidence: Evidence, one: Explanation) -> bool:
         cause.parameters["period"]
         for cause in one.causes
         if "period" in cause.parameters
-        and not (told and effect_named(cause.id).stage is Stage.SENSOR)
+        and not (told and load_effect(cause.id).stage is EffectStage.SENSOR)
     ]
     for long in periods:
         for short in periods:

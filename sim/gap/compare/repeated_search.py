@@ -2,10 +2,8 @@
 
 from collections.abc import Sequence
 
-from rotemina.sim.effects.identification import Sign
+from rotemina.sim.effects import EffectSignature
 from rotemina.sim.gap.compare.attribution import attributed
-from rotemina.sim.gap.compare.closed_share import closed
-from rotemina.sim.gap.compare.diagnosis_progress import Account
 from rotemina.sim.gap.compare.explanations import (
     Explanation,
     counted_in,
@@ -14,22 +12,26 @@ from rotemina.sim.gap.compare.explanations import (
 )
 from rotemina.sim.gap.compare.forward_selection import Selection, select
 from rotemina.sim.gap.compare.row_weights import huber_weighted
-from rotemina.sim.gap.fit.baseline import is_own
-from rotemina.sim.gap.fit.evidence import Evidence
-from rotemina.sim.gap.noise.disturbances import Disturbance, power_by_tap, set_aside
-from rotemina.sim.gap.noise.sensor_wander import wander
-from rotemina.sim.gap.thresholds import (
-    ADEQUATE,
-    CLEARLY,
-    GAP,
-    MUCH,
-    NEAR,
-    NEARLY_ALL,
-    NOTICED,
-    SAME_SCORE,
-    SMALL,
+from rotemina.sim.gap.fit import Evidence, is_own
+from rotemina.sim.gap.limits import (
+    LARGE_SHARE,
+    MAX_CHANCE_SCORE_RATIO,
+    MAX_NEAR_SCORE_RATIO,
+    MAX_NOISE_POWER,
+    MIN_ALMOST_COMPLETE_SHARE,
+    MIN_CAUSE_SHARE,
+    MIN_DOMINANT_SHARE_OF_REMAINDER,
+    MIN_GAP_POWER,
+    MIN_NOTICEABLE_POWER,
 )
-from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.gap.noise import (
+    Disturbance,
+    power_by_tap,
+    set_aside,
+    wander,
+)
+from rotemina.sim.gap.result import Account, closed
+from rotemina.sim.robot import AxisEffect
 
 _LOOKS = 3  # for disturbances, beside what the one before explains
 
@@ -58,16 +60,16 @@ def _looked_again(whole: Evidence, first: Found, account: Account, jobs: int) ->
     for _ in range(_LOOKS):
         _, aside, _, best = first
         acting = [one for one in best.fit.effects if acts(one)]
-        if best.score < ADEQUATE or not acting:
+        if best.score < MAX_NOISE_POWER or not acting:
             break
         evidence, found = set_aside(whole, acting)
         if not _more(found, aside):
             break
         again = explain(evidence, [one for one in best.causes if not is_own(evidence, one)])
-        if again.score > NEARLY_ALL * best.score:
+        if again.score > MIN_ALMOST_COMPLETE_SHARE * best.score:
             break  # what is set aside beside these causes hid nothing
         selection, better = _explained(whole, evidence, found, account, jobs)
-        if better.score > MUCH * best.score:
+        if better.score > LARGE_SHARE * best.score:
             break
         first = evidence, found, selection, better
     return first
@@ -80,12 +82,14 @@ def _without_false_jumps(whole: Evidence, first: Found, account: Account, jobs: 
     axis, at every reversal by its play. Only these explanations count where little remains.
     """
     _, aside, _, best = first
-    if best.score < NOTICED or not any(one.sign is Sign.JUMPS for one in aside):
+    if best.score < MIN_NOTICEABLE_POWER or not any(
+        one.sign is EffectSignature.JUMPS for one in aside
+    ):
         return first
     evidence, others = set_aside(whole, jumps=False)
     second = evidence, others, *_explained(whole, evidence, others, account, jobs)
-    simpler = closed(second[2].raw, second[3].score) >= 1.0 - SMALL
-    return second if simpler or second[3].score < MUCH * best.score else first
+    simpler = closed(second[2].raw, second[3].score) >= 1.0 - MIN_CAUSE_SHARE
+    return second if simpler or second[3].score < LARGE_SHARE * best.score else first
 
 
 def _without_false_cells(whole: Evidence, first: Found, account: Account, jobs: int) -> Found:
@@ -95,7 +99,7 @@ def _without_false_cells(whole: Evidence, first: Found, account: Account, jobs: 
     """
     evidence, _, selection, best = first
     share = closed(selection.raw, best.score)
-    if not evidence.in_cells or share >= CLEARLY:
+    if not evidence.in_cells or share >= MIN_DOMINANT_SHARE_OF_REMAINDER:
         return first
     evidence, aside = set_aside(whole, cells=False)
     second = evidence, aside, *_explained(whole, evidence, aside, account, jobs)
@@ -118,7 +122,7 @@ def _with_even_rows(whole: Evidence, first: Found, account: Account, jobs: int) 
     if even is None:
         return first
     counted = [counted_in(even, evidence, one) for one in tried.tried]
-    near = NEAR * min(one.score for one in counted)
+    near = MAX_NEAR_SCORE_RATIO * min(one.score for one in counted)
     begun = [one for one in counted if one.score < near and len(one.ids) <= len(best.ids)]
     own, *again = (
         explain(even, [cause for cause in one.causes if not is_own(even, cause)])
@@ -126,7 +130,7 @@ def _with_even_rows(whole: Evidence, first: Found, account: Account, jobs: int) 
     )
     others = [one for one in again if not set(one.ids) <= set(best.ids)]
     other = min(others, key=lambda one: one.score, default=own)
-    if other.score > MUCH * own.score:
+    if other.score > LARGE_SHARE * own.score:
         return first
     bare, alone = untouched(even), explain(even, ())
     fits = sorted([own, *again, alone], key=lambda one: one.score)
@@ -136,7 +140,7 @@ def _with_even_rows(whole: Evidence, first: Found, account: Account, jobs: int) 
 def _more(found: Sequence[Disturbance], before: Sequence[Disturbance]) -> bool:
     """Tell whether disturbances are others than before, or clearly more of them."""
     known = {one.sign: one.power for one in before}
-    return any(one.power > SAME_SCORE * known.get(one.sign, 0.0) for one in found)
+    return any(one.power > MAX_CHANCE_SCORE_RATIO * known.get(one.sign, 0.0) for one in found)
 
 
 def _explained(
@@ -148,10 +152,12 @@ def _explained(
 ) -> tuple[Selection, Explanation]:
     """Return the selection, and the best explanation with its own parameters as causes."""
     bare = untouched(evidence)
-    if max(bare.by_tap.values()) < GAP:
+    if max(bare.by_tap.values()) < MIN_GAP_POWER:
         return Selection(bare, bare, bare, ()), bare
     # What readings leave beyond their steps is nothing that these leave of themselves.
-    leaving = [one for one in aside if not (evidence.in_cells and one.sign is Sign.STEPS)]
+    leaving = [
+        one for one in aside if not (evidence.in_cells and one.sign is EffectSignature.STEPS)
+    ]
     power = {
         tap: power * (whole.floor(tap) / evidence.floor(tap)) ** 2
         for tap, power in power_by_tap(whole, leaving).items()

@@ -11,22 +11,19 @@ from itertools import combinations
 
 import numpy as np
 
-from rotemina.sim.effects.formulation import Trait
-from rotemina.sim.effects.registry import effect_named
-from rotemina.sim.gap.compare.candidates import scouts
-from rotemina.sim.gap.compare.diagnosis_progress import Account
+from rotemina.sim.effects import EffectTrait, load_effect
+from rotemina.sim.gap.compare.effect_candidates import scouts
 from rotemina.sim.gap.compare.explanations import MOST_STEPS, Explanation, explanation, named_as
 from rotemina.sim.gap.compare.forward_selection import possible_causes
 from rotemina.sim.gap.compare.held_out_power import held_out_powers
 from rotemina.sim.gap.compare.parallel_fits import fitted, screened_beside
 from rotemina.sim.gap.compare.weights import weigh
-from rotemina.sim.gap.fit.baseline import is_own
-from rotemina.sim.gap.fit.evidence import Evidence
-from rotemina.sim.gap.fit.output_error import fit
-from rotemina.sim.gap.thresholds import NOTICED
+from rotemina.sim.gap.fit import Evidence, fit, is_own
+from rotemina.sim.gap.limits import MIN_NOTICEABLE_POWER
+from rotemina.sim.gap.result import Account
 
 _FITTED = 3  # effects that are compared in full
-_NOT_FORETOLD = {Trait.RANDOM, Trait.LOCKED_TO_TIME}
+_NOT_FORETOLD = {EffectTrait.RANDOM, EffectTrait.LOCKED_TO_TIME}
 
 
 def with_retained(
@@ -68,7 +65,7 @@ def _with_one_more(
 
     What acts by time alone foretells nothing of another motion.
     """
-    if best.score < NOTICED:
+    if best.score < MIN_NOTICEABLE_POWER:
         return []
     held = [one for one in best.fit.effects if not is_own(evidence, one)]
     begun = replace(best, causes=tuple(held))
@@ -76,7 +73,7 @@ def _with_one_more(
         one
         for one in possible_causes(evidence)
         if (one.id, one.from_axis) not in begun.ids
-        and not effect_named(one.id).formulations[0].traits & _NOT_FORETOLD
+        and not load_effect(one.id).formulations[0].traits & _NOT_FORETOLD
     ]
     looks = screened_beside(evidence, begun, scouts(evidence, free), account, jobs, briefly=True)
     chosen = sorted(looks, key=lambda one: one.cost)[:_FITTED]

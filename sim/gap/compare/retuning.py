@@ -5,11 +5,9 @@ from dataclasses import replace
 import numpy as np
 
 from rotemina.sim.gap.compare.explanations import Explanation, explanation
-from rotemina.sim.gap.fit.baseline import baseline
-from rotemina.sim.gap.fit.evidence import Evidence
-from rotemina.sim.gap.fit.output_error import fit
-from rotemina.sim.gap.thresholds import CLEARLY
-from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.gap.fit import Evidence, baseline, fit
+from rotemina.sim.gap.limits import MIN_DOMINANT_SHARE_OF_REMAINDER
+from rotemina.sim.robot import AxisEffect
 
 _STEPS = 30  # a resonance that is far off is not found sooner
 _OFF = np.arange(-0.28, 0.281, 0.04)  # of its frequency: closer than a peak is wide
@@ -29,7 +27,7 @@ def retuned(evidence: Evidence) -> Explanation:
         )
         if _left(evidence, begun) < _left(evidence, own):
             far = fit(evidence, begun, most_steps=_STEPS)
-            near = far if far.cost < CLEARLY * near.cost else near
+            near = far if far.cost < MIN_DOMINANT_SHARE_OF_REMAINDER * near.cost else near
     return explanation(evidence, 0, near)
 
 

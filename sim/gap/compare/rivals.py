@@ -6,28 +6,32 @@ from dataclasses import dataclass
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.effects.kinship import Family
-from rotemina.sim.effects.registry import effect_named
-from rotemina.sim.gap.compare.closed_share import closed
+from rotemina.sim.effects import EffectFamily, load_effect
 from rotemina.sim.gap.compare.explanations import Explanation
 from rotemina.sim.gap.compare.held_out_power import held_out_powers
 from rotemina.sim.gap.compare.weights import weigh
-from rotemina.sim.gap.fit.baseline import is_whole_own
-from rotemina.sim.gap.fit.catalogue import is_of, kinship_of, with_parameter
-from rotemina.sim.gap.fit.evidence import Evidence, block_rows
-from rotemina.sim.gap.fit.row_blocks import Blocks
-from rotemina.sim.gap.thresholds import (
-    ANOTHER_MACHINE,
-    FAR_OFF,
-    NEARLY_ALL,
-    NOTICED,
-    POSSIBLE,
-    SIMPLER,
-    SMALL,
-    TIED,
+from rotemina.sim.gap.fit import (
+    Blocks,
+    Evidence,
+    block_rows,
+    is_of,
+    is_whole_own,
+    kinship_of,
+    with_parameter,
 )
-from rotemina.sim.records.record import Tap
-from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.gap.limits import (
+    FAR_OFF_POWER,
+    MAX_TIED_SCORE_RATIO,
+    MIN_ALMOST_COMPLETE_SHARE,
+    MIN_CAUSE_SHARE,
+    MIN_NOTICEABLE_POWER,
+    MIN_RIVAL_PROBABILITY_RATIO,
+    PRIOR_FACTOR_AT_BOUND,
+    PRIOR_FACTOR_PER_PARAMETER,
+)
+from rotemina.sim.gap.result import closed
+from rotemina.sim.records import Tap
+from rotemina.sim.robot import AxisEffect
 
 _MOST_MORE = 2  # parameters that count so
 _AT_AN_END = 0.01  # of a parameter's bounds apart, how near to one it is at it
@@ -90,14 +94,18 @@ def not_ruled_out(ranked: Sequence[Rival], cause: Key, raw: float) -> tuple[str,
     names = [
         one.effect
         for one in ranked
-        if one.effect != cause[0] and one.probability >= POSSIBLE * likeliest
+        if one.effect != cause[0] and one.probability >= MIN_RIVAL_PROBABILITY_RATIO * likeliest
     ]
     own = next((one for one in ranked if (one.effect, one.from_axis) == cause), None)
     closest = min(ranked, key=lambda one: one.explanation.score)
-    if own is not None and own.explanation.score >= NOTICED and closest.effect != cause[0]:
+    if (
+        own is not None
+        and own.explanation.score >= MIN_NOTICEABLE_POWER
+        and closest.effect != cause[0]
+    ):
         names.append(closest.effect)
     load = with_parameter("mass_ratio")
-    if load is not None and is_of(Family.RESONANCE, cause[0]) and _is_slight(ranked, cause):
+    if load is not None and is_of(EffectFamily.RESONANCE, cause[0]) and _is_slight(ranked, cause):
         names.append(load[0].id)
     names += [other.effect for other in ranked if _is_kin(ranked, cause, other, raw)]
     return tuple(dict.fromkeys(names))
@@ -109,11 +117,15 @@ def _is_kin(ranked: Sequence[Rival], cause: Key, other: Rival, raw: float) -> bo
     A sticking screw and a loose one both lag at each reversal. How softly they engage, and how a
     dither affects them, differs between machines; no formula is exact.
     """
-    kin = is_of(Family.LOST_MOTION, cause[0]) and is_of(Family.LOST_MOTION, other.effect)
+    kin = is_of(EffectFamily.LOST_MOTION, cause[0]) and is_of(
+        EffectFamily.LOST_MOTION, other.effect
+    )
     if not kin or other.effect == cause[0] or cause[1] is not None:
         return False
     left = next(one.explanation.score for one in ranked if one.effect == cause[0])
-    return left >= FAR_OFF and closed(raw, other.explanation.score) >= NEARLY_ALL
+    return (
+        left >= FAR_OFF_POWER and closed(raw, other.explanation.score) >= MIN_ALMOST_COMPLETE_SHARE
+    )
 
 
 def _fitted_value(ranked: Sequence[Rival], cause: Key, name: str) -> float:
@@ -136,7 +148,9 @@ def _is_slight(ranked: Sequence[Rival], cause: Key) -> bool:
 
 def _prior(effect: str, more_parameters: int) -> float:
     """Return how likely an effect is before any record: the simpler one on a tie."""
-    return kinship_of(effect).prior * SIMPLER ** -min(more_parameters, _MOST_MORE)
+    return kinship_of(effect).prior * PRIOR_FACTOR_PER_PARAMETER ** -min(
+        more_parameters, _MOST_MORE
+    )
 
 
 def probability(ranked: Sequence[Rival], cause: Key) -> float:
@@ -153,7 +167,7 @@ def _as_the_machine(one: Explanation) -> float:
         for free, x in zip(one.fit.free, one.fit.x, strict=True)
         if free.effect in own
     )
-    return ANOTHER_MACHINE if any(reached) else 1.0
+    return PRIOR_FACTOR_AT_BOUND if any(reached) else 1.0
 
 
 def _counted(one: Explanation, cause: Key) -> int:
@@ -161,15 +175,15 @@ def _counted(one: Explanation, cause: Key) -> int:
 
     A filter has some order: a delay without order is not more likely for that reason.
     """
-    if not is_of(Family.LATE, cause[0]):
+    if not is_of(EffectFamily.LATE, cause[0]):
         return one.fit.parameters
-    shapes = [_shape(own) for own in one.causes if is_of(Family.LATE, own.id)]
+    shapes = [_shape(own) for own in one.causes if is_of(EffectFamily.LATE, own.id)]
     return one.fit.parameters - sum(shapes)
 
 
 def _shape(late: AxisEffect) -> int:
     """Return the number of parameters of an effect besides its delay."""
-    formulation = effect_named(late.id).formulation(late.formulation)
+    formulation = load_effect(late.id).find_formulation(late.formulation)
     return len(formulation.parameters) - 1 if formulation is not None else 0
 
 
@@ -187,12 +201,12 @@ def _more_parameters(
 
 def _is_near(best: Explanation, other: Explanation, raw: float) -> bool:
     """Tell whether another explanation closes nearly as much of the gap."""
-    return _is_tied(best, other) or other.score - best.score < SMALL * (raw - 1.0)
+    return _is_tied(best, other) or other.score - best.score < MIN_CAUSE_SHARE * (raw - 1.0)
 
 
 def _is_tied(best: Explanation, other: Explanation) -> bool:
     """Tell whether another explanation does about as well, so that the simpler one counts."""
-    return other.score < TIED * best.score
+    return other.score < MAX_TIED_SCORE_RATIO * best.score
 
 
 def paired_blocks(evidence: Evidence, left: Sequence[FloatArray], tap: Tap) -> Blocks:

@@ -13,9 +13,9 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.gap.compare.held_out_power import BLOCKS
-from rotemina.sim.gap.fit.evidence import Evidence
-from rotemina.sim.gap.thresholds import SOME
-from rotemina.sim.records.record import Tap
+from rotemina.sim.gap.fit import Evidence
+from rotemina.sim.gap.limits import MIN_SHARE_TO_NAME
+from rotemina.sim.records import Tap
 
 
 def huber_weighted(evidence: Evidence, left: Sequence[FloatArray]) -> Evidence | None:
@@ -46,7 +46,7 @@ def huber_weighted(evidence: Evidence, left: Sequence[FloatArray]) -> Evidence |
             [max(min(float(np.mean(one[block] ** 2)) for one in left), 1.0) for block in blocks]
         )
         share = np.minimum(1.0, np.median(power) / power)
-        uneven |= float(power @ (1.0 - share)) > SOME * float(power.sum())
+        uneven |= float(power @ (1.0 - share)) > MIN_SHARE_TO_NAME * float(power.sum())
         by_row = np.ones(len(left[0]))
         for block, one in zip(blocks, share, strict=True):
             by_row[block] = np.sqrt(one)

@@ -10,23 +10,21 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.effects.attachment import Attached
-from rotemina.sim.effects.formulation import Stage
-from rotemina.sim.effects.registry import effect_named
-from rotemina.sim.gap.compare.candidates import is_slow
-from rotemina.sim.gap.fit.descent import one_step
-from rotemina.sim.gap.fit.evidence import Evidence
-from rotemina.sim.gap.fit.fit_starts import starts
-from rotemina.sim.gap.fit.output_error import (
+from rotemina.sim.effects import AttachedEffect, EffectStage, load_effect
+from rotemina.sim.gap.compare.effect_candidates import is_slow
+from rotemina.sim.gap.fit import (
     NUMERICAL,
+    Evidence,
     Fit,
     bounds,
     free_parameters,
     lost,
+    one_step,
     residual_of,
+    starts,
     with_values,
 )
-from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.robot import AxisEffect
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +68,7 @@ def _without_slow_drives(
     quick = [
         one
         for one in fitted.effects
-        if effect_named(one.id).stage is not Stage.ELECTRONICS or not is_slow(evidence, one)
+        if load_effect(one.id).stage is not EffectStage.ELECTRONICS or not is_slow(evidence, one)
     ]
     if len(quick) == len(fitted.effects):
         return quick, fitted.residual
@@ -103,7 +101,7 @@ def _begun(
 
 
 def _amounts(evidence: Evidence, candidate: AxisEffect) -> list[str]:
-    formulation = Attached.of(evidence.robot, candidate).formulation
+    formulation = AttachedEffect.of(evidence.robot, candidate).formulation
     return [parameter.name for parameter in formulation.parameters if parameter.linear]
 
 
@@ -113,7 +111,7 @@ def _directions(
     """Return a candidate in each of its amounts alone, or as it is where it has none."""
     if not names:
         return [candidate]
-    values = Attached.of(evidence.robot, candidate).values
+    values = AttachedEffect.of(evidence.robot, candidate).values
     size = max(abs(values[name]) for name in names)
     none = dict.fromkeys(names, 0.0)
     return [
@@ -129,10 +127,10 @@ def _in_amounts(
     directions: Sequence[AxisEffect],
     amounts: FloatArray,
 ) -> AxisEffect:
-    attached = Attached.of(evidence.robot, candidate)
+    attached = AttachedEffect.of(evidence.robot, candidate)
     found = dict(candidate.parameters)
     for name, one, amount in zip(names, directions, amounts, strict=True):
-        parameter = attached.formulation.parameter(name)
+        parameter = attached.formulation.find_parameter(name)
         assert parameter is not None
         most = parameter.bounds(attached.facts)
         found[name] = float(np.clip(amount * one.parameters[name], *most))

@@ -9,19 +9,20 @@ from dataclasses import replace
 
 import numpy as np
 
-from rotemina.sim.effects.attachment import Attached
-from rotemina.sim.effects.formulation import Late, Stage
-from rotemina.sim.effects.kinship import Family
-from rotemina.sim.effects.registry import effect_named
+from rotemina.sim.effects import AttachedEffect, EffectFamily, EffectStage, InputDelay, load_effect
 from rotemina.sim.gap.compare.excitation_richness import alike_axes
-from rotemina.sim.gap.fit.baseline import is_whole_own
-from rotemina.sim.gap.fit.catalogue import catalogue, is_of, with_parameter
-from rotemina.sim.gap.fit.evidence import Evidence
-from rotemina.sim.records.record import Tap
-from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.gap.fit import (
+    Evidence,
+    catalogue,
+    is_of,
+    is_whole_own,
+    with_parameter,
+)
+from rotemina.sim.records import Tap
+from rotemina.sim.robot import AxisEffect
 
 # What does the same at the sensor as elsewhere, where no reference was recorded.
-AT_THE_SENSOR = {Family.GAIN, Family.CURVE, Family.LATE, Family.PERIOD}
+AT_THE_SENSOR = {EffectFamily.GAIN, EffectFamily.CURVE, EffectFamily.LATE, EffectFamily.PERIOD}
 _BUTTERWORTH = "third_order"  # of a lag, as it is with its presets
 _LOAD_ABOVE = 1.8  # times an axis' resonance, from where that of a mass on it is looked for
 
@@ -32,47 +33,51 @@ def substitutes(evidence: Evidence, cause: AxisEffect) -> list[AxisEffect]:
     if not evidence.has(Tap.REF):
         found += [_alike(cause, twin) for twin in _elsewhere(cause.id)]
     if _is_transport(cause):
-        found += [_as_late(cause, lag) for lag in _lags(Stage.ELECTRONICS)]
-    if is_whole_own(cause.id) and is_of(Family.GAIN, cause.id):
+        found += [_as_late(cause, lag) for lag in _lags(EffectStage.ELECTRONICS)]
+    if is_whole_own(cause.id) and is_of(EffectFamily.GAIN, cause.id):
         for axis, k in alike_axes(evidence).items():
             numbers = {"k": k * cause.parameters["error"]}
             found += [
                 AxisEffect(axis=evidence.axis, id=one.id, from_axis=axis, parameters=numbers)
                 for one in catalogue()
-                if one.coupled and one.formulations[0].parameter("k")
+                if one.coupled and one.formulations[0].find_parameter("k")
             ]
-    if is_of(Family.RESONANCE, cause.id):
+    if is_of(EffectFamily.RESONANCE, cause.id):
         found += _loads(evidence, cause)
     return [_within_bounds(evidence, twin) for twin in found]
 
 
 def _elsewhere(name: str) -> list[str]:
     """Return what does the same at the sensor; of a curve of the sensor, what does it elsewhere."""
-    own = effect_named(name)
+    own = load_effect(name)
     if own.kinship.family not in AT_THE_SENSOR:
         return []
-    at_the_sensor = own.stage is Stage.SENSOR
-    if at_the_sensor and own.kinship.family is not Family.CURVE:
+    at_the_sensor = own.stage is EffectStage.SENSOR
+    if at_the_sensor and own.kinship.family is not EffectFamily.CURVE:
         return []
     return [
         one.id
         for one in catalogue()
         if one.kinship.family is own.kinship.family
-        and (one.stage is Stage.SENSOR) is not at_the_sensor
+        and (one.stage is EffectStage.SENSOR) is not at_the_sensor
     ]
 
 
 def _is_transport(cause: AxisEffect) -> bool:
     """Tell whether a cause makes everything later and nothing else."""
-    effect = effect_named(cause.id)
-    return isinstance(effect.formulations[0].acts, Late) and is_of(Family.LATE, cause.id)
+    effect = load_effect(cause.id)
+    return isinstance(effect.formulations[0].acts, InputDelay) and is_of(
+        EffectFamily.LATE, cause.id
+    )
 
 
-def _lags(stage: Stage) -> list[str]:
+def _lags(stage: EffectStage) -> list[str]:
     return [
         one.id
         for one in catalogue()
-        if one.stage is stage and one.formulation(_BUTTERWORTH) and is_of(Family.LATE, one.id)
+        if one.stage is stage
+        and one.find_formulation(_BUTTERWORTH)
+        and is_of(EffectFamily.LATE, one.id)
     ]
 
 
@@ -99,7 +104,7 @@ def _loads(evidence: Evidence, cause: AxisEffect) -> list[AxisEffect]:
 
 def _as_late(cause: AxisEffect, lag: str) -> AxisEffect:
     """Return the Butterworth filter of the third order that is as late as a delay: 2τ."""
-    late_s = effect_named(cause.id).identification.lateness_s
+    late_s = load_effect(cause.id).identification.lateness_s
     assert late_s is not None
     numbers = {"time_constant": 0.5 * late_s(cause.parameters)}
     return replace(cause, id=lag, formulation=_BUTTERWORTH, parameters=numbers)
@@ -107,8 +112,8 @@ def _as_late(cause: AxisEffect, lag: str) -> AxisEffect:
 
 def _within_bounds(evidence: Evidence, twin: AxisEffect) -> AxisEffect:
     """Return a twin with the nearest numbers that it may have: its bounds may be closer."""
-    bare = Attached.of(evidence.robot, replace(twin, parameters={}))
-    return replace(twin, parameters=bare.clipped(twin.parameters))
+    bare = AttachedEffect.of(evidence.robot, replace(twin, parameters={}))
+    return replace(twin, parameters=bare.clip_values(twin.parameters))
 
 
 def _alike(cause: AxisEffect, twin: str) -> AxisEffect:
@@ -118,7 +123,7 @@ def _alike(cause: AxisEffect, twin: str) -> AxisEffect:
     """
     if _is_transport(cause):
         return _as_late(cause, twin)
-    forms = effect_named(twin).formulations
+    forms = load_effect(twin).formulations
     form = next((one for one in forms if one.name == cause.formulation), forms[0])
     names = {parameter.name for parameter in form.parameters}
     numbers = {name: value for name, value in cause.parameters.items() if name in names}

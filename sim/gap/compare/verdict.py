@@ -8,25 +8,24 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotemina.sim.gap.compare.closed_share import closed
 from rotemina.sim.gap.compare.explanations import Explanation
 from rotemina.sim.gap.compare.held_out_power import held_out_powers
 from rotemina.sim.gap.compare.rivals import Rival
 from rotemina.sim.gap.compare.weights import weigh
-from rotemina.sim.gap.diagnosis import Verdict
-from rotemina.sim.gap.fit.evidence import Evidence
-from rotemina.sim.gap.thresholds import (
-    ADEQUATE,
-    DISTINCT,
-    EXPLAINED,
-    HALF,
-    MOST_RIVALS,
-    MUCH,
-    NEARLY_ALL,
-    SAME_SCORE,
-    SOME,
-    VOUCHES,
+from rotemina.sim.gap.fit import Evidence
+from rotemina.sim.gap.limits import (
+    LARGE_SHARE,
+    MAX_AMBIGUOUS_RIVALS,
+    MAX_BLACK_BOX_SCORE_RATIO,
+    MAX_CHANCE_SCORE_RATIO,
+    MAX_NOISE_POWER,
+    MIN_ALMOST_COMPLETE_SHARE,
+    MIN_DISTINCT_RATIO,
+    MIN_EXPLAINED_SHARE,
+    MIN_MAJORITY_SHARE,
+    MIN_SHARE_TO_NAME,
 )
+from rotemina.sim.gap.result import GapVerdict, closed
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +50,7 @@ class Closing:
 
 def decide(
     closing: Closing, ambiguous: Sequence[Sequence[str]], *, poor: bool, sure: bool
-) -> Verdict:
+) -> GapVerdict:
     """Return the verdict on an axis that has a gap.
 
     Parameters
@@ -65,16 +64,18 @@ def decide(
         Whether each cause stands out among its rivals all the same.
     """
     if poor and not sure:
-        return Verdict.INSUFFICIENT
-    if max(closing.share, closing.at_a_tap) < (SOME if sure else MUCH):
-        return Verdict.UNKNOWN
-    if any(len(others) >= MOST_RIVALS for others in ambiguous):
-        return Verdict.INSUFFICIENT
+        return GapVerdict.INSUFFICIENT
+    if max(closing.share, closing.at_a_tap) < (MIN_SHARE_TO_NAME if sure else LARGE_SHARE):
+        return GapVerdict.UNKNOWN
+    if any(len(others) >= MAX_AMBIGUOUS_RIVALS for others in ambiguous):
+        return GapVerdict.INSUFFICIENT
     left, black_box = closing.left, closing.black_box
-    as_well = left <= SAME_SCORE * black_box and black_box <= VOUCHES * left
-    if closing.share >= EXPLAINED or left <= ADEQUATE or as_well:
-        return Verdict.EXPLAINED
-    return Verdict.PARTLY
+    as_well = (
+        left <= MAX_CHANCE_SCORE_RATIO * black_box and black_box <= MAX_BLACK_BOX_SCORE_RATIO * left
+    )
+    if closing.share >= MIN_EXPLAINED_SHARE or left <= MAX_NOISE_POWER or as_well:
+        return GapVerdict.EXPLAINED
+    return GapVerdict.PARTLY
 
 
 def stands(closes: float, left: float, weight: float) -> bool:
@@ -87,7 +88,7 @@ def stands(closes: float, left: float, weight: float) -> bool:
     weight : float
         That it or its kind has among all that could stand in its place, nothing at all included.
     """
-    return closes >= DISTINCT * left and weight >= HALF
+    return closes >= MIN_DISTINCT_RATIO * left and weight >= MIN_MAJORITY_SHARE
 
 
 def is_sure(
@@ -110,4 +111,4 @@ def _stands_out(evidence: Evidence, rivals: Sequence[Rival], alike: Sequence[str
     weights = weigh(held_out_powers(evidence, [one.held_out for one in found]), effects)
     best = int(np.argmax(weights))
     together = [number == best or one.effect in alike for number, one in enumerate(rivals)]
-    return float(weights[together].sum()) >= NEARLY_ALL
+    return float(weights[together].sum()) >= MIN_ALMOST_COMPLETE_SHARE

@@ -16,7 +16,7 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.gap.compare.held_out_power import Power
-from rotemina.sim.gap.thresholds import EFFECT
+from rotemina.sim.gap.limits import PRIOR_FACTOR_PER_EFFECT
 
 SLACK = 0.05  # of the power that is left, by which hypotheses differ by chance
 DRAWS = 400
@@ -34,7 +34,7 @@ def weigh(powers: Sequence[Power], effects: Sequence[int]) -> FloatArray:
         How many effects each hypothesis holds.
     """
     rng = np.random.default_rng(_SEED)
-    priors = np.log(EFFECT) * np.asarray(effects, dtype=np.float64)
+    priors = np.log(PRIOR_FACTOR_PER_EFFECT) * np.asarray(effects, dtype=np.float64)
     drawn = np.zeros((DRAWS, len(priors))) + priors
     for one in powers:
         shares = rng.dirichlet(np.ones(len(one.rows)), DRAWS)

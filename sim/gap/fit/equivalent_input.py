@@ -11,14 +11,12 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from rotemina.sim.arrays import BoolArray, FloatArray
-from rotemina.sim.effects.facts import Facts
+from rotemina.sim.effects import AxisProperties
 from rotemina.sim.gap.fit.evidence import Evidence, Part, Signals
 from rotemina.sim.gap.fit.output_error import Fit
 from rotemina.sim.gap.fit.start_state import start
-from rotemina.sim.plant.fine_rows import respond
-from rotemina.sim.plant.plant import Plant
-from rotemina.sim.plant.response import run_of
-from rotemina.sim.records.record import Tap
+from rotemina.sim.plant import Plant, compute_motion, make_run
+from rotemina.sim.records import Tap
 
 _KICK = 1e-3  # of the range
 _TAPER = 0.05  # of a record, at each end
@@ -33,7 +31,7 @@ def inputs_left(evidence: Evidence, fitted: Fit) -> list[tuple[Part, FloatArray]
     """
     seen = []
     kicked: dict[int, Signals] = {}
-    gain = Facts.of(evidence.robot.axes[evidence.axis]).gain
+    gain = AxisProperties.of(evidence.robot.axes[evidence.axis]).gain
     for part in evidence.parts:
         observation = evidence.observations[part.record]
         if observation.record.closed_loop:
@@ -68,16 +66,16 @@ def _kicked(evidence: Evidence, fitted: Fit, number: int) -> Signals:
     observation = evidence.observations[number]
     robot = replace(evidence.robot, effects=(*evidence.robot.effects, *fitted.effects))
     plant = Plant.of(robot, only={evidence.axis})
-    run = run_of(plant, observation.record)
+    run = make_run(plant, observation.record)
     state = start(plant, observation.record, run)
     column = plant.axes.index(evidence.axis)
-    facts = Facts.of(evidence.robot.axes[evidence.axis])
+    facts = AxisProperties.of(evidence.robot.axes[evidence.axis])
     size = _KICK * facts.span
     command, inputs = run.command.copy(), run.inputs.copy()
     command[0, column] += size
     inputs[0, column] += size / (facts.gain if facts.kind == "piezo" else 1.0)
-    calm = respond(plant, state, run)
-    moved = respond(plant, state, run._replace(command=command, inputs=inputs))
+    calm = compute_motion(plant, state, run)
+    moved = compute_motion(plant, state, run._replace(command=command, inputs=inputs))
     answers = {
         Tap.REF: moved.position - calm.position,
         Tap.MEAS: moved.reading - calm.reading,

@@ -10,23 +10,24 @@ from typing import NamedTuple, Self
 
 import numpy as np
 
-from rotemina.sim.arrays import BoolArray, FloatArray, IntArray
-from rotemina.sim.effects.attachment import Attached
-from rotemina.sim.effects.identification import Extent
-from rotemina.sim.effects.registry import effect_named
-from rotemina.sim.gap.errors import GapError
+from rotemina.sim.arrays import (
+    BoolArray,
+    FloatArray,
+    IntArray,
+)
+from rotemina.sim.effects import AttachedEffect, RecordCoverage, load_effect
+from rotemina.sim.errors import GapError
 from rotemina.sim.gap.fit.noise_floors import floors
 from rotemina.sim.gap.fit.reading_cells import beyond
 from rotemina.sim.gap.fit.row_blocks import block_numbers
 from rotemina.sim.gap.fit.start_state import other_starts, start
-from rotemina.sim.messages import message
-from rotemina.sim.plant.fine_rows import respond
-from rotemina.sim.plant.plant import Plant
-from rotemina.sim.plant.response import check_axes, run_of
-from rotemina.sim.plant.run import Run
-from rotemina.sim.plant.state import PlantState
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.model import AxisEffect, ForceAxis, Robot
+from rotemina.sim.plant import Plant, PlantState, RunCommands, check_axes, compute_motion, make_run
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot import (
+    AxisEffect,
+    ForceAxis,
+    Robot,
+)
 
 _TAPS = (Tap.U, Tap.REF, Tap.MEAS)
 _FORGETS = 8  # part of a record, by whose end most axes have forgotten how it began
@@ -86,7 +87,7 @@ class Evidence:
     axis: str
     observations: tuple[Observation, ...]
     heartbeat: Callable[[], None] = _unheard
-    _runs: dict[tuple[int, tuple[str, ...]], Run] = field(default_factory=dict)
+    _runs: dict[tuple[int, tuple[str, ...]], RunCommands] = field(default_factory=dict)
     _own: dict[tuple[int, Tap], FloatArray] = field(default_factory=dict)
 
     @classmethod
@@ -110,11 +111,9 @@ class Evidence:
                 observations.append(observation)
         if not observations:
             raise GapError(
-                message(
-                    "gap",
-                    "axis {axis}: no record holds a measured channel of it (u, ref or meas) whose "
-                    "noise floor is known or can be measured; nothing can be compared",
-                ).fill(axis=repr(axis))
+                "axis {axis}: no record holds a measured channel of it (u, ref or meas) whose "
+                "noise floor is known or can be measured; nothing can be compared",
+                axis=repr(axis),
             )
         return cls(robot, axis, tuple(observations))
 
@@ -169,9 +168,9 @@ class Evidence:
         return min(float(c.min()) for c in commands), max(float(c.max()) for c in commands)
 
     @property
-    def extent(self) -> Extent:
+    def extent(self) -> RecordCoverage:
         """What the records cover."""
-        return Extent(self.reach, max(o.record.duration_s for o in self.observations))
+        return RecordCoverage(self.reach, max(o.record.duration_s for o in self.observations))
 
     @property
     def parts(self) -> list[Part]:
@@ -304,11 +303,16 @@ class Evidence:
             yield number, [answer, *others]
 
     def _until_forgotten(
-        self, plant: Plant, run: Run, state: PlantState, observation: Observation, answer: Signals
+        self,
+        plant: Plant,
+        run: RunCommands,
+        state: PlantState,
+        observation: Observation,
+        answer: Signals,
     ) -> Signals:
         """Return the answer from another start, simulated no farther than that start matters."""
         rows = len(run.time_s) // _FORGETS
-        begun = self._answer(plant, Run(*(one[:rows] for one in run)), state, observation)
+        begun = self._answer(plant, RunCommands(*(one[:rows] for one in run)), state, observation)
         last = slice(rows - rows // 4, rows)
         for tap, signal in begun.items():
             apart = np.abs(signal[last] - answer[tap][last]).max(initial=0.0)
@@ -317,9 +321,9 @@ class Evidence:
         return {tap: np.concatenate([signal, answer[tap][rows:]]) for tap, signal in begun.items()}
 
     def _answer(
-        self, plant: Plant, run: Run, state: PlantState, observation: Observation
+        self, plant: Plant, run: RunCommands, state: PlantState, observation: Observation
     ) -> Signals:
-        motion = respond(plant, state, run)
+        motion = compute_motion(plant, state, run)
         column = plant.axes.index(self.axis)
         signals = (motion.inputs, motion.position, motion.reading)
         taps = zip(_TAPS, (signal[:, column] for signal in signals), strict=True)
@@ -338,10 +342,10 @@ class Evidence:
             gaps.append(found)
         return gaps
 
-    def _run(self, number: int, plant: Plant) -> Run:
+    def _run(self, number: int, plant: Plant) -> RunCommands:
         key = number, plant.axes
         if key not in self._runs:
-            self._runs[key] = run_of(plant, self.observations[number].record)
+            self._runs[key] = make_run(plant, self.observations[number].record)
         return self._runs[key]
 
 
@@ -368,9 +372,9 @@ def _moved(robot: Robot, axis: str, origin: float) -> Robot:
         return robot
     effects = []
     for asked in robot.effects:
-        moved = effect_named(asked.id).identification.moved
+        moved = load_effect(asked.id).identification.moved
         if moved is not None and asked.axis == axis:
-            values = Attached.of(robot, asked).values
+            values = AttachedEffect.of(robot, asked).values
             asked = replace(asked, parameters=dict(moved(values, origin)))
         effects.append(asked)
     return replace(robot, effects=tuple(effects))

@@ -5,17 +5,21 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.effects.attachment import Attached
-from rotemina.sim.effects.facts import Facts
-from rotemina.sim.effects.identification import Extent, Interval, Seen, Values
-from rotemina.sim.gap.fit.baseline import is_whole_own
+from rotemina.sim.effects import (
+    AttachedEffect,
+    AxisProperties,
+    AxisRecord,
+    Interval,
+    RecordCoverage,
+    Values,
+)
+from rotemina.sim.gap.fit.effect_catalogue import is_whole_own
 from rotemina.sim.gap.fit.evidence import Evidence, Signals
-from rotemina.sim.gap.fit.output_error import Fit
+from rotemina.sim.gap.fit.output_error import Fit, tolerance
 from rotemina.sim.gap.fit.quantization_grid import likeliest_grid
 from rotemina.sim.gap.fit.strongest_line import strongest_frequency, strongest_periods
-from rotemina.sim.gap.fit.tolerances import tolerance
-from rotemina.sim.records.record import Tap
-from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.records import Tap
+from rotemina.sim.robot import AxisEffect
 
 
 def starts(evidence: Evidence, fitted: Fit, candidate: AxisEffect) -> tuple[AxisEffect, ...]:
@@ -23,10 +27,10 @@ def starts(evidence: Evidence, fitted: Fit, candidate: AxisEffect) -> tuple[Axis
 
     ``fitted`` is the present explanation; the candidate is to explain its remainder.
     """
-    given, attached = candidate.parameters, Attached.of(evidence.robot, candidate)
+    given, attached = candidate.parameters, AttachedEffect.of(evidence.robot, candidate)
     begin = attached.effect.identification.starts
     return tuple(
-        replace(candidate, parameters={**given, **attached.clipped(values)})
+        replace(candidate, parameters={**given, **attached.clip_values(values)})
         for values in begin(EvidenceView(evidence, fitted, attached))
     )
 
@@ -37,10 +41,10 @@ class EvidenceView:
 
     evidence: Evidence
     fitted: Fit
-    attached: Attached
+    attached: AttachedEffect
 
     @property
-    def facts(self) -> Facts:
+    def facts(self) -> AxisProperties:
         """The axis."""
         return self.attached.facts
 
@@ -50,21 +54,21 @@ class EvidenceView:
         return self.attached.values
 
     @property
-    def given(self) -> bool:
+    def starts_from_other_fit(self) -> bool:
         """Whether the parameters are those of another formulation as fitted."""
-        return bool(self.attached.asked.parameters)
+        return bool(self.attached.entry.parameters)
 
     @cached_property
-    def extent(self) -> Extent:
+    def extent(self) -> RecordCoverage:
         """What the records cover."""
         return self.evidence.extent
 
     @cached_property
-    def records(self) -> Sequence[Seen]:
+    def records(self) -> Sequence[AxisRecord]:
         """The records."""
-        source, left = self.attached.asked.from_axis, self._by_tap(self.fitted.residual)
+        source, left = self.attached.entry.from_axis, self._by_tap(self.fitted.residual)
         return [
-            Seen(
+            AxisRecord(
                 time_s=one.record.time_s,
                 command=one.record.signal(self.evidence.axis, Tap.CMD),
                 source=one.record.signal(source, Tap.CMD)
@@ -72,7 +76,7 @@ class EvidenceView:
                 else None,
                 real=one.real,
                 floor=one.floor,
-                left=own,
+                remainder=own,
             )
             for one, own in zip(self.evidence.observations, left, strict=True)
         ]
@@ -83,20 +87,20 @@ class EvidenceView:
         return self.evidence.response(self.fitted.effects)
 
     @cached_property
-    def unbent(self) -> tuple[Sequence[Signals], Sequence[Signals]]:
+    def untuned(self) -> tuple[Sequence[Signals], Sequence[Signals]]:
         """Answers and remainders, by record, with the model's original own parameters."""
         causes = [one for one in self.fitted.effects if not is_whole_own(one.id)]
         return self.evidence.response(causes), self._by_tap(self.evidence.residual(causes))
 
     def bounds(self, name: str) -> Interval:
         """Return the bounds of a parameter on this axis, SI."""
-        parameter = self.attached.formulation.parameter(name)
+        parameter = self.attached.formulation.find_parameter(name)
         assert parameter is not None
         return parameter.bounds(self.facts)
 
     def domain(self, name: str) -> Interval:
         """Return how far a fit to these records may take a parameter, SI."""
-        parameter = self.attached.formulation.parameter(name)
+        parameter = self.attached.formulation.find_parameter(name)
         assert parameter is not None
         return tolerance(self.attached, parameter, self.extent)
 
@@ -115,7 +119,7 @@ class EvidenceView:
         return likeliest_grid(
             self.evidence,
             self.fitted,
-            self.attached.asked,
+            self.attached.entry,
             bounds,
             origin,
             gain,

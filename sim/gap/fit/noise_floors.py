@@ -10,9 +10,9 @@ from math import comb
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.comparison.noise_floor import noise_floor
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.model import Robot, StepperAxis
+from rotemina.sim.comparison import find_noise_floor
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot import Robot, StepperAxis
 
 _ORDER = 6  # of the differences, to which motion is smooth
 _BLOCK_ROWS = 100  # fewer in short records
@@ -33,7 +33,7 @@ def floors(robot: Robot, record: Record, axis: str) -> Mapping[Tap, float]:
     for tap in _TAPS:
         if not record.has(axis, tap) or (tap is Tap.U and not _answers_u(robot, axis, record)):
             continue
-        floor, source = noise_floor(robot, record, axis, tap)
+        floor, source = find_noise_floor(robot, record, axis, tap)
         signal = record.signal(axis, tap)
         if source != "declared" and (tap is not Tap.U or record.closed_loop):
             # A held axis may shake, or be on its way: that is no noise of its sensor.

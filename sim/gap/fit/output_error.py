@@ -13,15 +13,12 @@ from functools import cached_property
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray, IntArray
-from rotemina.sim.effects.attachment import Attached
-from rotemina.sim.effects.errors import EffectError
-from rotemina.sim.gap.fit.baseline import is_whole_own
-from rotemina.sim.gap.fit.catalogue import is_stepped
+from rotemina.sim.effects import AttachedEffect, EffectParameter, Interval, RecordCoverage
+from rotemina.sim.errors import EffectError, PlantError
 from rotemina.sim.gap.fit.descent import Descent, begun, descend, exact
+from rotemina.sim.gap.fit.effect_catalogue import is_stepped, is_whole_own
 from rotemina.sim.gap.fit.evidence import Evidence
-from rotemina.sim.gap.fit.tolerances import tolerance
-from rotemina.sim.plant.errors import PlantError
-from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.robot import AxisEffect
 
 _LOG = logging.getLogger(__name__)
 
@@ -293,13 +290,13 @@ def free_parameters(evidence: Evidence, effects: Sequence[AxisEffect]) -> tuple[
     free: list[Free] = []
     others = sum(not is_whole_own(asked.id) for asked in effects)
     for number, asked in enumerate(effects):
-        attached = Attached.of(evidence.robot, asked)
+        attached = AttachedEffect.of(evidence.robot, asked)
         if attached.formulation.by_spectra or (is_stepped(asked.id) and others > 1):
             continue
         for parameter in attached.formulation.parameters:
             low, high = tolerance(attached, parameter, evidence.extent)
             preset = parameter.preset(attached.facts)
-            scale = max(parameter.scale(attached.facts), parameter.spared(attached.facts))
+            scale = max(parameter.scale(attached.facts), parameter.compute_spare(attached.facts))
             size = abs(preset) or _SMALL_SHARE * scale
             free.append(
                 Free(
@@ -325,3 +322,14 @@ def with_values(
         replace(asked, parameters={**asked.parameters, **own})
         for asked, own in zip(effects, values, strict=True)
     )
+
+
+def tolerance(
+    attached: AttachedEffect, parameter: EffectParameter, extent: RecordCoverage
+) -> Interval:
+    """Return the least and greatest value of a parameter that a fit to records may find, SI."""
+    bounds = parameter.bounds(attached.facts)
+    domain = attached.effect.identification.domain.get(parameter.name, bounds)
+    if callable(domain):
+        return domain(attached.values, attached.facts, bounds, extent)
+    return domain

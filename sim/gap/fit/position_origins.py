@@ -13,12 +13,12 @@ import numpy as np
 import scipy
 
 from rotemina.sim.arrays import ComplexArray, FloatArray
-from rotemina.sim.effects.facts import Facts
-from rotemina.sim.gap.fit.catalogue import catalogue
+from rotemina.sim.effects import AxisProperties
+from rotemina.sim.gap.fit.effect_catalogue import catalogue
 from rotemina.sim.gap.fit.evidence import Evidence
 from rotemina.sim.gap.fit.strongest_line import line_over
 from rotemina.sim.messages import Message, message
-from rotemina.sim.records.record import Tap
+from rotemina.sim.records import Tap
 
 _MOSTLY = 0.5  # of a record's gap, that its line makes
 _AGREE = 0.9  # of what lines of any phase explain, that lines of one phase do
@@ -85,11 +85,11 @@ def origin_remarks(evidence: Evidence) -> tuple[Message, ...]:
 
 def _periods(evidence: Evidence) -> tuple[float, float] | None:
     """Return the bounds of periods that may be locked to position; None without any."""
-    facts = Facts.of(evidence.robot.axes[evidence.axis])
+    facts = AxisProperties.of(evidence.robot.axes[evidence.axis])
     found = []
     for effect in catalogue():
         if effect.identification.moved is not None and facts.kind in effect.kinds:
-            parameter = effect.formulations[0].parameter("period")
+            parameter = effect.formulations[0].find_parameter("period")
             if parameter is not None:
                 found.append(parameter.bounds(facts))
     return (min(low for low, _ in found), max(high for _, high in found)) if found else None

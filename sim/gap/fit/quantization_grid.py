@@ -16,8 +16,8 @@ from rotemina.sim.gap.fit.equivalent_input import inputs_left
 from rotemina.sim.gap.fit.evidence import Evidence
 from rotemina.sim.gap.fit.output_error import Fit
 from rotemina.sim.gap.fit.strongest_line import line_over
-from rotemina.sim.records.record import Tap
-from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.records import Tap
+from rotemina.sim.robot import AxisEffect
 
 _SHIFTS = 12
 _OFF = 0.5  # of a tooth, that a width may be off at the ends of a record

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.gap.fit.evidence import Evidence
 from rotemina.sim.gap.fit.output_error import Fit
-from rotemina.sim.records.record import Tap
+from rotemina.sim.records import Tap
 
 _MOST_BINS = 1 << 17
 _PADDED = 4  # lines per resolvable one

@@ -1,23 +1,24 @@
-"""What is to be kept in mind about records that can be diagnosed all the same."""
+"""Cautions: limits of the records that do not prevent a diagnosis."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
 
 from rotemina.sim.messages import Message
-from rotemina.sim.records.record import Record
+from rotemina.sim.records import Record
 
 
 @dataclass(frozen=True, slots=True)
-class Caution:
-    """A sentence about one axis, or about all of a record.
+class RecordCaution:
+    """A sentence about one axis or about a whole record.
 
     Attributes
     ----------
     text : Message
-        The same whatever the record's file name and place among the others.
+        It does not depend on the file name of the record and its position among the records.
     axis : str, optional
+        None if the caution concerns all axes.
     record : int, optional
-        Its number among the records, from 0; None for what concerns all of them.
+        Number of the record, from 0; None if the caution concerns all records.
     """
 
     text: Message
@@ -26,18 +27,20 @@ class Caution:
 
 
 @dataclass(frozen=True, slots=True)
-class Labelled:
-    """A record under the name by which messages call it, and its number among the others."""
+class LabelledRecord:
+    """A record with its name in messages and its number among the records, from 0."""
 
     record: Record
     name: str
     number: int
 
-    def caution(self, text: Message, axis: str | None = None) -> Caution:
+    def make_caution(self, text: Message, axis: str | None = None) -> RecordCaution:
         """Return a caution about this record."""
-        return Caution(text, axis, self.number)
+        return RecordCaution(text, axis, self.number)
 
 
-def remarks(cautions: Iterable[Caution], axis: str) -> tuple[Message, ...]:
-    """Return the sentences that concern an axis, in an order that no order of records changes."""
-    return tuple(sorted({one.text for one in cautions if one.axis in (None, axis)}, key=str))
+def collect_remarks(cautions: Iterable[RecordCaution], axis: str) -> tuple[Message, ...]:
+    """Return the sentences about an axis, in an order that does not depend on the records."""
+    return tuple(
+        sorted({caution.text for caution in cautions if caution.axis in (None, axis)}, key=str)
+    )

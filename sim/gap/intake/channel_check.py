@@ -1,62 +1,70 @@
-"""Whether readings follow their own command: else an axis is off, or channels are swapped."""
+"""Check that readings follow the command of their axis.
+
+If they do not, the axis is switched off, or channels are swapped.
+"""
 
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.gap.errors import GapError
-from rotemina.sim.gap.intake.cautions import Labelled
+from rotemina.sim.errors import GapError
+from rotemina.sim.gap.intake.cautions import LabelledRecord
 from rotemina.sim.gap.intake.slow_motion import SlowMotion, follows_command
-from rotemina.sim.messages import message
-from rotemina.sim.quantities import rounded
-from rotemina.sim.records.record import Tap
-from rotemina.sim.robot.model import Robot
+from rotemina.sim.messages import format_rounded, message
+from rotemina.sim.records import Tap
+from rotemina.sim.robot import Robot
 
-_ASKED = 0.01  # of the range, that a command must span
-_ASKED_FLOORS = 100.0  # and noise floors
-_LEAST_GAIN = 0.1
-_SURE = 3.0  # standard deviations of a gain
-_ALIKE = 0.9  # correlation from which a reading is said to follow another axis
+# A reading is checked only if its command spans this fraction of the range and this many floors.
+_MIN_COMMAND_SPAN_RATIO = 0.01
+_MIN_COMMAND_SPAN_FLOORS = 100.0
+# A gain below this means that the reading does not follow the command.
+_MIN_GAIN = 0.1
+# The gain must be too small by this many of its standard deviations.
+_GAIN_DEVIATIONS = 3.0
+# With at least this correlation, a reading is said to follow the command of another axis.
+_MIN_CORRELATION = 0.9
 
 
-def check_following(robot: Robot, one: Labelled) -> None:
-    """Check that readings follow commands, as far as other axes permit the check.
+def check_following(robot: Robot, labelled: LabelledRecord) -> None:
+    """Check that readings follow commands, unless the motion of other axes prevents the check.
 
-    No effect makes an axis stand still entirely; a model forced to explain it would call it contact
-    or coupling.
+    No effect stops an axis completely, so a diagnosis would wrongly name contact or coupling.
 
     Raises
     ------
     GapError
-        With axis, tap and, where there is one, the command that it follows instead.
+        If a reading does not follow. The message names the axis, the tap and, if there is one, the
+        command that the reading follows instead.
     """
-    record = one.record
+    record = labelled.record
     for axis in record.axes:
-        described = robot.axes[axis]
-        if not record.has(axis, Tap.CMD) or not follows_command(described, record):
+        model = robot.axes[axis]
+        if not record.has(axis, Tap.CMD) or not follows_command(model, record):
             continue
-        floor = described.sensor.noise_floor if described.sensor is not None else 0.0
-        least = max(_ASKED * described.span, _ASKED_FLOORS * floor)
-        motion = SlowMotion.of(described, record, axis)
-        if motion is None or np.ptp(motion.command) < least:
+        noise_floor = model.sensor.noise_floor if model.sensor is not None else 0.0
+        min_span = max(_MIN_COMMAND_SPAN_RATIO * model.span, _MIN_COMMAND_SPAN_FLOORS * noise_floor)
+        motion = SlowMotion.of(model, record, axis)
+        if motion is None or np.ptp(motion.command) < min_span:
             continue
         for tap in (Tap.REF, Tap.MEAS):
             if record.has(axis, tap):
-                _check(one, axis, tap, motion)
+                _check_channel(labelled, axis, tap, motion)
 
 
-def _check(one: Labelled, axis: str, tap: Tap, motion: SlowMotion) -> None:
-    read = motion.read(one.record.signal(axis, tap))
-    gain = _own_gain(motion, read)
-    if gain is None or abs(gain[0]) + _SURE * gain[1] >= _LEAST_GAIN:
+def _check_channel(labelled: LabelledRecord, axis: str, tap: Tap, motion: SlowMotion) -> None:
+    averages = motion.average(labelled.record.signal(axis, tap))
+    gain = _estimate_own_gain(motion, averages)
+    if gain is None or abs(gain[0]) + _GAIN_DEVIATIONS * gain[1] >= _MIN_GAIN:
         return
-    followed = [name for name, other in motion.others.items() if _alike(read, other)]
-    said = (
+    followed_axes = [
+        name for name, other in motion.others.items() if _is_correlated(averages, other)
+    ]
+    template = (
         message(
             "gap",
             "{name}: {axis}.{tap} does not follow {axis}.cmd but {other}.cmd (its gain is {gain} ± "
             "{deviation}): channels may be swapped; correct the columns",
         )
-        if followed
+        if followed_axes
         else message(
             "gap",
             "{name}: {axis}.{tap} does not follow {axis}.cmd (its gain is {gain} ± {deviation}); "
@@ -64,33 +72,36 @@ def _check(one: Labelled, axis: str, tap: Tap, motion: SlowMotion) -> None:
         )
     )
     raise GapError(
-        said.fill(
-            name=one.name,
+        template.fill(
+            name=labelled.name,
             axis=axis,
             tap=tap,
-            other=followed[0] if followed else "",
-            gain=rounded(gain[0], 2),
-            deviation=rounded(gain[1], 1),
+            other=followed_axes[0] if followed_axes else "",
+            gain=format_rounded(gain[0], 2),
+            deviation=format_rounded(gain[1], 1),
         )
     )
 
 
-def _own_gain(motion: SlowMotion, read: FloatArray) -> tuple[float, float] | None:
-    """Return the gain from the own command, others taken out, and its standard deviation.
+def _estimate_own_gain(motion: SlowMotion, averages: FloatArray) -> tuple[float, float] | None:
+    """Return the gain with respect to the command of the axis, and its standard deviation.
 
-    None where the own command is not told from the others.
+    The regression includes the commands of other axes. Returns None if they cannot be
+    distinguished from the command of the axis.
     """
     matrix = np.column_stack([motion.command, *motion.others.values()])
     scale = np.linalg.norm(matrix, axis=0)
     matrix = matrix / scale
-    if len(read) <= matrix.shape[1] or np.linalg.matrix_rank(matrix, tol=0.1) < matrix.shape[1]:
+    if len(averages) <= matrix.shape[1] or np.linalg.matrix_rank(matrix, tol=0.1) < matrix.shape[1]:
         return None
-    solution, *_ = np.linalg.lstsq(matrix, read)
-    left = float(np.sum((read - matrix @ solution) ** 2)) / (len(read) - matrix.shape[1])
-    variance = left * float(np.linalg.inv(matrix.T @ matrix)[0, 0])
+    solution, *_ = np.linalg.lstsq(matrix, averages)
+    residual_variance = float(np.sum((averages - matrix @ solution) ** 2)) / (
+        len(averages) - matrix.shape[1]
+    )
+    variance = residual_variance * float(np.linalg.inv(matrix.T @ matrix)[0, 0])
     return float(solution[0] / scale[0]), float(np.sqrt(variance) / scale[0])
 
 
-def _alike(read: FloatArray, command: FloatArray) -> bool:
-    size = float(np.linalg.norm(read) * np.linalg.norm(command))
-    return size > 0.0 and abs(float(read @ command)) > _ALIKE * size
+def _is_correlated(averages: FloatArray, command: FloatArray) -> bool:
+    norms = float(np.linalg.norm(averages) * np.linalg.norm(command))
+    return norms > 0.0 and abs(float(averages @ command)) > _MIN_CORRELATION * norms

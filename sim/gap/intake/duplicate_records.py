@@ -1,4 +1,4 @@
-"""Duplicate measurements, which cannot validate a fit."""
+"""Check for duplicate measurements, which cannot validate a fit."""
 
 from collections.abc import Sequence
 from itertools import combinations
@@ -6,70 +6,82 @@ from itertools import combinations
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.gap.errors import GapError
-from rotemina.sim.gap.intake.cautions import Labelled
-from rotemina.sim.messages import message
-from rotemina.sim.records.record import Channel, Record, Tap
+from rotemina.sim.errors import GapError
+from rotemina.sim.gap.intake.cautions import LabelledRecord
+from rotemina.sim.records import (
+    Record,
+    RecordChannel,
+    Tap,
+)
 
-_WINDOW_ROWS = 200  # that are looked for in the other record
-_CHANGES = 50  # of a reading in them: too many to agree by chance
-_SAME = 1e-12  # relative: a reading may have been written in another unit
+# Windows of this many rows of one record are searched for in the other.
+_WINDOW_ROWS = 200
+# Windows with at least this many changes of value cannot match by chance.
+_MIN_CHANGES = 50
+# Equal readings may differ by rounding, because they may have been written in another unit.
+_RELATIVE_TOLERANCE = 1e-12
 
 
-def check_copies(records: Sequence[Labelled]) -> None:
-    """Refuse records that contain the same measurements, in whole or in part.
+def check_duplicates(records: Sequence[LabelledRecord]) -> None:
+    """Refuse records that share measurements, in whole or in part.
 
-    Two measurements of one motion never agree in all digits of their noise. A fit needs validation
-    data that it did not use, and a copy was used.
+    Two measurements of the same motion never have identical noise down to the last digit. A fit
+    must be validated on data that it has not seen, and a copy of its data is not such data.
 
     Raises
     ------
     GapError
-        With both names.
+        If two records share measurements. The message names both.
     """
-    for one, other in combinations(records, 2):
-        channel = _shared(one.record, other.record)
+    for first, second in combinations(records, 2):
+        channel = _find_shared_channel(first.record, second.record)
         if channel is None:
             continue
-        signals = [each.record.signal(*channel) for each in (one, other)]
-        if _holds_part(*signals) or _holds_part(*reversed(signals)):
+        signals = [labelled.record.signal(*channel) for labelled in (first, second)]
+        if _contains_part_of(*signals) or _contains_part_of(*reversed(signals)):
             raise GapError(
-                message(
-                    "gap",
-                    "{name}: it holds measurements of {one_name} again ({channel}); give each "
-                    "record once, and parts of one record without overlap",
-                ).fill(name=other.name, one_name=one.name, channel=str(channel))
+                "{name}: it contains the same measurements as {one_name} ({channel}); give "
+                "each record once, and parts of one record without overlap",
+                name=second.name,
+                one_name=first.name,
+                channel=str(channel),
             )
 
 
-def _shared(one: Record, other: Record) -> Channel | None:
-    """Return the most informative measured channel of both, or None."""
+def _find_shared_channel(first: Record, second: Record) -> RecordChannel | None:
+    """Return the measured channel of both records that changes most often, or None."""
+    # REF is the reference sensor, so it is a measurement too.
     measured = [
         channel
-        for channel in one.columns
-        if channel.tap in (Tap.REF, Tap.MEAS) and channel in other.columns
+        for channel in first.columns
+        if channel.tap in (Tap.REF, Tap.MEAS) and channel in second.columns
     ]
-    return max(measured, key=lambda channel: _changes(one.signal(*channel)), default=None)
+    return max(measured, key=lambda channel: _count_changes(first.signal(*channel)), default=None)
 
 
-def _changes(signal: FloatArray) -> int:
+def _count_changes(signal: FloatArray) -> int:
     return int(np.count_nonzero(np.diff(signal)))
 
 
-def _holds_part(whole: FloatArray, part: FloatArray) -> bool:
-    """Whether the first, middle or last rows of ``part`` are found in ``whole``."""
-    rows = min(_WINDOW_ROWS, len(part))
-    begins = {0, (len(part) - rows) // 2, len(part) - rows}
-    windows = [part[begin : begin + rows] for begin in sorted(begins)]
-    return any(_found(whole, window) for window in windows if _changes(window) >= _CHANGES)
-
-
-def _found(whole: FloatArray, window: FloatArray) -> bool:
-    if len(window) > len(whole):
-        return False
-    room = len(whole) - len(window) + 1
-    size = _SAME * float(np.abs(window).max())
-    begins = np.flatnonzero(np.abs(whole[:room] - window[0]) <= size)
+def _contains_part_of(signal: FloatArray, other: FloatArray) -> bool:
+    """Return whether ``signal`` contains the first, middle or last rows of ``other``."""
+    rows = min(_WINDOW_ROWS, len(other))
+    offsets = {0, (len(other) - rows) // 2, len(other) - rows}
+    windows = [other[offset : offset + rows] for offset in sorted(offsets)]
     return any(
-        np.abs(whole[begin : begin + len(window)] - window).max() <= size for begin in begins
+        _contains_window(signal, window)
+        for window in windows
+        if _count_changes(window) >= _MIN_CHANGES
+    )
+
+
+def _contains_window(signal: FloatArray, window: FloatArray) -> bool:
+    if len(window) > len(signal):
+        return False
+    offset_count = len(signal) - len(window) + 1
+    tolerance = _RELATIVE_TOLERANCE * float(np.abs(window).max())
+    offsets = np.flatnonzero(np.abs(signal[:offset_count] - window[0]) <= tolerance)
+    return any(
+        np.abs(signal[offset : offset + len(window)] - window).max() <= tolerance
+        for offset in offsets
     )

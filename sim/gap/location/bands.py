@@ -1,59 +1,64 @@
-"""In which frequencies a gap lies: a signal split into bands that add up to it."""
+"""Decomposition of a signal into frequency bands whose sum is the signal."""
 
 from collections.abc import Sequence
 
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.records.record import Record
+from rotemina.sim.records import Record
 
-_HALF_DECADES = (1.0, 3.0)  # bands begin at these parts of each decade
-_EVEN = 1e-3  # relative spread of sample intervals up to which a record counts as evenly sampled
-_LEAST_ROWS = 64
+# In each decade, bands begin at these multiples of the lower end of the decade.
+_BAND_STARTS = (1.0, 3.0)
+# A record counts as evenly sampled if the relative spread of its intervals is at most this.
+_MAX_INTERVAL_SPREAD_RATIO = 1e-3
+_MIN_ROWS = 64
 
 
-def band_edges(records: Sequence[Record]) -> FloatArray:
-    """Return edges at 1, 3, 10, … Hz that hold every record's lowest and highest frequency."""
-    lowest = min(1.0 / one.duration_s for one in records)
-    highest = max(0.5 * (len(one.time_s) - 1) / one.duration_s for one in records)
+def find_band_edges(records: Sequence[Record]) -> FloatArray:
+    """Return edges at 1, 3, 10, … Hz that enclose the frequencies of all records."""
+    lowest = min(1.0 / record.duration_s for record in records)
+    highest = max(0.5 * (len(record.time_s) - 1) / record.duration_s for record in records)
     decades = range(int(np.floor(np.log10(lowest))), int(np.ceil(np.log10(highest))) + 1)
-    steps = np.array([part * 10.0**decade for decade in decades for part in _HALF_DECADES])
-    first = max(int(np.searchsorted(steps, lowest, side="right")) - 1, 0)
-    last = int(np.searchsorted(steps, highest, side="left"))
-    return steps[first : last + 1]
+    candidate_edges = np.array(
+        [multiple * 10.0**decade for decade in decades for multiple in _BAND_STARTS]
+    )
+    first = max(int(np.searchsorted(candidate_edges, lowest, side="right")) - 1, 0)
+    last = int(np.searchsorted(candidate_edges, highest, side="left"))
+    return candidate_edges[first : last + 1]
 
 
-def bands(time_s: FloatArray, signal: FloatArray, edges_hz: FloatArray) -> FloatArray:
-    """Split a signal (n,) into bands (b, n) that add up to it, by its cosine transform.
+def split_into_bands(time_s: FloatArray, signal: FloatArray, edges_hz: FloatArray) -> FloatArray:
+    """Split a signal (n,) into bands (b, n) whose sum is the signal, by a cosine transform.
 
-    The transform mirrors the signal at its ends, so drift does not leak into every band. Content
-    below the first edge or above the last one counts to the nearest band.
+    The transform mirrors the signal at its ends, so drift does not leak into all bands. Content
+    below the first or above the last edge belongs to the nearest band.
     """
-    from scipy.fft import dct, idct  # takes its time to import
+    # SciPy is slow to import, so it is imported only when needed.
+    from scipy.fft import dct, idct
 
-    place = _band_of_lines(time_s, edges_hz)
+    line_bands = _find_line_bands(time_s, edges_hz)
     lines = dct(signal, norm="ortho")
-    split = np.where(place == np.arange(len(edges_hz) - 1)[:, None], lines, 0.0)
-    return np.asarray(idct(split, norm="ortho", axis=1))
+    band_lines = np.where(line_bands == np.arange(len(edges_hz) - 1)[:, None], lines, 0.0)
+    return np.asarray(idct(band_lines, norm="ortho", axis=1))
 
 
-def white_shares(time_s: FloatArray, edges_hz: FloatArray) -> FloatArray:
-    """Return the share (b,) of white noise that lies in each band."""
-    place = _band_of_lines(time_s, edges_hz)
-    return np.bincount(place, minlength=len(edges_hz) - 1) / len(time_s)
+def compute_white_noise_shares(time_s: FloatArray, edges_hz: FloatArray) -> FloatArray:
+    """Return the fraction (b,) of the power of white noise that lies in each band."""
+    line_bands = _find_line_bands(time_s, edges_hz)
+    return np.bincount(line_bands, minlength=len(edges_hz) - 1) / len(time_s)
 
 
-def is_even(record: Record) -> bool:
-    """Tell whether a record is sampled evenly, and long enough, to be split into bands."""
+def is_evenly_sampled(record: Record) -> bool:
+    """Return whether a record is sampled evenly and is long enough to be split into bands."""
     intervals = np.diff(record.time_s)
-    if len(intervals) < _LEAST_ROWS:
+    if len(intervals) < _MIN_ROWS:
         return False
-    return float(np.ptp(intervals)) <= _EVEN * float(intervals.mean())
+    return float(np.ptp(intervals)) <= _MAX_INTERVAL_SPREAD_RATIO * float(intervals.mean())
 
 
-def _band_of_lines(time_s: FloatArray, edges_hz: FloatArray) -> np.ndarray:
+def _find_line_bands(time_s: FloatArray, edges_hz: FloatArray) -> np.ndarray:
     """Return the band (n,) of each line of the cosine transform of n samples."""
-    count = len(time_s)
-    rate_hz = (count - 1) / float(time_s[-1] - time_s[0])
-    frequency_hz = np.arange(count) * rate_hz / (2.0 * count)
+    rows = len(time_s)
+    rate_hz = (rows - 1) / float(time_s[-1] - time_s[0])
+    frequency_hz = np.arange(rows) * rate_hz / (2.0 * rows)
     return np.searchsorted(edges_hz[1:-1], frequency_hz, side="right")

@@ -6,12 +6,10 @@ from dataclasses import replace
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.effects.attachment import Attached
-from rotemina.sim.effects.identification import Sign
-from rotemina.sim.gap.fit.catalogue import shown_as
-from rotemina.sim.gap.fit.evidence import Evidence
-from rotemina.sim.records.record import Tap
-from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.effects import AttachedEffect, EffectSignature
+from rotemina.sim.gap.fit import Evidence, shown_as
+from rotemina.sim.records import Tap
+from rotemina.sim.robot import AxisEffect
 
 _FIRST_REACH = 8.0  # steps about the middle, within which a step that is roughly known counts right
 _WIDER = 3.0  # times that, each time that the step is known better
@@ -26,7 +24,7 @@ def steps_of(evidence: Evidence, effects: Sequence[AxisEffect], step: float) -> 
     ``step`` is an estimate, SI. None if a model with steps is no nearer to the readings, for
     example if the motion is not known to a fraction of a step.
     """
-    effect = shown_as(Sign.STEPS)
+    effect = shown_as(EffectSignature.STEPS)
     if effect is None:
         return None
     pairs = []
@@ -46,7 +44,7 @@ def steps_of(evidence: Evidence, effects: Sequence[AxisEffect], step: float) -> 
         return None
     numbers = {"step": width, "shift": (best + 0.5) % 1.0 - 0.5}
     asked = AxisEffect(axis=evidence.axis, id=effect)
-    return replace(asked, parameters=Attached.of(evidence.robot, asked).clipped(numbers))
+    return replace(asked, parameters=AttachedEffect.of(evidence.robot, asked).clip_values(numbers))
 
 
 def grid_width(readings: Sequence[FloatArray], step: float) -> float:

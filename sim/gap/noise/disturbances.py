@@ -12,22 +12,32 @@ from functools import partial
 import numpy as np
 
 from rotemina.sim.arrays import BoolArray, FloatArray
-from rotemina.sim.effects.facts import Facts
-from rotemina.sim.effects.identification import Sign
-from rotemina.sim.effects.kinship import Family
-from rotemina.sim.gap.fit.catalogue import catalogue, shown_as
-from rotemina.sim.gap.fit.evidence import Evidence, Observation, Signals
-from rotemina.sim.gap.fit.output_error import fit
-from rotemina.sim.gap.fit.reading_cells import cell_of, floor_beyond
+from rotemina.sim.effects import AxisProperties, EffectFamily, EffectSignature
+from rotemina.sim.gap.fit import (
+    Evidence,
+    Observation,
+    Signals,
+    catalogue,
+    cell_of,
+    fit,
+    floor_beyond,
+    shown_as,
+)
 from rotemina.sim.gap.noise.coarseness import coarse_step, stands_on
 from rotemina.sim.gap.noise.lost_step_jumps import jumps as jumps_in
 from rotemina.sim.gap.noise.spectral_noise import common_level, noise_level, slow_level
 from rotemina.sim.gap.noise.spikes import excursions
 from rotemina.sim.gap.noise.vibration_lines import tone_signals, tones
-from rotemina.sim.messages import Listed, Message, message
-from rotemina.sim.quantities import Number, exact, rounded
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.model import AxisEffect, StepperAxis
+from rotemina.sim.messages import (
+    FieldList,
+    Message,
+    NumberText,
+    format_rounded,
+    message,
+)
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot import AxisEffect, StepperAxis
+from rotemina.sim.units import format_exact
 
 _MORE_NOISE = 1.3  # floors from which noise is more than declared
 _SETTLED_S = 0.3  # after which a held axis rests
@@ -49,7 +59,7 @@ class Disturbance:
     ``note`` a complete sentence; ``step`` the step of a coarse reading, SI.
     """
 
-    sign: Sign
+    sign: EffectSignature
     tap: Tap
     power: float
     note: Message
@@ -89,7 +99,7 @@ def _without_jumps(evidence: Evidence) -> tuple[Evidence, list[Disturbance]]:
     axis = evidence.robot.axes[evidence.axis]
     if not isinstance(axis, StepperAxis):
         return evidence, []
-    quantum = 4.0 * Facts.of(axis).full_step
+    quantum = 4.0 * AxisProperties.of(axis).full_step
     observations, count = [], 0
     power: dict[Tap, float] = {}
     whole = zip(evidence.observations, evidence.gaps(), evidence.response(), strict=True)
@@ -115,7 +125,7 @@ def _without_jumps(evidence: Evidence) -> tuple[Evidence, list[Disturbance]]:
         "gap", "{n} sudden jumps by whole multiples of four full steps were removed."
     ).fill(n=str(count))
     return evidence.with_observations(observations), [
-        Disturbance(Sign.JUMPS, tap, total / _rows(evidence, tap), note)
+        Disturbance(EffectSignature.JUMPS, tap, total / _rows(evidence, tap), note)
         for tap, total in power.items()
     ]
 
@@ -140,7 +150,7 @@ def _plays(evidence: Evidence, width: float) -> Iterator[AxisEffect]:
     for effect in catalogue():
         form = effect.formulations[0]
         by_width = [parameter.name for parameter in form.parameters] == ["width"]
-        if effect.kinship.family is Family.LOST_MOTION and by_width:
+        if effect.kinship.family is EffectFamily.LOST_MOTION and by_width:
             yield AxisEffect(
                 axis=evidence.axis,
                 id=effect.id,
@@ -202,7 +212,7 @@ def _without_excursions(evidence: Evidence) -> tuple[Evidence, list[Disturbance]
     note = message("gap", "{n} spikes or dropouts of the sensor were left out.").fill(n=str(count))
     share = power / _rows(evidence, Tap.MEAS)
     return evidence.with_observations(observations), [
-        Disturbance(Sign.SPIKES, Tap.MEAS, share, note)
+        Disturbance(EffectSignature.SPIKES, Tap.MEAS, share, note)
     ]
 
 
@@ -230,12 +240,12 @@ def _runs_of(rows: BoolArray) -> int:
 def _commanded_change(evidence: Evidence, record: Record) -> FloatArray:
     """Return how far (n,) commands went in a row: the axis' own, and others' as they shake it."""
     change = np.zeros(len(record.time_s))
-    span = Facts.of(evidence.robot.axes[evidence.axis]).span
+    span = AxisProperties.of(evidence.robot.axes[evidence.axis]).span
     for axis in record.axes:
         if record.has(axis, Tap.CMD):
             command = record.signal(axis, Tap.CMD)
             share = 1.0 if axis == evidence.axis else _SHAKEN
-            size = share * span / Facts.of(evidence.robot.axes[axis]).span
+            size = share * span / AxisProperties.of(evidence.robot.axes[axis]).span
             change = np.maximum(change, size * np.abs(np.diff(command, prepend=command[0])))
     return change
 
@@ -265,11 +275,13 @@ def _without_tones(evidence: Evidence) -> tuple[Evidence, list[Disturbance]]:
         observations.append(replace(observation, nuisance=signals))
     quiet = evidence.with_observations(observations)
     before, after = evidence.residual(), quiet.residual()
-    listed = Listed(tuple(Number(f"{rounded(float(np.mean(lines)))} Hz") for lines in shared))
+    listed = FieldList(
+        tuple(NumberText(f"{format_rounded(float(np.mean(lines)))} Hz") for lines in shared)
+    )
     note = message("gap", "A vibration of {frequencies}, independent of the axis, was removed.")
     note = note.fill(frequencies=listed)
     return quiet, [
-        Disturbance(Sign.TONES, tap, power, note)
+        Disturbance(EffectSignature.TONES, tap, power, note)
         for tap in dict.fromkeys(one for one in taps if one is not None)
         for power in (_power(evidence, before, tap) - _power(evidence, after, tap),)
     ]
@@ -307,15 +319,17 @@ def _with_true_floors(evidence: Evidence, *, cells: bool) -> tuple[Evidence, lis
         power = (step / floor) ** 2 / 12.0
         unit = evidence.observations[0].record.units[evidence.axis]
         note = message("gap", "The sensor reads in steps of {step}.")
-        note = note.fill(step=exact(step, unit))
+        note = note.fill(step=format_exact(step, unit))
         # At rest an error of up to half a step stays as it is, which no mean over errors tells.
         raised = _raised(evidence, float(np.sqrt(1.0 + 3.0 * power)))
         seen = _by_cells(evidence, raised, answers, step) if cells else raised
-        return seen, [Disturbance(Sign.STEPS, Tap.MEAS, power, note, step)]
+        return seen, [Disturbance(EffectSignature.STEPS, Tap.MEAS, power, note, step)]
     if level > _MORE_NOISE:
         note = message("gap", "The sensor is {times} times as noisy as declared.")
-        note = note.fill(times=rounded(level, 3))
-        return _raised(evidence, level), [Disturbance(Sign.NOISE, Tap.MEAS, level**2 - 1.0, note)]
+        note = note.fill(times=format_rounded(level, 3))
+        return _raised(evidence, level), [
+            Disturbance(EffectSignature.NOISE, Tap.MEAS, level**2 - 1.0, note)
+        ]
     return evidence, []
 
 
@@ -426,7 +440,7 @@ def _rows(evidence: Evidence, tap: Tap) -> int:
 
 def by_effect(found: Sequence[Disturbance]) -> Iterator[Disturbance]:
     """Give one disturbance of each effect, at the tap where it shows first."""
-    seen: Mapping[Sign, Disturbance] = {one.sign: one for one in reversed(found)}
+    seen: Mapping[EffectSignature, Disturbance] = {one.sign: one for one in reversed(found)}
     yield from seen.values()
 
 

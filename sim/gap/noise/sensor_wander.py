@@ -8,13 +8,13 @@ import numpy as np
 from scipy.fft import dct
 
 from rotemina.sim.arrays import BoolArray, FloatArray
-from rotemina.sim.effects.identification import Sign
-from rotemina.sim.gap.fit.evidence import Evidence
-from rotemina.sim.gap.location.residual_features import probed
+from rotemina.sim.effects import EffectSignature
+from rotemina.sim.gap.fit import Evidence
+from rotemina.sim.gap.limits import MIN_MAJORITY_SHARE, MIN_SHARE_TO_NAME
+from rotemina.sim.gap.location import probe_residual
 from rotemina.sim.gap.noise.disturbances import Disturbance, resting
-from rotemina.sim.gap.thresholds import HALF, SOME
 from rotemina.sim.messages import message
-from rotemina.sim.records.record import Tap
+from rotemina.sim.records import Tap
 
 _LATER_S = (0.02, 0.1, 0.5)  # over which a wander is told from a fixed offset
 _LEAST_PAIRS = 50
@@ -141,9 +141,9 @@ def wander(evidence: Evidence, left: FloatArray) -> Disturbance | None:
     found = _drift(evidence, left)
     if found is None or _comes_again(evidence, left):
         return None
-    unforetold = _drift(evidence, probed(evidence, left, by_time=False).left)
+    unforetold = _drift(evidence, probe_residual(evidence, left, by_time=False).remainder)
     # Slow features foretell much of a walk by chance: it counts as a whole unless little is left.
-    by_chance = unforetold is not None and unforetold.power > SOME * found.power
+    by_chance = unforetold is not None and unforetold.power > MIN_SHARE_TO_NAME * found.power
     return found if by_chance else unforetold
 
 
@@ -169,7 +169,7 @@ def _drift(evidence: Evidence, left: FloatArray) -> Disturbance | None:
     )
     if rested:
         note = message("gap", "The reading drifts regardless of the motion, also at rest.")
-    return Disturbance(Sign.WANDER, Tap.MEAS, total / rows, note)
+    return Disturbance(EffectSignature.WANDER, Tap.MEAS, total / rows, note)
 
 
 def _true_motion_left(evidence: Evidence, left: FloatArray) -> float:
@@ -205,7 +205,7 @@ def _comes_again(evidence: Evidence, left: FloatArray) -> bool:
     if len(levels) < 2:
         return False
     together = np.stack(levels)
-    return _alike(together) > HALF and _alike(np.diff(together)) > HALF
+    return _alike(together) > MIN_MAJORITY_SHARE and _alike(np.diff(together)) > MIN_MAJORITY_SHARE
 
 
 def _alike(signals: FloatArray) -> float:

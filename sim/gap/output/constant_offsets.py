@@ -1,7 +1,7 @@
-"""Constants by which a corrected model is off at each tap, where all records agree on them.
+"""Constant offsets of a corrected model at each tap, if they are the same in all records.
 
-The constant part of one record may be its own: an odd start, or the origin of its counter. A
-constant common to all records belongs to the machine, and is predicted.
+An offset in only one record may come from an unusual start or from the origin of a counter. An
+offset common to all records belongs to the machine, so it is part of the prediction.
 """
 
 from collections.abc import Sequence
@@ -9,49 +9,55 @@ from collections.abc import Sequence
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.gap.diagnosis import Offset
-from rotemina.sim.gap.fit.evidence import Evidence
-from rotemina.sim.records.record import Tap
-from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.gap.fit import Evidence
+from rotemina.sim.gap.result import ModelOffset
+from rotemina.sim.records import Tap
+from rotemina.sim.robot import AxisEffect
 
-_PIECES = 4  # of a single record
-_BLOCKS = 8  # of a piece, whose means tell how sure its constant is
-_AGREED = 0.04  # of the power of constants, that the others' mean may leave of each
+# A single record is split into this many pieces.
+_PIECES_PER_RECORD = 4
+# The scatter of the means of this many blocks gives the standard error of the offset of a piece.
+_BLOCKS_PER_PIECE = 8
+# The differences of the offsets from the means of the others may have this fraction of their power.
+_MAX_DISAGREEMENT_RATIO = 0.04
 
 
-def offsets(evidence: Evidence, effects: Sequence[AxisEffect] = ()) -> dict[Tap, Offset | None]:
-    """Return the constant at each tap of a model with further effects; None where records disagree.
+def estimate_offsets(
+    evidence: Evidence, effects: Sequence[AxisEffect] = ()
+) -> dict[Tap, ModelOffset | None]:
+    """Return the offset at each tap of the model with ``effects``; None if the records disagree.
 
-    Each record's constant, or that of each quarter of a single record, is foretold by those of the
-    others: they agree where that leaves next to nothing.
+    The offset of each record, or of each quarter of a single record, is predicted by the mean of
+    the others. The records agree if the errors of this prediction are small.
     """
-    by_tap: dict[Tap, list[FloatArray]] = {}
-    answers = evidence.response(effects)
-    for observation, answer in zip(evidence.observations, answers, strict=True):
+    gaps_by_tap: dict[Tap, list[FloatArray]] = {}
+    responses = evidence.response(effects)
+    for observation, response in zip(evidence.observations, responses, strict=True):
         for tap, real in observation.real.items():
-            kept = observation.kept.get(tap)
-            gap = real - answer[tap]
-            by_tap.setdefault(tap, []).append(gap if kept is None else gap[kept])
-    return {tap: _offset(gaps) for tap, gaps in by_tap.items()}
+            is_kept = observation.kept.get(tap)
+            gap = real - response[tap]
+            gaps_by_tap.setdefault(tap, []).append(gap if is_kept is None else gap[is_kept])
+    return {tap: _estimate_offset(gaps) for tap, gaps in gaps_by_tap.items()}
 
 
-def _offset(gaps: Sequence[FloatArray]) -> Offset | None:
-    """Return the constant that gaps, each (n,) of a record, share."""
-    pieces = gaps if len(gaps) > 1 else np.array_split(gaps[0], _PIECES)
+def _estimate_offset(gaps: Sequence[FloatArray]) -> ModelOffset | None:
+    pieces = gaps if len(gaps) > 1 else np.array_split(gaps[0], _PIECES_PER_RECORD)
     means = np.array([float(np.mean(piece)) for piece in pieces])
     count = len(means)
-    foretold = (means.sum() - means) / (count - 1)
-    within = np.array([_error(piece) for piece in pieces])
-    left = np.sum((means - foretold) ** 2) - np.sum(within**2) * count / (count - 1)
-    if left > _AGREED * np.sum(means**2):
+    means_of_others = (means.sum() - means) / (count - 1)
+    standard_errors = np.array([_estimate_standard_error(piece) for piece in pieces])
+    disagreement = np.sum((means - means_of_others) ** 2) - np.sum(standard_errors**2) * count / (
+        count - 1
+    )
+    if disagreement > _MAX_DISAGREEMENT_RATIO * np.sum(means**2):
         return None
     scatter = float(np.std(means, ddof=1)) / np.sqrt(count)
-    return Offset(
-        float(means.mean()), float(np.hypot(scatter, np.sqrt(np.mean(within**2) / count)))
+    return ModelOffset(
+        float(means.mean()), float(np.hypot(scatter, np.sqrt(np.mean(standard_errors**2) / count)))
     )
 
 
-def _error(piece: FloatArray) -> float:
-    """Return the standard error of the mean of a piece (n,) with correlated neighbours."""
-    blocks = np.array([float(np.mean(one)) for one in np.array_split(piece, _BLOCKS)])
-    return float(np.std(blocks, ddof=1)) / float(np.sqrt(_BLOCKS))
+def _estimate_standard_error(piece: FloatArray) -> float:
+    """Return the standard error of the mean of a piece (n,) whose samples are correlated."""
+    blocks = np.array([float(np.mean(block)) for block in np.array_split(piece, _BLOCKS_PER_PIECE)])
+    return float(np.std(blocks, ddof=1)) / float(np.sqrt(_BLOCKS_PER_PIECE))

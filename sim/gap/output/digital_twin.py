@@ -1,89 +1,99 @@
-"""The digital twin brought up to date: a robot file with the effects that a diagnosis fitted."""
+"""The digital twin: a robot file with the effects that a diagnosis fitted."""
 
 from collections.abc import Sequence
 from dataclasses import fields, replace
 from os import PathLike, fspath
 from pathlib import Path
 
-from rotemina.sim.gap.errors import GapError
+from rotemina.sim.errors import FileWriteError, GapError
+from rotemina.sim.files import replace_file
 from rotemina.sim.messages import message
-from rotemina.sim.robot.file import load_robot, robot_file_text, shipped_robots
-from rotemina.sim.robot.model import AxisEffect, Robot
-from rotemina.sim.robot.writing import by_axis, robot_text, with_effects
-from rotemina.sim.whole_files import FileWriteError, replaced
+from rotemina.sim.robot import AxisEffect, Robot
+from rotemina.sim.robot_files import (
+    format_robot,
+    list_shipped_robots,
+    load_robot,
+    read_robot_file,
+    sort_by_axis,
+    with_effects,
+)
 
 
-def twin_text(
+def make_twin_text(
     robot: Robot, effects: Sequence[AxisEffect], source: str | PathLike[str] | None = None
 ) -> str:
-    """Return the text of a robot file with fitted effects behind those that it has.
+    """Return the text of a robot file, with the fitted effects appended to its own.
 
     Parameters
     ----------
     robot : Robot
-        Which was diagnosed.
+        The diagnosed robot.
     effects : sequence of AxisEffect
     source : name of a shipped robot or path of a robot file, optional
-        Whose text, comments too, is kept. Without, that of the shipped robot which is the same,
-        or else a new text.
+        File whose text is kept, including its comments. By default, it is the shipped file that
+        describes ``robot``; if there is none, a new text is written.
 
     Raises
     ------
     GapError
-        If ``source`` describes another robot than the one that was diagnosed.
+        If ``source`` does not describe the diagnosed robot.
     RobotFileError, EffectError
         If the file cannot be read or an effect cannot be added to it.
     """
     if source is None:
-        source = next((name for name in shipped_robots() if _same(load_robot(name), robot)), None)
-    if source is None:
-        return with_effects(robot_text(robot), effects, robot.name)
-    name = fspath(source)
-    source = source if isinstance(source, str) else Path(source)
-    found = load_robot(source)
-    if not _same(found, robot):
-        raise GapError(
-            message(
-                "gap",
-                "{name}: it describes another robot than the one that was diagnosed, "
-                "{robot_name}: they differ in {differences}; diagnose again with this file, or "
-                "leave it out to write the diagnosed one",
-            ).fill(name=name, robot_name=repr(robot.name), differences=_differences(found, robot))
+        source = next(
+            (name for name in list_shipped_robots() if _is_same(load_robot(name), robot)), None
         )
-    return with_effects(robot_file_text(source), effects, name)
+        if source is None:
+            return with_effects(format_robot(robot), effects, robot.name)
+    name = fspath(source)
+    # A string may also be the name of a shipped robot.
+    source = source if isinstance(source, str) else Path(source)
+    source_robot = load_robot(source)
+    if not _is_same(source_robot, robot):
+        raise GapError(
+            "{name}: this file does not describe the diagnosed robot {robot_name} "
+            "(differences: {differences}); diagnose again with this file, or omit it to write "
+            "the diagnosed robot",
+            name=name,
+            robot_name=repr(robot.name),
+            differences=_describe_differences(source_robot, robot),
+        )
+    return with_effects(read_robot_file(source), effects, name)
 
 
 def write_twin(text: str, path: str | PathLike[str]) -> None:
-    """Write the text of a twin as a new file, whole or not at all.
+    """Write the text of a twin to a new file atomically.
 
     Raises
     ------
     FileWriteError
-        If there is a file already, or none can be written.
+        If the file exists already or cannot be written.
     """
     if Path(path).exists():
         raise FileWriteError(
             message("gap", "{fspath} already exists; name another file").fill(fspath=fspath(path))
         )
-    with replaced(path) as file:
+    with replace_file(path) as file:
         file.write(text.encode("utf-8"))
 
 
-def _same(one: Robot, other: Robot) -> bool:
-    """Whether two robots are the same, but for the order of effects between axes."""
-    return not _differing(one, other)
+def _is_same(first: Robot, second: Robot) -> bool:
+    """Return whether two robots are equal. The order of effects matters only within an axis."""
+    return not _find_different_fields(first, second)
 
 
-def _differing(one: Robot, other: Robot) -> list[str]:
-    ordered = [replace(robot, effects=by_axis(robot, robot.effects)) for robot in (one, other)]
+def _find_different_fields(first: Robot, second: Robot) -> list[str]:
+    robots = [
+        replace(robot, effects=sort_by_axis(robot, robot.effects)) for robot in (first, second)
+    ]
     names = [field.name for field in fields(Robot)]
-    return [name for name in names if getattr(ordered[0], name) != getattr(ordered[1], name)]
+    return [name for name in names if getattr(robots[0], name) != getattr(robots[1], name)]
 
 
-def _differences(one: Robot, other: Robot) -> str:
-    """Name what differs; of axes, which."""
-    names = _differing(one, other)
-    if "axes" in names and list(one.axes) == list(other.axes):
-        differing = [axis for axis in one.axes if one.axes[axis] != other.axes[axis]]
-        names[names.index("axes")] = f"axis {', '.join(differing)}"
+def _describe_differences(first: Robot, second: Robot) -> str:
+    names = _find_different_fields(first, second)
+    if "axes" in names and list(first.axes) == list(second.axes):
+        axes = [axis for axis in first.axes if first.axes[axis] != second.axes[axis]]
+        names[names.index("axes")] = f"axis {', '.join(axes)}"
     return ", ".join(names)

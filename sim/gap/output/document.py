@@ -1,7 +1,7 @@
 """A diagnosis as a JSON document, ``rotemina-diagnosis 1``.
 
-Values are SI; null stands for a number that is not finite. ``model`` holds the robot file as text
-and the fitted effects, so readers need no other file.
+Values are SI. A number that is not finite is written as null. ``model`` contains the text of the
+robot file and the fitted effects, so readers need no other file.
 """
 
 from collections.abc import Mapping, Sequence
@@ -9,22 +9,22 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import Any
 
-from rotemina.sim.effects.attachment import Attached
-from rotemina.sim.gap.diagnosis import (
+from rotemina.sim.effects import AttachedEffect
+from rotemina.sim.gap.location import GapPortion, LocatedGap
+from rotemina.sim.gap.output.report_words import complete_unit
+from rotemina.sim.gap.result import (
     AxisDiagnosis,
-    Cause,
     Diagnosis,
-    Experiment,
+    GapCause,
+    GapShrinkage,
+    GapVerdict,
     Interval,
-    Ranked,
-    Shrinkage,
-    Verdict,
+    RankedCandidate,
+    SuggestedExperiment,
 )
-from rotemina.sim.gap.location.located_gap import LocatedGap, Portion
-from rotemina.sim.gap.output.report.quantities import named_unit
-from rotemina.sim.records.record import Tap
-from rotemina.sim.robot.model import Robot
-from rotemina.sim.robot.writing import robot_text
+from rotemina.sim.records import Tap
+from rotemina.sim.robot import Robot
+from rotemina.sim.robot_files import format_robot
 
 FORMAT = "rotemina-diagnosis 1"
 
@@ -46,107 +46,120 @@ def as_json(diagnosis: Diagnosis, files: Sequence[ExperimentFiles] = ()) -> Json
     ----------
     diagnosis : Diagnosis
     files : sequence of ExperimentFiles
-        One for each suggested experiment; without, their ``commands`` are null.
+        One for each suggested experiment. Without them, the ``commands`` are null.
 
     Raises
     ------
     RobotFileError, EffectError
-        If the robot or an effect cannot be written down.
+        If the robot or an effect cannot be written.
     """
     axes = diagnosis.axes
-    named: Sequence[ExperimentFiles | None] = files or [None] * len(diagnosis.experiments)
-    suggested = zip(diagnosis.experiments, named, strict=True)
+    file_names: Sequence[ExperimentFiles | None] = files or [None] * len(diagnosis.experiments)
+    experiments = zip(diagnosis.experiments, file_names, strict=True)
     return {
         "format": FORMAT,
         "verdict": str(diagnosis.verdict),
-        "axes": {name: str(one.verdict) for name, one in axes.items()},
-        "where": _where(diagnosis.places if diagnosis.verdict is not Verdict.NONE else ()),
-        "causes": [_cause(cause, diagnosis.robot) for cause in ordered_causes(diagnosis)],
-        "shrinkage": [_shrinkage(each) for one in axes.values() for each in one.shrinkage],
-        "remainder": {name: _remainder(one) for name, one in axes.items() if one.remainder},
-        "offset": {name: _offset(one) for name, one in axes.items() if one.offsets},
+        "axes": {name: str(axis.verdict) for name, axis in axes.items()},
+        "where": _make_where_json(
+            diagnosis.places if diagnosis.verdict is not GapVerdict.NONE else ()
+        ),
+        "causes": [_make_cause_json(cause, diagnosis.robot) for cause in sort_causes(diagnosis)],
+        "shrinkage": [
+            _make_shrinkage_json(item) for axis in axes.values() for item in axis.shrinkage
+        ],
+        "remainder": {
+            name: _make_remainder_json(axis) for name, axis in axes.items() if axis.remainder
+        },
+        "offset": {name: _make_offset_json(axis) for name, axis in axes.items() if axis.offsets},
         "suspected": [
             {
                 "axis": name,
-                "effect": each.effect,
-                "from_axis": each.from_axis,
-                "probability": _number(each.probability),
-                "in_model": each.in_model,
+                "effect": item.effect,
+                "from_axis": item.from_axis,
+                "probability": _to_json_number(item.probability),
+                "in_model": item.in_model,
             }
-            for name, one in axes.items()
-            for each in one.suspected
+            for name, axis in axes.items()
+            for item in axis.suspected
         ],
-        "candidates": {name: _candidates(one) for name, one in axes.items()},
-        "next_experiments": [_experiment(one, names) for one, names in suggested],
-        "model": _model(diagnosis),
-        "remarks": {name: [str(text) for text in one.remarks] for name, one in axes.items()},
+        "candidates": {name: _make_candidates_json(axis) for name, axis in axes.items()},
+        "next_experiments": [_make_experiment_json(axis, names) for axis, names in experiments],
+        "model": _make_model_json(diagnosis),
+        "remarks": {name: [str(text) for text in axis.remarks] for name, axis in axes.items()},
         "seed": diagnosis.seed,
     }
 
 
-def ordered_causes(diagnosis: Diagnosis) -> tuple[Cause, ...]:
-    """Return all causes, ordered by the gap that each closes, in squared floors of its tap."""
+def sort_causes(diagnosis: Diagnosis) -> tuple[GapCause, ...]:
+    """Return all causes, in descending order of the power they close, in squared floors."""
 
-    def closes(cause: Cause) -> float:
-        floor = floor_at(diagnosis.axes[cause.axis], cause.tap)
-        gain = cause.gap_before**2 - cause.gap_after**2
-        return gain / floor**2 if floor and isfinite(gain) else 0.0
+    def compute_closed_power(cause: GapCause) -> float:
+        floor = find_floor(diagnosis.axes[cause.axis], cause.tap)
+        closed_power = cause.gap_before**2 - cause.gap_after**2
+        return closed_power / floor**2 if floor and isfinite(closed_power) else 0.0
 
-    return tuple(sorted(diagnosis.causes, key=lambda cause: -closes(cause)))
-
-
-def floor_at(axis: AxisDiagnosis, tap: Tap | None = None) -> float | None:
-    """Return the noise floor of an axis at a tap, SI, by default at its last; None if unknown."""
-    found = [place.noise_floor for place in axis.places if tap in (None, place.tap)]
-    return found[-1] if found else None
+    return tuple(sorted(diagnosis.causes, key=lambda cause: -compute_closed_power(cause)))
 
 
-def shares(places: Sequence[LocatedGap]) -> list[tuple[float, Interval]]:
-    """Return the share of each place in the gap above all floors, with its interval.
+def find_floor(axis: AxisDiagnosis, tap: Tap | None = None) -> float | None:
+    """Return the noise floor of an axis at a tap (by default the last), SI; None if unknown."""
+    floors = [place.noise_floor for place in axis.places if tap in (None, place.tap)]
+    return floors[-1] if floors else None
 
-    The shares sum to 1. An end of an interval is the share with the excess of this place at the end
-    of its own interval, and the others unchanged.
+
+def compute_shares(places: Sequence[LocatedGap]) -> list[tuple[float, Interval]]:
+    """Return the share of each place in the total gap above the floors, with its interval.
+
+    The shares sum to 1. The interval of a share follows from the interval of the excess at that
+    place; the excesses at other places are held constant.
     """
     total = sum(place.excess for place in places)
-    found = []
+    result = []
     for place in places:
-        others = total - place.excess
-        low, high = (end / (end + others) for end in place.excess_interval)
-        found.append((place.excess / total, (low, high)))
-    return found
+        other_excess = total - place.excess
+        low, high = (end / (end + other_excess) for end in place.excess_interval)
+        result.append((place.excess / total, (low, high)))
+    return result
 
 
-def _where(places: Sequence[LocatedGap]) -> list[Json]:
+def _make_where_json(places: Sequence[LocatedGap]) -> list[Json]:
     return [
         {
             "axis": place.axis,
             "tap": str(place.tap),
             "stage": str(place.stage),
-            "gap_rms": _number(place.gap_rms),
-            "noise_floor": _number(place.noise_floor),
-            "share": _number(share),
-            "share_interval": _interval(interval),
-            "worst_band_hz": _interval(place.worst_band_hz),
+            "gap_rms": _to_json_number(place.gap_rms),
+            "noise_floor": _to_json_number(place.noise_floor),
+            "share": _to_json_number(share),
+            "share_interval": _to_json_interval(interval),
+            "worst_band_hz": _to_json_interval(place.worst_band_hz),
             "worst_regime": str(place.worst_regime) if place.worst_regime is not None else None,
-            "excess": _number(place.excess),
-            "excess_interval": _interval(place.excess_interval),
+            "excess": _to_json_number(place.excess),
+            "excess_interval": _to_json_interval(place.excess_interval),
             "by_regime": {
-                str(regime): {"excess": _number(one.excess), **_portion(one)}
-                for regime, one in place.by_regime.items()
+                str(regime): {
+                    "excess": _to_json_number(portion.excess),
+                    **_make_portion_json(portion),
+                }
+                for regime, portion in place.by_regime.items()
             },
             "by_band": [
-                {"band_hz": _interval(band), **_portion(one)} for band, one in place.by_band.items()
+                {"band_hz": _to_json_interval(band), **_make_portion_json(portion)}
+                for band, portion in place.by_band.items()
             ],
         }
-        for place, (share, interval) in zip(places, shares(places), strict=True)
+        for place, (share, interval) in zip(places, compute_shares(places), strict=True)
     ]
 
 
-def _portion(one: Portion) -> Json:
-    return {"share": _number(one.share), "share_interval": _interval(one.share_interval)}
+def _make_portion_json(portion: GapPortion) -> Json:
+    return {
+        "share": _to_json_number(portion.share),
+        "share_interval": _to_json_interval(portion.share_interval),
+    }
 
 
-def _cause(cause: Cause, robot: Robot) -> Json:
+def _make_cause_json(cause: GapCause, robot: Robot) -> Json:
     source_unit = robot.unit(cause.from_axis) if cause.from_axis is not None else None
     return {
         "axis": cause.axis,
@@ -154,36 +167,47 @@ def _cause(cause: Cause, robot: Robot) -> Json:
         "stage": cause.stage,
         "tap": str(cause.tap),
         "from_axis": cause.from_axis,
-        "probability": _number(cause.probability),
-        "weight": _number(cause.weight),
+        "probability": _to_json_number(cause.probability),
+        "weight": _to_json_number(cause.weight),
         "ambiguous_with": list(cause.ambiguous_with),
-        "gap_before": _number(cause.gap_before),
-        "gap_after": _number(cause.gap_after),
-        "closed": _number(cause.closed),
-        "closed_interval": _interval(cause.closed_interval),
-        "parameters": {one.name: _number(one.value) for one in cause.parameters},
-        "units": {one.name: named_unit(one.unit, source_unit or "") for one in cause.parameters},
+        "gap_before": _to_json_number(cause.gap_before),
+        "gap_after": _to_json_number(cause.gap_after),
+        "closed": _to_json_number(cause.closed),
+        "closed_interval": _to_json_interval(cause.closed_interval),
+        "parameters": {
+            parameter.name: _to_json_number(parameter.value) for parameter in cause.parameters
+        },
+        "units": {
+            parameter.name: complete_unit(parameter.unit, source_unit or "")
+            for parameter in cause.parameters
+        },
         "formulation": cause.formulation,
-        "parameter_intervals": {one.name: _interval(one.interval) for one in cause.parameters},
-        "at_bound": {one.name: one.at_bound for one in cause.parameters if one.at_bound},
+        "parameter_intervals": {
+            parameter.name: _to_json_interval(parameter.interval) for parameter in cause.parameters
+        },
+        "at_bound": {
+            parameter.name: parameter.at_bound
+            for parameter in cause.parameters
+            if parameter.at_bound
+        },
         "in_model": cause.in_model,
         "derived": {
-            one.name: {
-                "value": _number(one.value),
-                "interval": _interval(one.interval),
-                "unit": one.unit,
+            parameter.name: {
+                "value": _to_json_number(parameter.value),
+                "interval": _to_json_interval(parameter.interval),
+                "unit": parameter.unit,
             }
-            for one in cause.derived
+            for parameter in cause.derived
         },
     }
 
 
-def _shrinkage(shrinkage: Shrinkage) -> Json:
+def _make_shrinkage_json(shrinkage: GapShrinkage) -> Json:
     steps = [
         {
             "effect": step.effect,
-            "rms": _number(step.rms),
-            "shapley": _number(step.shapley),
+            "rms": _to_json_number(step.rms),
+            "shapley": _to_json_number(step.shapley),
             "axis": step.axis,
         }
         for step in shrinkage.steps
@@ -192,51 +216,57 @@ def _shrinkage(shrinkage: Shrinkage) -> Json:
         "axis": shrinkage.axis,
         "tap": str(shrinkage.tap),
         **{
-            name: _number(getattr(shrinkage, name))
+            name: _to_json_number(getattr(shrinkage, name))
             for name in ("raw", "retuned", "corrected", "floor", "ceiling", "closed")
         },
-        "closed_interval": _interval(shrinkage.closed_interval),
+        "closed_interval": _to_json_interval(shrinkage.closed_interval),
         "steps": steps,
     }
 
 
-def _remainder(axis: AxisDiagnosis) -> Json:
+def _make_remainder_json(axis: AxisDiagnosis) -> Json:
     assert axis.remainder is not None
-    depends = [{"what": what, "share": _number(share)} for what, share in axis.remainder.depends_on]
+    dependencies = [
+        {"what": predictor, "share": _to_json_number(share)}
+        for predictor, share in axis.remainder.depends_on
+    ]
     return {
-        "rms": _number(axis.remainder.rms),
-        "share": _number(axis.remainder.share),
-        "depends_on": depends,
+        "rms": _to_json_number(axis.remainder.rms),
+        "share": _to_json_number(axis.remainder.share),
+        "depends_on": dependencies,
     }
 
 
-def _offset(axis: AxisDiagnosis) -> Json:
+def _make_offset_json(axis: AxisDiagnosis) -> Json:
     return {
         str(tap): None
-        if one is None
-        else {"value": _number(one.value), "deviation": _number(one.deviation)}
-        for tap, one in axis.offsets.items()
+        if offset is None
+        else {
+            "value": _to_json_number(offset.value),
+            "deviation": _to_json_number(offset.deviation),
+        }
+        for tap, offset in axis.offsets.items()
     }
 
 
-def _candidates(axis: AxisDiagnosis) -> list[Json]:
-    floor = floor_at(axis)
+def _make_candidates_json(axis: AxisDiagnosis) -> list[Json]:
+    floor = find_floor(axis)
 
-    def in_si(one: Ranked) -> Json:
-        low, high = one.held_out_interval
+    def make_candidate_json(candidate: RankedCandidate) -> Json:
+        low, high = candidate.held_out_interval
         return {
-            "effect": one.effect,
-            "probability": _number(one.probability),
-            "held_out_rms": _number(one.held_out_rms * floor) if floor else None,
-            "held_out_interval": _interval((low * floor, high * floor)) if floor else None,
-            "from_axis": one.from_axis,
-            "formulation": one.formulation,
+            "effect": candidate.effect,
+            "probability": _to_json_number(candidate.probability),
+            "held_out_rms": _to_json_number(candidate.held_out_rms * floor) if floor else None,
+            "held_out_interval": _to_json_interval((low * floor, high * floor)) if floor else None,
+            "from_axis": candidate.from_axis,
+            "formulation": candidate.formulation,
         }
 
-    return [in_si(one) for one in axis.ranking]
+    return [make_candidate_json(candidate) for candidate in axis.ranking]
 
 
-def _experiment(experiment: Experiment, files: ExperimentFiles | None) -> Json:
+def _make_experiment_json(experiment: SuggestedExperiment, files: ExperimentFiles | None) -> Json:
     return {
         "axis": experiment.axis,
         "splits": list(experiment.splits),
@@ -247,11 +277,12 @@ def _experiment(experiment: Experiment, files: ExperimentFiles | None) -> Json:
     }
 
 
-def _model(diagnosis: Diagnosis) -> Json:
+def _make_model_json(diagnosis: Diagnosis) -> Json:
+    # Attaching an effect raises an error if the effect is invalid.
     for effect in diagnosis.fitted:
-        Attached.of(diagnosis.robot, effect)
+        AttachedEffect.of(diagnosis.robot, effect)
     return {
-        "robot": robot_text(diagnosis.robot),
+        "robot": format_robot(diagnosis.robot),
         "effects": [
             {
                 "axis": effect.axis,
@@ -266,9 +297,9 @@ def _model(diagnosis: Diagnosis) -> Json:
     }
 
 
-def _number(value: float | None) -> float | None:
+def _to_json_number(value: float | None) -> float | None:
     return float(value) if value is not None and isfinite(value) else None
 
 
-def _interval(interval: Interval | None) -> list[float | None] | None:
-    return None if interval is None else [_number(end) for end in interval]
+def _to_json_interval(interval: Interval | None) -> list[float | None] | None:
+    return None if interval is None else [_to_json_number(end) for end in interval]

@@ -1,7 +1,7 @@
-"""Real machines laid out for ``gap bench``. Usage: laid_out.py DATA OUT
+"""Prepare folders of real machines for ``gap bench``. Usage: laid_out.py DATA OUT
 
-Those that come as record files are taken as they are; the others are converted first, and are of
-the shipped robot of their name.
+Machines with record files are copied as they are. The others are converted first, and use the
+included robot file of the same name.
 """
 
 import runpy
@@ -11,7 +11,7 @@ from importlib import resources
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-# Which converted records are diagnosed, and which are kept back: as the truth.toml of each says.
+# The converted records for diagnosis and for testing, as in the truth.toml of each machine.
 CONVERTED = {
     "emps": (["emps_train"], ["emps_pulses"]),
     "picma": (["picma_train"], ["picma_growing"]),
@@ -35,13 +35,17 @@ def lay_out(data: Path, out: Path) -> None:
             sys.argv = arguments
         robots = resources.files("rotemina.resources.robots")
         for name, parts in CONVERTED.items():
-            place = out / name
-            place.mkdir(parents=True)
-            (place / "robot.toml").write_bytes(robots.joinpath(f"{name}.toml").read_bytes())
-            shutil.copyfile(data / name / "truth.toml", place / "truth.toml")
+            folder_of_machine = out / name
+            folder_of_machine.mkdir(parents=True)
+            (folder_of_machine / "robot.toml").write_bytes(
+                robots.joinpath(f"{name}.toml").read_bytes()
+            )
+            shutil.copyfile(data / name / "truth.toml", folder_of_machine / "truth.toml")
             for part, records in zip(("train", "test"), parts, strict=True):
                 for number, record in enumerate(records, start=1):
-                    shutil.move(Path(folder) / f"{record}.csv", place / f"{part}_{number}.csv")
+                    shutil.move(
+                        Path(folder) / f"{record}.csv", folder_of_machine / f"{part}_{number}.csv"
+                    )
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""The bench: machines in folders, what the diagnosis says of them beside what is known."""
+"""The bench compares the diagnoses of machines in folders with the known causes."""
 
 import json
 import shutil
@@ -9,19 +9,20 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rotemina.app.bench.bench_run import result_of, run_bench
-from rotemina.app.bench.machine import BenchError, Machine, Truth, machines
-from rotemina.app.bench.residual import Residual, residual_of
-from rotemina.app.bench.result import NamedCause, Result
-from rotemina.app.bench.words import line, page
+from rotemina.app.bench import run_bench
+from rotemina.app.bench.bench_run import diagnose_machine
+from rotemina.app.bench.machine import BenchMachine, KnownCauses, find_machines
+from rotemina.app.bench.residual import ModelResidual, compute_model_residual
+from rotemina.app.bench.result import BenchResult, NamedCause
+from rotemina.app.bench.words import format_line, format_page
 from rotemina.app.cli.main import main
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.records.writing import write_record
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.robot.model import AxisEffect
-from rotemina.sim.simulation.simulation import simulate
+from rotemina.app.errors import BenchError
+from rotemina.sim.records import Record, Tap, write_record
+from rotemina.sim.robot import AxisEffect
+from rotemina.sim.robot_files import load_robot
+from rotemina.sim.simulation import simulate
 
-ROBOT = """[robot]
+ROBOT_TOML = """[robot]
 name = "A table"
 axes = ["q"]
 
@@ -33,133 +34,144 @@ sensor.kind = "encoder"
 sensor.resolution = 1.0e-8
 sensor.noise_rms = 2.0e-8
 """
-TRUTH = 'causes = [["backlash"]]\nto_beat = 1e-7\n'
+TRUTH_TOML = 'causes = [["backlash"]]\nto_beat = 1e-7\n'
 
 
-def make_machine(folder, truth=TRUTH):
+def make_machine(folder, truth=TRUTH_TOML):
     folder.mkdir(parents=True)
-    (folder / "robot.toml").write_text(ROBOT)
+    (folder / "robot.toml").write_text(ROBOT_TOML)
     if truth is not None:
         (folder / "truth.toml").write_text(truth)
     robot = load_robot(folder / "robot.toml")
-    wrong = AxisEffect(axis="q", id="backlash", parameters={"width": 2e-5})
+    backlash = AxisEffect(axis="q", id="backlash", parameters={"width": 2e-5})
     time_s = np.arange(400) / 100.0
     for number, name in enumerate(("train_1", "train_2", "test_1"), start=1):
         command = 5e-3 + 1e-3 * np.sin(7.0 * number * time_s) * np.cos(1.7 * time_s)
-        asked = Record.from_signals(time_s, {("q", Tap.CMD): command}, {"q": "m"})
-        run = simulate(robot, [wrong], asked, np.random.default_rng(number))
+        commands = Record.from_signals(time_s, {("q", Tap.CMD): command}, {"q": "m"})
+        run = simulate(robot, [backlash], commands, np.random.default_rng(number))
         write_record(run, folder / f"{name}.csv")
     return folder
 
 
 @pytest.fixture(scope="module")
-def table(tmp_path_factory):
+def machine_folder(tmp_path_factory):
     return make_machine(tmp_path_factory.mktemp("machines") / "table")
 
 
-def of(named=(), before=1e-3, after=2e-5, seconds=5.0, **known):
-    machine = Machine("table", Path("robot.toml"), (), (), Truth(**known))
-    residuals = (Residual(gap, 1e-2, 1e-5) for gap in (before, after))
-    causes = tuple(NamedCause("q", *one) for one in named)
-    return Result(machine, "A table", "explained", causes, *residuals, seconds, "m")
+def make_bench_result(named=(), before=1e-3, after=2e-5, seconds=5.0, **known):
+    machine = BenchMachine("table", Path("robot.toml"), (), (), KnownCauses(**known))
+    residuals = (ModelResidual(gap, 1e-2, 1e-5) for gap in (before, after))
+    causes = tuple(NamedCause("q", *cause) for cause in named)
+    return BenchResult(machine, "A table", "explained", causes, *residuals, seconds, "m")
 
 
-def test_a_machine_is_diagnosed_and_tried_on_what_no_fit_saw(table, capsys, tmp_path):
+def test_machine_is_diagnosed_and_checked_on_held_out_records(machine_folder, capsys, tmp_path):
     out, report = tmp_path / "out.json", tmp_path / "page.md"
-    asked = ["gap", "bench", str(table), "--jobs", "1"]
-    assert main([*asked, "--json", str(out), "--report", str(report)]) == 0
-    told = capsys.readouterr().out
-    assert told.startswith("table: backlash on q (")
-    assert told.count("\n") == 1
-    (found,) = json.loads(out.read_text())["machines"]
-    assert found["first_is_right"]
-    assert found["missed"] == found["not_reached"] == []
-    assert found["left"] < 1e-7 < found["raw"]
-    assert found["closed"] > 0.99
+    arguments = ["gap", "bench", str(machine_folder), "--jobs", "1"]
+    assert main([*arguments, "--json", str(out), "--report", str(report)]) == 0
+    output = capsys.readouterr().out
+    assert output.startswith("table: backlash on q (")
+    assert output.count("\n") == 1
+    (result,) = json.loads(out.read_text())["machines"]
+    assert result["first_is_right"]
+    assert result["missed"] == result["not_reached"] == []
+    assert result["left"] < 1e-7 < result["raw"]
+    assert result["closed"] > 0.99
     assert "`table`" in report.read_text()
     assert "Nothing: every level is reached" in report.read_text()
 
 
-def test_what_is_left_takes_off_offset_but_no_gain(table):
-    robot = load_robot(table / "robot.toml")
+def test_residual_ignores_offset_but_not_gain(machine_folder):
+    robot = load_robot(machine_folder / "robot.toml")
     time_s = np.arange(400) / 100.0
     command = 5e-3 + 1e-3 * np.sin(time_s)
     signals = {("q", Tap.CMD): command, ("q", Tap.MEAS): 1.01 * command + 1e-4}
     record = Record.from_signals(time_s, signals, {"q": "m"})
-    residual = residual_of(robot, [record], Tap.MEAS)
+    residual = compute_model_residual(robot, [record], Tap.MEAS)
     assert residual.gap == pytest.approx(0.01 * np.std(command), rel=1e-3)
     assert residual.relative == pytest.approx(0.01 / 1.01, rel=1e-3)
 
 
-def test_a_folder_of_machines_is_each_of_them(table, tmp_path):
+def test_folder_of_machines_yields_each_machine(machine_folder, tmp_path):
     for name in ("b", "a"):
-        shutil.copytree(table, tmp_path / name)
+        shutil.copytree(machine_folder, tmp_path / name)
     (tmp_path / "licences").mkdir()
-    assert [one.name for one in machines([tmp_path, table])] == ["a", "b", "table"]
+    assert [machine.name for machine in find_machines([tmp_path, machine_folder])] == [
+        "a",
+        "b",
+        "table",
+    ]
 
 
-def test_an_inverse_machine_is_told_and_not_run(table, tmp_path):
-    shutil.copytree(table, tmp_path / "torque")
-    first = tmp_path / "torque" / "train_1.csv"
-    first.write_text("# mode: inverse\n" + first.read_text())
-    (machine,) = machines([tmp_path])
-    result = result_of(machine)
-    assert line(result) == "torque: not run: inverse mode"
-    assert "- `torque`: not run: inverse mode." in page([result])
+def test_inverse_machine_is_reported_and_not_run(machine_folder, tmp_path):
+    shutil.copytree(machine_folder, tmp_path / "torque")
+    first_record = tmp_path / "torque" / "train_1.csv"
+    first_record.write_text("# mode: inverse\n" + first_record.read_text())
+    (machine,) = find_machines([tmp_path])
+    result = diagnose_machine(machine)
+    assert format_line(result) == "torque: not run: inverse mode"
+    assert "- `torque`: not run: inverse mode." in format_page([result])
 
 
-def test_a_diagnosis_that_fails_or_lasts_ends_no_bench(table):
-    (machine,) = machines([table])
-    fails = result_of(machine, program=[sys.executable, "-c", "raise SystemExit('rotemina: so')"])
-    assert fails.not_run == "so"
-    waits = [sys.executable, "-c", "import threading; threading.Event().wait()"]
-    lasts = result_of(machine, None, 0.2, waits)
-    assert lasts.not_run == "it took longer than 0.2 s"
+def test_failing_or_slow_diagnosis_does_not_end_the_bench(machine_folder):
+    (machine,) = find_machines([machine_folder])
+    failed_result = diagnose_machine(
+        machine, program=[sys.executable, "-c", "raise SystemExit('rotemina: so')"]
+    )
+    assert failed_result.not_run == "so"
+    waiting_program = [sys.executable, "-c", "import threading; threading.Event().wait()"]
+    timed_out_result = diagnose_machine(machine, None, 0.2, waiting_program)
+    assert timed_out_result.not_run == "it took longer than 0.2 s"
 
 
-def test_without_truth_the_diagnosis_is_told_alone(tmp_path):
-    (machine,) = machines([make_machine(tmp_path / "own", truth=None)])
-    result = result_of(machine, 1)
-    assert result.not_reached == []
+def test_without_truth_file_only_the_diagnosis_is_reported(tmp_path):
+    (machine,) = find_machines([make_machine(tmp_path / "own", truth=None)])
+    result = diagnose_machine(machine, 1)
+    assert result.unmet_requirements == []
     assert result.as_json()["known"] is None
 
 
 @pytest.mark.parametrize(
-    ("causes", "known", "said"),
+    ("causes", "known", "messages"),
     [
         ([("friction", 0.9, ())], {}, []),
         ([("backlash", 0.9, ("friction",))], {}, []),
         ([("delay", 0.9, ("friction", "backlash"))], {}, ["the first cause is delay, which"]),
         ([("friction", 0.9, ("a", "b", "c"))], {}, ["friction is not named"]),
         ([], {}, ["the first cause is none", "friction is not named"]),
-        ([("delay", 0.9, ()), ("friction", 0.9, ())], {"also": ("delay",)}, []),
+        ([("delay", 0.9, ()), ("friction", 0.9, ())], {"optional_effects": ("delay",)}, []),
         ([("friction", 0.9, ())], {"to_beat": 1e-5}, ["it leaves 2 × the figure to beat"]),
     ],
 )
-def test_what_is_not_reached_is_said(causes, known, said):
+def test_unmet_requirements_are_reported(causes, known, messages):
     known = {"causes": (("friction",),), **known}
     if causes and causes[0][0] == "backlash":
         known["causes"] = (("friction", "backlash"),)
-    told = of(causes, **known).not_reached
-    assert len(told) == len(said)
-    assert all(begin in each for begin, each in zip(said, told, strict=True))
+    requirements = make_bench_result(causes, **known).unmet_requirements
+    assert len(requirements) == len(messages)
+    assert all(
+        message in requirement for message, requirement in zip(messages, requirements, strict=True)
+    )
 
 
-def test_a_model_that_is_worse_and_a_diagnosis_that_lasts_are_said():
-    told = of(after=2e-3, seconds=61.0).not_reached
-    assert told == [
-        "the corrected model is worse than the model as it was",
-        "it takes 61 s, more than 60 s",
+def test_worse_model_and_slow_diagnosis_are_reported():
+    requirements = make_bench_result(after=2e-3, seconds=61.0).unmet_requirements
+    assert requirements == [
+        "the corrected model is worse than the original one",
+        "the diagnosis takes 61 s, more than 60 s",
     ]
 
 
-def test_a_set_of_all_that_stand_for_each_other_counts_however_large():
-    four = ("leadscrew_error", "vibration", "encoder_interpolation", "microstep_error")
-    assert of([(four[0], 0.9, four[1:])], causes=(four,)).not_reached == []
+def test_known_set_of_confusable_causes_counts_at_any_size():
+    effects = ("leadscrew_error", "vibration", "encoder_interpolation", "microstep_error")
+    assert (
+        make_bench_result([(effects[0], 0.9, effects[1:])], causes=(effects,)).unmet_requirements
+        == []
+    )
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("causes = ['friction']", "causes = ['friction']: must be a list of sets"),
         ("tap = 'cmd'", "tap = 'cmd': must be u, ref or meas"),
@@ -168,18 +180,18 @@ def test_a_set_of_all_that_stand_for_each_other_counts_however_large():
         ("causes =", "truth.toml: not valid TOML"),
     ],
 )
-def test_a_truth_that_cannot_be_understood_is_refused(table, tmp_path, text, said):
-    place = tmp_path / "m"
-    shutil.copytree(table, place)
-    (place / "truth.toml").write_text(text)
-    with pytest.raises(BenchError) as caught:
-        machines([place])
-    assert said in str(caught.value)
+def test_unreadable_truth_file_is_refused(machine_folder, tmp_path, text, message):
+    folder = tmp_path / "m"
+    shutil.copytree(machine_folder, folder)
+    (folder / "truth.toml").write_text(text)
+    with pytest.raises(BenchError) as error_info:
+        find_machines([folder])
+    assert message in str(error_info.value)
 
 
-def test_a_folder_without_a_machine_is_refused(tmp_path):
-    with pytest.raises(BenchError, match=r"holds robot\.toml; name a machine's folder"):
-        machines([tmp_path])
-    (tmp_path / "robot.toml").write_text(ROBOT)
+def test_folder_without_machine_is_refused(tmp_path):
+    with pytest.raises(BenchError, match=r"no robot\.toml in it .*; name the folder of a machine"):
+        find_machines([tmp_path])
+    (tmp_path / "robot.toml").write_text(ROBOT_TOML)
     with pytest.raises(BenchError, match="no record train_"):
         run_bench(Namespace(folders=[tmp_path], jobs=1, json=None, report=None, longest=1.0))

@@ -1,21 +1,22 @@
-"""Cases of the second generator in which a look at even rows once accused more than was there."""
+"""Cases of the second generator in which a check for even rows once named additional causes."""
 
 import pytest
 
-from rotemina.sim.blind.case import draw_case
-from rotemina.sim.blind.files import write_case
-from rotemina.sim.gap.diagnosis_pipeline import diagnose
-from rotemina.sim.records.reading import read_record
-from rotemina.sim.robot.file import load_robot
+from rotemina.sim.blind import draw_case, write_case
+from rotemina.sim.gap.pipeline import diagnose
+from rotemina.sim.records import read_record
+from rotemina.sim.robot_files import load_robot
 
 ROBOT = load_robot("rotemina")
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("kind", "seed"), [("double", 602), ("single", 504)])
-def test_rows_that_count_evenly_accuse_nobody_else(tmp_path, kind, seed):
+def test_evenly_spaced_rows_do_not_add_causes(tmp_path, kind, seed):
     case = draw_case(ROBOT, kind, seed)
     write_case(tmp_path, case, ROBOT)
     records = [read_record(path, robot=ROBOT) for path in sorted(tmp_path.glob("train_*"))]
-    found = {(one.axis, one.effect) for one in diagnose(ROBOT, records).causes}
-    assert found == {(one["axis"], one["effect"]) for one in case.label()["effects"]}
+    named_causes = {(cause.axis, cause.effect) for cause in diagnose(ROBOT, records).causes}
+    assert named_causes == {
+        (effect["axis"], effect["effect"]) for effect in case.label()["effects"]
+    }

@@ -1,38 +1,41 @@
-"""A hidden machine moves by the generator's equations, tells nothing, and can be drawn anew."""
+"""A hidden machine follows the generator's equations, reveals nothing and is reproducible."""
 
 import numpy as np
 import pytest
 
-from rotemina.app.blind.hidden_machine import (
-    HiddenMachine,
-    HiddenMachineError,
-    Secret,
-    draw_secret,
-    is_right,
+from rotemina.app.blind import (
+    HiddenEffects,
+    HiddenMachineSimulator,
+    draw_hidden_effects,
+    is_diagnosis_right,
 )
-from rotemina.app.blind.stepped_machine import STEPPED, SteppedPlant
+from rotemina.app.blind.stepped_machine import STEPPED_EFFECTS, SteppedPlant
+from rotemina.app.errors import HiddenMachineError
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import CommandRefused, PlaybackFinished
-from rotemina.drivers.clock import VirtualClock
-from rotemina.drivers.samples import DeviceState
-from rotemina.sim.blind.machine import Commands
-from rotemina.sim.plant.random_draws import Chance
-from rotemina.sim.records.record import Tap
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.robot.model import AxisEffect
-from rotemina.sim.trajectory.worn_machine_demo import demonstration
+from rotemina.drivers.contract import DeviceState, VirtualClock
+from rotemina.sim.blind.machine import SampledCommands
+from rotemina.sim.plant import RandomStreams
+from rotemina.sim.records import Tap
+from rotemina.sim.robot import AxisEffect
+from rotemina.sim.robot_files import load_robot
+from rotemina.sim.trajectory import make_demonstration
 
 ROBOT = load_robot("rotemina")
 
 
 @pytest.fixture(scope="module")
-def secret():
-    return next(one for one in (draw_secret(ROBOT, seed) for seed in range(1, 9)) if one.causes)
+def hidden_effects():
+    return next(
+        drawn
+        for drawn in (draw_hidden_effects(ROBOT, seed) for seed in range(1, 9))
+        if drawn.causes
+    )
 
 
-def run_of(secret):
+def start_hidden_session(hidden_effects):
     clock = VirtualClock(3.0)
-    session = MotionSession(HiddenMachine(ROBOT, secret, clock=clock))
+    session = MotionSession(HiddenMachineSimulator(ROBOT, hidden_effects, clock=clock))
     events = []
     session.subscribe(events.append)
     session.connect()
@@ -47,48 +50,51 @@ def run_of(secret):
     return session, events, step
 
 
-def test_the_same_seed_is_the_same_machine_and_effects_are_of_the_catalogue(secret):
-    assert draw_secret(ROBOT, secret.seed).causes == secret.causes
-    assert {effect for _, effect in secret.causes} <= set(STEPPED)
+def test_same_seed_draws_same_machine_with_known_effects(hidden_effects):
+    assert draw_hidden_effects(ROBOT, hidden_effects.seed).causes == hidden_effects.causes
+    assert {effect for _, effect in hidden_effects.causes} <= set(STEPPED_EFFECTS)
     with pytest.raises(HiddenMachineError, match="no stages"):
-        draw_secret(load_robot("fsm"), 1)
+        draw_hidden_effects(load_robot("fsm"), 1)
 
 
-def test_some_machines_have_nothing():
-    rng = [np.random.default_rng(seed).uniform() < 0.2 for seed in range(40)]
-    healthy = rng.index(True)
-    assert draw_secret(ROBOT, healthy).causes == frozenset()
+def test_some_machines_are_healthy():
+    healthy_draws = [np.random.default_rng(seed).uniform() < 0.2 for seed in range(40)]
+    healthy_seed = healthy_draws.index(True)
+    assert draw_hidden_effects(ROBOT, healthy_seed).causes == frozenset()
 
 
-@pytest.mark.parametrize("finer", [1, 2, 5])
-def test_sample_by_sample_it_does_what_the_generator_does_over_the_whole_motion(secret, finer):
-    case, tick_s = secret.case, 5e-4
-    columns = [list(ROBOT.axes).index(name) for name in case.names]
+@pytest.mark.parametrize("oversampling", [1, 2, 5])
+def test_stepped_plant_matches_the_generator(hidden_effects, oversampling):
+    case, tick_s = hidden_effects.case, 5e-4
+    columns = [list(ROBOT.axes).index(name) for name in case.axis_names]
     time_s = np.arange(2400) * tick_s
-    low, high = np.array([ROBOT.axes[name].range for name in case.names]).T
+    low, high = np.array([ROBOT.axes[name].range for name in case.axis_names]).T
     swing = np.sin(2 * np.pi * np.outer(time_s, [1.1, 2.3, 3.7]))
     commands = low + (high - low) * (0.5 + 0.42 * swing * np.linspace(1.0, 0.3, 2400)[:, None])
     middle = [sum(axis.range) / 2.0 for axis in ROBOT.axes.values()]
-    whole = np.tile(middle, (len(time_s), 1))
-    whole[:, columns] = commands
+    all_commands = np.tile(middle, (len(time_s), 1))
+    all_commands[:, columns] = commands
     plant = SteppedPlant(ROBOT, case)
-    state = plant.at_rest(0.0, whole[0])
-    told = []
-    asked = np.repeat(whole, finer, axis=0)
-    sampled_s = tick_s + np.arange(len(asked)) * tick_s / finer
-    for first in range(0, len(asked), 37 * finer):
-        part = slice(first, first + 37 * finer)
-        chance = Chance(np.random.default_rng(0))
-        motion, state = plant.advance(state, sampled_s[part], asked[part], chance=chance)
-        told.append(motion.position[::finer, columns])
-    run = case.machine.respond(Commands(tick_s, commands), 0)
-    off = np.abs(np.concatenate(told) - run.motion)[800:].max(axis=0)  # once it has settled
-    assert (off < 1e-3 * np.array([axis.floor for axis in case.machine.axes])).all()
+    state = plant.find_rest_state(0.0, all_commands[0])
+    position_parts = []
+    sampled_commands = np.repeat(all_commands, oversampling, axis=0)
+    sampled_s = tick_s + np.arange(len(sampled_commands)) * tick_s / oversampling
+    for first in range(0, len(sampled_commands), 37 * oversampling):
+        part = slice(first, first + 37 * oversampling)
+        random_streams = RandomStreams(np.random.default_rng(0))
+        motion, state = plant.advance(
+            state, sampled_s[part], sampled_commands[part], random_streams=random_streams
+        )
+        position_parts.append(motion.position[::oversampling, columns])
+    run = case.machine.respond(SampledCommands(tick_s, commands), 0)
+    settled_deviation = np.abs(np.concatenate(position_parts) - run.motion)[800:]
+    max_deviation = settled_deviation.max(axis=0)
+    assert (max_deviation < 1e-3 * np.array([axis.floor for axis in case.machine.axes])).all()
 
 
-def test_it_can_be_played_and_tells_nothing_of_what_it_has(secret):
-    session, events, step = run_of(secret)
-    session.play(demonstration(ROBOT))
+def test_hidden_machine_plays_without_revealing_its_effects(hidden_effects):
+    session, events, step = start_hidden_session(hidden_effects)
+    session.play(make_demonstration(ROBOT))
     step()
     while step().activity is not DeviceState.IDLE:
         pass
@@ -96,8 +102,8 @@ def test_it_can_be_played_and_tells_nothing_of_what_it_has(secret):
     record = finished.record
     assert record.metadata["driver"] == "hidden machine"
     assert session.service.effects == ()
-    said = " ".join([*record.metadata, *record.metadata.values()])
-    assert not any(effect in said for _, effect in secret.causes)
+    metadata_text = " ".join([*record.metadata, *record.metadata.values()])
+    assert not any(effect in metadata_text for _, effect in hidden_effects.causes)
     gap = record.signal("zn", Tap.MEAS) - record.signal("zn", Tap.CMD)
     assert np.abs(gap).max() < 1e-5  # it follows
     session.service.set_effects([AxisEffect(axis="zn", id="creep")])
@@ -105,9 +111,9 @@ def test_it_can_be_played_and_tells_nothing_of_what_it_has(secret):
     assert any(isinstance(e, CommandRefused) and "reveal it first" in e.message for e in events)
 
 
-def test_right_is_all_that_is_there_and_nothing_else(secret):
-    causes = secret.causes
-    assert is_right(secret, causes)
-    assert not is_right(secret, [*causes, ("x", "friction")])
-    assert not is_right(secret, [])
-    assert is_right(Secret(1, None), [])
+def test_diagnosis_is_right_only_if_causes_match_exactly(hidden_effects):
+    causes = hidden_effects.causes
+    assert is_diagnosis_right(hidden_effects, causes)
+    assert not is_diagnosis_right(hidden_effects, [*causes, ("x", "friction")])
+    assert not is_diagnosis_right(hidden_effects, [])
+    assert is_diagnosis_right(HiddenEffects(1, None), [])

@@ -12,9 +12,9 @@ CASES = 2
 @pytest.mark.slow
 def test_a_few_sealed_cases_are_diagnosed_and_scored(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    words = ["gap", "blind", "--cases", str(CASES), "--seed", "1377", "--folder", "run"]
-    assert main([*words, "--shard", "1/2"]) == 0
-    assert main([*words, "--json", "score.json", "--report", "page.md"]) == 0
+    arguments = ["gap", "blind", "--cases", str(CASES), "--seed", "1377", "--folder", "run"]
+    assert main([*arguments, "--shard", "1/2"]) == 0
+    assert main([*arguments, "--json", "score.json", "--report", "page.md"]) == 0
     assert capsys.readouterr().err.count("done (") == CASES
     score = json.loads((tmp_path / "score.json").read_text())
     assert score["done"] == score["asked"] == CASES

@@ -14,22 +14,25 @@ import numpy as np
 import pytest
 import tifffile
 
-from rotemina.app.cameras.video import Video, VideoError
+from rotemina.app.cameras import VideoRecorder
 from rotemina.app.cameras.video_file import VideoFile
-from rotemina.app.files import new_file
-from rotemina.drivers.cameras.frame import Frame, Region
+from rotemina.app.errors import VideoError
+from rotemina.app.settings import open_new_file
+from rotemina.drivers.cameras import CameraFrame, SensorRegion
 
 PATIENCE_S = 20.0
-LINK = 8  # bytes that link a page
+LINK_BYTES = 8  # length of the link to a page
 
 
-def frame(number, shape=(30, 40), dtype=np.uint16):
+def make_frame(number, shape=(30, 40), dtype=np.uint16):
     bits = 12 if dtype == np.uint16 else 8
     pixels = np.random.default_rng(number).integers(0, 1 << bits, shape).astype(dtype)
-    return Frame(pixels, 5.0 + number / 30.0, number, bits, Region(0, 0, shape[1], shape[0]), 0.01)
+    return CameraFrame(
+        pixels, 5.0 + number / 30.0, number, bits, SensorRegion(0, 0, shape[1], shape[0]), 0.01
+    )
 
 
-def pages(path):
+def read_pages(path):
     with tifffile.TiffFile(path) as file:
         return [(page.asarray(), json.loads(page.description)) for page in file.pages]
 
@@ -37,207 +40,223 @@ def pages(path):
 @pytest.mark.parametrize(
     ("shape", "dtype"), [((30, 40), np.uint16), ((31, 41), np.uint8), ((30, 40, 3), np.uint8)]
 )
-def test_every_picture_with_its_time_in_a_file_that_other_tools_open(tmp_path, shape, dtype):
+def test_video_has_every_picture_with_its_time_and_opens_in_other_tools(tmp_path, shape, dtype):
     path = tmp_path / "videos" / "a.tif"
-    video = Video(path, {"camera": "µ-scope", "recording": "b.arrows"}, pixel_m=0.335e-6)
+    video = VideoRecorder(path, {"camera": "µ-scope", "recording": "b.arrows"}, pixel_m=0.335e-6)
     video.start()
-    taken = [frame(number, shape, dtype) for number in range(6)]
-    for one in taken:
-        video.take(one)
+    frames = [make_frame(number, shape, dtype) for number in range(6)]
+    for frame in frames:
+        video.queue_frame(frame)
     status = video.close()
     assert (status.pictures, status.dropped, status.failure) == (6, 0, "")
-    assert status.lasts_s == pytest.approx(5.0 / 30.0)
+    assert status.duration_s == pytest.approx(5.0 / 30.0)
     assert status.bytes_written == path.stat().st_size
-    found = pages(path)
-    assert len(found) == 6
-    for (pixels, facts), one in zip(found, taken, strict=True):
-        np.testing.assert_array_equal(pixels, one.pixels)
-        assert (facts["host_time_s"], facts["number"]) == (one.host_time_s, one.number)
-    assert found[0][1]["recording"] == "b.arrows"
+    pages = read_pages(path)
+    assert len(pages) == 6
+    for (pixels, description), frame in zip(pages, frames, strict=True):
+        np.testing.assert_array_equal(pixels, frame.pixels)
+        assert (description["host_time_s"], description["number"]) == (
+            frame.host_time_s,
+            frame.number,
+        )
+    assert pages[0][1]["recording"] == "b.arrows"
     with tifffile.TiffFile(path) as file:
         assert file.is_bigtiff
         per_cm, _ = file.pages[0].tags["XResolution"].value
         assert per_cm == round(0.01 / 0.335e-6)
-    read, others = cv2.imreadmulti(str(path), flags=cv2.IMREAD_UNCHANGED)
-    assert read
-    assert len(others) == 6
-    shown = taken[5].pixels[..., ::-1] if taken[5].colour else taken[5].pixels
-    np.testing.assert_array_equal(others[5], shown)
+    is_readable, opencv_pages = cv2.imreadmulti(str(path), flags=cv2.IMREAD_UNCHANGED)
+    assert is_readable
+    assert len(opencv_pages) == 6
+    expected_pixels = frames[5].pixels[..., ::-1] if frames[5].is_colour else frames[5].pixels
+    np.testing.assert_array_equal(opencv_pages[5], expected_pixels)
 
 
-class Disk:
-    """A file that takes so many bytes, and then says why it takes no more."""
+class LimitedDisk:
+    """A file that accepts a number of bytes and then raises an error."""
 
-    def __init__(self, path, room, end=None):
-        self._file = new_file(path)
-        self._room = room
-        self._end = end or OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+    def __init__(self, path, capacity, error=None):
+        self._file = open_new_file(path)
+        self._capacity = capacity
+        self._error = error or OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
     def write(self, data):
-        if len(data) > self._room:
-            if len(data) > LINK:  # so short a write is done as a whole, or not
-                self._file.write(data[: self._room])
-            self._room = 0
-            raise self._end
-        self._room -= len(data)
+        if len(data) > self._capacity:
+            if len(data) > LINK_BYTES:  # a shorter write is atomic
+                self._file.write(data[: self._capacity])
+            self._capacity = 0
+            raise self._error
+        self._capacity -= len(data)
         return self._file.write(data)
 
     def __getattr__(self, name):
         return getattr(self._file, name)
 
 
-def append(file, ends=None):
+def append_frames(file, end_positions=None):
     for number in range(3):
-        file.append(frame(number, (4, 6)))
-        if ends is not None:
-            ends.append(file.size)
+        file.append(make_frame(number, (4, 6)))
+        if end_positions is not None:
+            end_positions.append(file.size)
 
 
-def test_at_whatever_byte_it_is_killed_it_can_be_read(tmp_path):
+def test_video_is_readable_after_a_kill_at_any_byte(tmp_path):
     with closing(VideoFile(tmp_path / "whole.tif", {"camera": "c"})) as file:
-        ends = [file.size]
-        append(file, ends)
-    for room in range(ends[1] + LINK, ends[3] + 2 * LINK, 7):  # beside the pages, their links
-        path = tmp_path / f"{room}.tif"
-        disk = partial(Disk, room=room, end=KeyboardInterrupt())
+        end_positions = [file.size]
+        append_frames(file, end_positions)
+    # From the end of the first page to the end of the last one, plus their links.
+    first, last = end_positions[1] + LINK_BYTES, end_positions[3] + 2 * LINK_BYTES
+    for capacity in range(first, last, 7):
+        path = tmp_path / f"{capacity}.tif"
+        open_disk = partial(LimitedDisk, capacity=capacity, error=KeyboardInterrupt())
         with (
-            closing(VideoFile(path, {"camera": "c"}, opener=disk)) as file,
+            closing(VideoFile(path, {"camera": "c"}, opener=open_disk)) as file,
             pytest.raises(KeyboardInterrupt),
         ):
-            append(file)
-        kept = 1 if room < ends[2] + 2 * LINK else 2
-        assert [facts["number"] for _, facts in pages(path)] == list(range(kept))
+            append_frames(file)
+        page_count = 1 if capacity < end_positions[2] + 2 * LINK_BYTES else 2
+        assert [description["number"] for _, description in read_pages(path)] == list(
+            range(page_count)
+        )
 
 
-def test_a_full_disk_is_told_and_what_is_there_stays(tmp_path):
-    told = []
+def test_full_disk_is_reported_and_written_pictures_stay(tmp_path):
+    messages = []
     path = tmp_path / "a.tif"
-    video = Video(path, tell=told.append, opener=lambda path: Disk(path, 9000))
+    video = VideoRecorder(path, notify=messages.append, opener=lambda path: LimitedDisk(path, 9000))
     video.start()
     for number in range(6):
-        video.take(frame(number))
+        video.queue_frame(make_frame(number))
     status = video.close()
     assert status.pictures == 3
     assert "No space left" in status.failure
     assert "3 pictures are kept" in status.failure
-    assert told == [status.failure]
-    assert [facts["number"] for _, facts in pages(path)] == [0, 1, 2]
+    assert messages == [status.failure]
+    assert [description["number"] for _, description in read_pages(path)] == [0, 1, 2]
     assert status.bytes_written == path.stat().st_size
 
 
-class SlowDisk(Disk):
-    """One that takes nothing until it may."""
+class SlowDisk(LimitedDisk):
+    """A disk that blocks every write until an event is set."""
 
-    def __init__(self, path, may):
+    def __init__(self, path, writable):
         super().__init__(path, 1 << 30)
-        self._may = may
+        self._writable = writable
 
     def write(self, data):
-        assert self._may.wait(PATIENCE_S)
+        assert self._writable.wait(PATIENCE_S)
         return super().write(data)
 
 
-def test_a_slow_disk_drops_pictures_counts_them_and_keeps_nobody_waiting(tmp_path):
-    told, may = [], threading.Event()
-    may.set()
-    size = frame(0).pixels.nbytes
-    video = Video(
+def test_slow_disk_drops_and_counts_pictures_without_blocking(tmp_path):
+    messages, writable = [], threading.Event()
+    writable.set()
+    size = make_frame(0).pixels.nbytes
+    video = VideoRecorder(
         tmp_path / "a.tif",
-        tell=told.append,
+        notify=messages.append,
         capacity_bytes=3 * size,
-        opener=lambda path: SlowDisk(path, may),
+        opener=lambda path: SlowDisk(path, writable),
     )
-    may.clear()
+    writable.clear()
     video.start()
     for number in range(20):
-        video.take(frame(number))  # would hang here
+        video.queue_frame(make_frame(number))  # would hang here
     status = video.status
     assert status.pictures == 0
-    assert 16 <= status.dropped <= 17  # three wait, and one may be on its way
+    assert 16 <= status.dropped <= 17  # three are queued, and one may be being written
     with pytest.raises(VideoError, match="the last pictures could not be written"):
         video.close(timeout_s=0.0)
-    may.set()
+    writable.set()
     status = video.close(PATIENCE_S)
     assert status.pictures + status.dropped == 20
-    assert len(pages(tmp_path / "a.tif")) == status.pictures
-    assert len(told) == 1
-    assert "pictures are missing in the video" in told[0]
+    assert len(read_pages(tmp_path / "a.tif")) == status.pictures
+    assert len(messages) == 1
+    assert "pictures are missing in the video" in messages[0]
 
 
-def test_a_picture_of_another_size_is_left_out(tmp_path):
-    video = Video(tmp_path / "a.tif")
+def test_picture_of_another_size_is_dropped(tmp_path):
+    video = VideoRecorder(tmp_path / "a.tif")
     video.start()
-    for one in (frame(0), frame(1, (10, 12)), frame(2, dtype=np.uint8), frame(3)):
-        video.take(one)
+    for frame in (
+        make_frame(0),
+        make_frame(1, (10, 12)),
+        make_frame(2, dtype=np.uint8),
+        make_frame(3),
+    ):
+        video.queue_frame(frame)
     status = video.close()
     assert (status.pictures, status.dropped) == (2, 2)
-    video.take(frame(4))  # after the end
+    video.queue_frame(make_frame(4))  # after the end
     assert video.status == status
 
 
-def test_a_file_is_never_overwritten(tmp_path):
+def test_existing_file_is_not_overwritten(tmp_path):
     (tmp_path / "a.tif").write_text("mine")
     with pytest.raises(VideoError, match="already exists"):
-        Video(tmp_path / "a.tif")
+        VideoRecorder(tmp_path / "a.tif")
     with pytest.raises(VideoError, match="cannot be written"):
-        Video(tmp_path / "a.tif" / "b.tif")
+        VideoRecorder(tmp_path / "a.tif" / "b.tif")
     assert (tmp_path / "a.tif").read_text() == "mine"
 
 
-KILLED = """
+ENDLESS_RECORDING = """
 import sys, numpy as np
 from pathlib import Path
-from rotemina.app.cameras.video import Video
-from rotemina.drivers.cameras.frame import Frame, Region
-video = Video(Path(sys.argv[1]))
+from rotemina.app.cameras import VideoRecorder
+from rotemina.drivers.cameras import CameraFrame, SensorRegion
+video = VideoRecorder(Path(sys.argv[1]))
 video.start()
-told = False
+announced = False
 for number in range(1000000):
     pixels = np.full((200, 300), number, np.uint16)
-    video.take(Frame(pixels, number / 30.0, number, 16, Region(0, 0, 300, 200)))
-    if not told and video.status.pictures > 10:  # the disk has some of them
-        told = True
+    video.queue_frame(CameraFrame(pixels, number / 30.0, number, 16, SensorRegion(0, 0, 300, 200)))
+    if not announced and video.status.pictures > 10:  # the disk has some of them
+        announced = True
         print("go", flush=True)
 """
 
 
 @pytest.mark.slow
-def test_killed_in_the_middle(tmp_path):
+def test_video_of_a_killed_process_is_readable(tmp_path):
     path = tmp_path / "a.tif"
     with subprocess.Popen(
-        [sys.executable, "-c", KILLED, str(path)], stdout=subprocess.PIPE
+        [sys.executable, "-c", ENDLESS_RECORDING, str(path)], stdout=subprocess.PIPE
     ) as process:
         process.stdout.readline()
         process.send_signal(signal.SIGKILL)
-    found = pages(path)
-    assert found
-    for pixels, facts in found:
-        assert (pixels == facts["number"]).all()
+    pages = read_pages(path)
+    assert pages
+    for pixels, description in pages:
+        assert (pixels == description["number"]).all()
 
 
-def resident():
+def read_resident_bytes():
     return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="counts memory as Linux does")
-def test_several_thousand_pictures_need_no_more_memory_than_a_hundred(tmp_path, capsys):
-    video = Video(tmp_path / "a.tif", capacity_bytes=8_000_000)
+@pytest.mark.skipif(
+    not Path("/proc/self/statm").exists(), reason="reads memory use from Linux /proc"
+)
+def test_memory_does_not_grow_with_the_number_of_pictures(tmp_path, capsys):
+    video = VideoRecorder(tmp_path / "a.tif", capacity_bytes=8_000_000)
     video.start()
     pixels = np.random.default_rng(0).integers(0, 4096, (412, 520)).astype(np.uint16)
-    after = {}
+    resident_bytes = {}
     for number in range(4000):
         while video.status.pictures + video.status.dropped < number - 8:
             threading.Event().wait(0.001)
-        video.take(Frame(pixels.copy(), number / 30.0, number, 12, Region(0, 0, 520, 412)))
+        video.queue_frame(
+            CameraFrame(pixels.copy(), number / 30.0, number, 12, SensorRegion(0, 0, 520, 412))
+        )
         if number in (200, 3999):
-            after[number] = resident()
+            resident_bytes[number] = read_resident_bytes()
     status = video.close(60.0)
-    grown = after[3999] - after[200]
+    growth = resident_bytes[3999] - resident_bytes[200]
     with capsys.disabled():
-        print(f"\n{status.pictures} pictures, {status.bytes_written / 1e6:.0f} MB: {grown} bytes")
+        print(f"\n{status.pictures} pictures, {status.bytes_written / 1e6:.0f} MB: {growth} bytes")
     assert (status.pictures, status.dropped) == (4000, 0)
-    assert grown < 4_000_000
+    assert growth < 4_000_000
     with tifffile.TiffFile(tmp_path / "a.tif") as file:
         assert len(file.pages) == 4000
         assert json.loads(file.pages[3999].description)["number"] == 3999

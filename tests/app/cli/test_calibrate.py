@@ -1,13 +1,11 @@
-"""``rotemina calibrate`` as its users meet it."""
+"""``rotemina calibrate`` from the command line."""
 
 import json
 
 import pytest
 
 from rotemina.app.cli.main import main
-from rotemina.sim.records.reading import read_record
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.records.writing import write_record
+from rotemina.sim.records import Record, Tap, read_record, write_record
 
 ROBOT = """
 [robot]
@@ -35,8 +33,8 @@ error = 0.03
 [reference]
 noise_rms.linear = 5.0e-9
 """
-RUN = ["--axis", "q", "--robot", "bench.toml", "--runs", "3", "--rate", "500"]
-FIT = ["--axis", "q", "--robot", "bench.toml"]
+RUN_OPTIONS = ["--axis", "q", "--robot", "bench.toml", "--runs", "3", "--rate", "500"]
+FIT_OPTIONS = ["--axis", "q", "--robot", "bench.toml"]
 
 
 @pytest.fixture(autouse=True)
@@ -47,55 +45,67 @@ def in_tmp(tmp_path, monkeypatch):
 
 
 def test_from_a_plan_to_a_stored_calibration(capsys):
-    assert main(["calibrate", "plan", *RUN, "-o", "motion.csv"]) == 0
+    assert main(["calibrate", "plan", *RUN_OPTIONS, "-o", "motion.csv"]) == 0
     assert "3 runs, triangles and moves" in capsys.readouterr().out
     assert main(["play", "motion.csv", "--robot", "bench.toml", "--dry-run"]) == 0
     capsys.readouterr()
 
-    run = ["calibrate", "run", *RUN, "--record", "it.csv", "--out", "q.toml", "--json"]
-    assert main([*run, "--store", "--folder", "user"]) == 0
-    said = json.loads(capsys.readouterr().out)
-    assert said["figures"]["gain error"]["value"] == pytest.approx(0.03, abs=1e-4)
-    assert said["refused"] is None
-    assert len(said["written"]) == 2
+    run_arguments = [
+        "calibrate",
+        "run",
+        *RUN_OPTIONS,
+        "--record",
+        "it.csv",
+        "--out",
+        "q.toml",
+        "--json",
+    ]
+    assert main([*run_arguments, "--store", "--folder", "user"]) == 0
+    summary = json.loads(capsys.readouterr().out)
+    assert summary["figures"]["gain error"]["value"] == pytest.approx(0.03, abs=1e-4)
+    assert summary["refused"] is None
+    assert len(summary["written"]) == 2
 
-    assert main(["calibrate", "fit", "it.csv", *FIT, "--json"]) == 0
-    again = json.loads(capsys.readouterr().out)
-    assert again["figures"] == said["figures"]
+    assert main(["calibrate", "fit", "it.csv", *FIT_OPTIONS, "--json"]) == 0
+    refitted = json.loads(capsys.readouterr().out)
+    assert refitted["figures"] == summary["figures"]
 
     assert main(["calibrate", "show", "q.toml"]) == 0
-    shown = capsys.readouterr().out
-    assert "gain error" in shown
-    assert "from it.csv" in shown
+    output = capsys.readouterr().out
+    assert "gain error" in output
+    assert "from it.csv" in output
     assert main(["calibrate", "show", "q.toml", "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["axis"] == "q"
     assert main(["calibrate", "list", "--robot", "bench.toml", "--folder", "user"]) == 0
     assert "  on  " in capsys.readouterr().out
 
 
-def test_what_is_wrong_ends_with_2_and_replaces_nothing(in_tmp, capsys):
+def test_bad_request_ends_with_status_2_and_replaces_nothing(in_tmp, capsys):
     (in_tmp / "bench.toml").write_text(ROBOT.replace("error = 0.03", "error = 0.0"))
-    run = ["calibrate", "run", *RUN, "--record", "it.csv"]
-    assert main(run) == 0  # it is said, and nothing was to be written
+    run_arguments = ["calibrate", "run", *RUN_OPTIONS, "--record", "it.csv"]
+    assert main(run_arguments) == 0  # it is reported, and no output was requested
     assert "refused" in capsys.readouterr().out
     (in_tmp / "q.toml").write_text("before")
-    assert main(["calibrate", "fit", "it.csv", *FIT, "--out", "q.toml"]) == 2
+    assert main(["calibrate", "fit", "it.csv", *FIT_OPTIONS, "--out", "q.toml"]) == 2
     assert "not better" in capsys.readouterr().err
     assert (in_tmp / "q.toml").read_text() == "before"
 
     record = read_record("it.csv")
-    kept = {("q", tap): record.signal("q", tap) for tap in (Tap.CMD, Tap.MEAS)}
-    write_record(Record.from_signals(record.time_s, kept, record.units), "blind.csv")
-    for wrong, said in (
-        (["fit", "blind.csv", *FIT], "no column q.ref"),
+    signals = {("q", tap): record.signal("q", tap) for tap in (Tap.CMD, Tap.MEAS)}
+    write_record(Record.from_signals(record.time_s, signals, record.units), "blind.csv")
+    for arguments, message in (
+        (["fit", "blind.csv", *FIT_OPTIONS], "no column q.ref"),
         (["fit", "it.csv", "--axis", "p", "--robot", "bench.toml"], "axis 'p'"),
-        (["fit", "it.csv", *FIT, "--laser", "a.csv", "--laser", "b.csv"], "2 files for 1 records"),
-        (["fit", "none.csv", *FIT], "none.csv"),
+        (
+            ["fit", "it.csv", *FIT_OPTIONS, "--laser", "a.csv", "--laser", "b.csv"],
+            "2 files for 1 records",
+        ),
+        (["fit", "none.csv", *FIT_OPTIONS], "none.csv"),
         (["show", "bench.toml"], "bench.toml"),
         (
             ["plan", "--axis", "q", "--robot", "bench.toml", "--runs", "1", "-o", "m.csv"],
             "runs = 1",
         ),
     ):
-        assert main(["calibrate", *wrong]) == 2, wrong
-        assert said in capsys.readouterr().err
+        assert main(["calibrate", *arguments]) == 2, arguments
+        assert message in capsys.readouterr().err

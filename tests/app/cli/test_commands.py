@@ -1,4 +1,4 @@
-"""The command line as its users meet it: results, exit status, one clear line on bad input."""
+"""The command line: results, exit status, one clear line on bad input."""
 
 import gzip
 import json
@@ -13,10 +13,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rotemina.app.cli.main import SUBCOMMANDS, _needed, main
-from rotemina.sim.records.reading import read_record
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.records.writing import write_record
+from rotemina.app.cli.main import SUBCOMMANDS, _find_needed_subcommands, main
+from rotemina.sim.records import Record, Tap, read_record, write_record
 
 HEADER = "t [s],x [mm],x.meas [mm]\n"
 ROWS = "0,20.0,20.0\n0.01,20.01,20.0\n0.02,20.02,20.01\n0.03,20.03,20.02\n"
@@ -38,24 +36,24 @@ def tour():
 def test_play_then_compare_finds_only_noise(in_tmp, tour, capsys):
     assert main(["play", str(tour), "-o", "run.csv", "--seed", "3"]) == 0
     assert main(["compare", "run.csv", "--json", "out.json", "--plot", "out.svg"]) == 0
-    form = json.loads(Path("out.json").read_text("utf-8"))
-    assert form["format"] == "rotemina-comparison 1"
-    measured = {tap["axis"]: tap for tap in form["taps"] if tap["tap"] == "meas"}
+    document = json.loads(Path("out.json").read_text("utf-8"))
+    assert document["format"] == "rotemina-comparison 1"
+    measured = {tap["axis"]: tap for tap in document["taps"] if tap["tap"] == "meas"}
     assert list(measured) == ["x", "y", "z", "thx", "thy", "zn"]
     for axis in ("thx", "thy", "zn"):
         assert measured[axis]["rms"] == pytest.approx(measured[axis]["noise_floor"], rel=0.1)
-    # An encoder at rest rounds to a constant: its hold may lie anywhere about its floor.
+    # An encoder at rest rounds to a constant, whose error can be anywhere around the noise floor.
     for axis in ("x", "y", "z"):
         assert 0.3 < measured[axis]["rms"] / measured[axis]["noise_floor"] < 1.4
     assert Path("out.svg").read_text("utf-8").startswith("<?xml")
     assert "thx.meas" in capsys.readouterr().out
 
 
-def test_two_runs_are_compared_as_a_run_and_a_model_are(in_tmp, capsys):
+def test_two_runs_are_compared_with_each_other(in_tmp, capsys):
     time_s = np.arange(2001) / 1000.0
     for name, lag_s in (("one", 0.0), ("two", 0.02)):
-        at = 1e-5 * (1.0 - np.cos(2.0 * np.pi * (time_s - lag_s)))
-        signals = {("zn", Tap.CMD): at, ("zn", Tap.MEAS): at + 1e-8}
+        position = 1e-5 * (1.0 - np.cos(2.0 * np.pi * (time_s - lag_s)))
+        signals = {("zn", Tap.CMD): position, ("zn", Tap.MEAS): position + 1e-8}
         write_record(Record.from_signals(time_s + lag_s, signals, {"zn": "m"}), f"{name}.csv")
     assert main(["compare", "two.csv", "--with", "one.csv", "--json", "out.json"]) == 0
     (tap,) = json.loads(Path("out.json").read_text("utf-8"))["taps"]
@@ -76,13 +74,11 @@ def write_trajectory(name, axis, time_s, command, unit="m"):
     ("robot", "axis", "centre", "rate_hz"),
     [("rotemina", "zn", 3e-5, 1000), ("rotemina", "zn", 3e-5, 70), ("emps", "q", 0.1, 300)],
 )
-def test_a_record_holds_what_the_device_did_and_what_was_asked(
-    in_tmp, robot, axis, centre, rate_hz
-):
-    """Every row asked for begins within a tick of its time; the device goes on between rows."""
+def test_record_has_device_motion_and_requested_commands(in_tmp, robot, axis, centre, rate_hz):
+    """Every requested row starts within a tick of its time. Sampling continues between rows."""
     time_s = 7.0 + np.arange(rate_hz + 1) / rate_hz
     command = centre * (1.0 + 0.05 * np.sin(np.pi * (time_s - 7.0)) ** 2)
-    asked = write_trajectory("hum", axis, time_s, command)
+    trajectory = write_trajectory("hum", axis, time_s, command)
     assert main(["play", "hum.csv", "--robot", robot, "--max-speed", "1m/s"]) == 0
     record = read_record("hum-record.csv")
     assert record.time_s[0] == 0.0
@@ -91,44 +87,44 @@ def test_a_record_holds_what_the_device_did_and_what_was_asked(
     applied = record.signal(axis, Tap.CMD)
     changes = np.flatnonzero(np.diff(applied)) + 1
     for since_s, row in zip(time_s - 7.0, command, strict=True):
-        at = np.searchsorted(record.time_s, since_s - 1e-9)
-        assert record.time_s[at] - since_s <= 1e-3
-        assert applied[at] == row
-    assert len(changes) <= len(asked.time_s)
+        index = np.searchsorted(record.time_s, since_s - 1e-9)
+        assert record.time_s[index] - since_s <= 1e-3
+        assert applied[index] == row
+    assert len(changes) <= len(trajectory.time_s)
     assert record.metadata["driver"] == "simulator"
     assert record.metadata["trajectory"] == "hum"
     assert record.metadata["trajectory_rows"] == str(rate_hz + 1)
     assert float(record.metadata["trajectory_duration_s"]) == pytest.approx(1.0)
 
 
-def test_the_record_of_a_short_trajectory_names_its_times(in_tmp):
+def test_record_of_short_trajectory_lists_its_times(in_tmp):
     write_trajectory("steps", "zn", np.array([0.0, 0.25, 1.0 / 3]), np.array([1e-5] * 3))
     assert main(["play", "steps.csv"]) == 0
     times = read_record("steps-record.csv").metadata["trajectory_times_s"]
     assert [float(text) for text in times.split()] == [0.0, 0.25, 1.0 / 3]
 
 
-def test_the_same_seed_gives_the_same_record(in_tmp, tour):
+def test_same_seed_gives_same_record(in_tmp, tour):
     for name, seed in (("a.csv", "5"), ("b.csv", "5"), ("c.csv", "6")):
         assert main(["play", str(tour), "-o", name, "--seed", seed]) == 0
     assert Path("a.csv").read_bytes() == Path("b.csv").read_bytes()
     assert Path("a.csv").read_bytes() != Path("c.csv").read_bytes()
 
 
-def test_a_robot_under_a_controller_is_played_in_closed_loop(in_tmp):
+def test_controlled_robot_is_played_in_closed_loop(in_tmp):
     time_s = np.arange(2001) / 1000
     command = 0.05 + 0.02 * np.sin(np.pi * time_s) ** 2
     trajectory = Record.from_signals(time_s, {("q", Tap.CMD): command}, {"q": "m"})
     write_record(trajectory, "slow.csv")
-    asked = ["play", "slow.csv", "--robot", "emps", "--max-speed", "1m/s", "-o", "run.csv"]
-    assert main(asked) == 0
+    arguments = ["play", "slow.csv", "--robot", "emps", "--max-speed", "1m/s", "-o", "run.csv"]
+    assert main(arguments) == 0
     record = read_record("run.csv")
     assert record.closed_loop
     assert np.ptp(record.signal("q", Tap.U)) > 0.1
     assert np.abs(record.signal("q", Tap.MEAS) - command).max() < 1e-3
 
 
-def test_json_goes_to_the_screen_alone_with_a_dash(in_tmp, capsys):
+def test_json_dash_prints_only_json(in_tmp, capsys):
     Path("r.csv").write_text(HEADER + ROWS, "utf-8")
     assert main(["compare", "r.csv", "--json", "-"]) == 0
     assert json.loads(capsys.readouterr().out)["taps"][0]["axis"] == "x"
@@ -143,8 +139,8 @@ def test_convert_changes_units_rate_and_header(in_tmp, capsys):
     assert len(read_record("fast.csv").time_s) == 31
     assert main(["convert", "r.csv", "-o", "plain.txt", "--no-header"]) == 0
     assert Path("plain.txt").read_text("utf-8").splitlines()[0][0].isdigit()
-    again = ["convert", "plain.txt", "-o", "again.csv", "--columns", "t [s], x [m], x.meas [m]"]
-    assert main(again) == 0
+    arguments = ["convert", "plain.txt", "-o", "again.csv", "--columns", "t [s], x [m], x.meas [m]"]
+    assert main(arguments) == 0
     np.testing.assert_array_equal(read_record("again.csv").values, read_record("r.csv").values)
 
 
@@ -164,7 +160,7 @@ BAD_FILES = {
 
 @pytest.mark.parametrize("name", BAD_FILES)
 @pytest.mark.parametrize("command", ["compare", "play", "convert"])
-def test_a_bad_file_is_one_clear_line_and_status_2(in_tmp, capsys, name, command):
+def test_bad_file_gives_one_clear_line_and_status_2(in_tmp, capsys, name, command):
     text, message = BAD_FILES[name]
     Path("r.csv").write_text(text, "utf-8")
     extra = ["-o", "out.csv"] if command == "convert" else []
@@ -174,6 +170,25 @@ def test_a_bad_file_is_one_clear_line_and_status_2(in_tmp, capsys, name, command
     assert error.startswith("rotemina: r.csv")
     assert re.search(message, error), error
     assert [path.name for path in Path().iterdir()] == ["r.csv"]
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["compare", "r.csv", "--json", "link.csv"],
+        ["compare", "o.csv", "--with", "r.csv", "--json", "link.csv"],
+        ["compare", "o.csv", "--plot", "out.svg", "--json", "./out.svg"],
+        ["play", "r.csv", "-o", "link.csv"],
+    ],
+)
+def test_no_output_overwrites_an_input_or_another_output(in_tmp, capsys, arguments):
+    for name in ("r.csv", "o.csv"):
+        Path(name).write_text(HEADER + ROWS, "utf-8")
+    Path("link.csv").symlink_to("r.csv")
+    assert main(arguments) == 2
+    assert "is named twice" in capsys.readouterr().err
+    assert sorted(path.name for path in Path().iterdir()) == ["link.csv", "o.csv", "r.csv"]
+    assert Path("r.csv").read_text("utf-8") == HEADER + ROWS
 
 
 @pytest.mark.parametrize(
@@ -190,7 +205,7 @@ def test_a_bad_file_is_one_clear_line_and_status_2(in_tmp, capsys, name, command
         (["convert", "r.csv", "-o", "out.csv", "--resample", "-5"], "-5"),
     ],
 )
-def test_a_bad_request_is_one_clear_line_and_status_2(in_tmp, capsys, arguments, message):
+def test_bad_request_gives_one_clear_line_and_status_2(in_tmp, capsys, arguments, message):
     Path("r.csv").write_text(HEADER + ROWS, "utf-8")
     assert main(arguments) == 2
     error = capsys.readouterr().err
@@ -199,7 +214,7 @@ def test_a_bad_request_is_one_clear_line_and_status_2(in_tmp, capsys, arguments,
     assert [path.name for path in Path().iterdir()] == ["r.csv"]
 
 
-def test_a_trajectory_beyond_a_limit_is_not_played(in_tmp, capsys):
+def test_trajectory_beyond_a_limit_is_not_played(in_tmp, capsys):
     Path("far.csv").write_text("t [s],x [mm]\n0,54.9\n1,55.3\n", "utf-8")
     assert main(["play", "far.csv"]) == 2
     error = capsys.readouterr().err
@@ -208,24 +223,24 @@ def test_a_trajectory_beyond_a_limit_is_not_played(in_tmp, capsys):
     assert "limit 55 mm" in error
     assert "(and 2 more)" in error
     assert not Path("far-record.csv").exists()
-    # It may be looked at all the same.
+    # It can still be converted.
     assert main(["convert", "far.csv", "-o", "copy.csv"]) == 0
 
 
-def test_a_trajectory_that_would_swing_out_of_the_range_is_not_played(in_tmp, capsys):
+def test_trajectory_that_would_overshoot_the_range_is_not_played(in_tmp, capsys):
     Path("swing.csv").write_text("t [s],m1 [um]\n0,0\n0.001,4.9\n", "utf-8")
     assert main(["play", "swing.csv", "--robot", "fsm"]) == 2
     assert "predicted motion" in capsys.readouterr().err
     assert not Path("swing-record.csv").exists()
 
 
-def test_the_robot_may_stand_before_the_subcommand(in_tmp, capsys):
+def test_robot_option_can_precede_the_subcommand(in_tmp, capsys):
     Path("q.csv").write_text("t [s],q [m],q.u [V]\n0,0.1,0\n0.01,0.1,0\n", "utf-8")
     assert main(["--robot", "emps", "convert", "q.csv", "-o", "out.csv"]) == 0
     assert main(["convert", "q.csv", "-o", "out2.csv"]) == 2
 
 
-def test_nothing_is_overwritten_unasked(in_tmp, tour, capsys):
+def test_existing_files_are_not_overwritten(in_tmp, tour, capsys):
     assert main(["play", str(tour), "-o", "run.csv"]) == 0
     Path("six_axis_tour-record.csv").write_text("mine", "utf-8")
     assert main(["play", str(tour)]) == 2
@@ -235,7 +250,7 @@ def test_nothing_is_overwritten_unasked(in_tmp, tour, capsys):
     assert Path("run.csv").read_bytes() == before
 
 
-def test_figures_and_picture_are_written_together_or_not_at_all(in_tmp, capsys):
+def test_json_and_plot_are_written_together_or_not_at_all(in_tmp, capsys):
     Path("r.csv").write_text(HEADER + ROWS, "utf-8")
     Path("p.svg").write_text("old", "utf-8")
     arguments = ["compare", "r.csv", "--plot", "p.svg", "--json", "no/such/out.json"]
@@ -243,28 +258,28 @@ def test_figures_and_picture_are_written_together_or_not_at_all(in_tmp, capsys):
     assert Path("p.svg").read_text("utf-8") == "old"
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="devices are no files there")
-def test_a_device_is_not_replaced_by_a_file(in_tmp, capsys):
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no named pipes in the file system")
+def test_named_pipe_is_not_replaced_by_a_file(in_tmp, capsys):
     os.mkfifo("pipe")
     Path("r.csv").write_text(HEADER + ROWS, "utf-8")
     assert main(["convert", "r.csv", "-o", "pipe"]) == 2
     assert stat.S_ISFIFO(Path("pipe").stat().st_mode)
 
 
-def test_a_dry_run_writes_nothing(in_tmp, tour, capsys):
+def test_dry_run_writes_nothing(in_tmp, tour, capsys):
     assert main(["play", str(tour), "--dry-run"]) == 0
     assert "within the limits" in capsys.readouterr().out
     assert not list(in_tmp.iterdir())
 
 
-def test_the_installed_command_answers():
+def test_installed_command_prints_its_version():
     command = Path(sys.executable).with_name("rotemina")
-    done = subprocess.run([command, "--version"], capture_output=True, text=True, check=True)
-    assert done.stdout.startswith("rotemina ")
+    process = subprocess.run([command, "--version"], capture_output=True, text=True, check=True)
+    assert process.stdout.startswith("rotemina ")
 
 
 @pytest.mark.parametrize(
-    ("arguments", "needed"),
+    ("arguments", "expected"),
     [
         ([], ()),
         (["--robot", "rotemina", "--set", "port=/dev/ttyUSB0", "--offscreen"], ()),
@@ -272,10 +287,10 @@ def test_the_installed_command_answers():
         (["--language", "de", "play", "--help"], ["play"]),
         (["--help"], SUBCOMMANDS),
         (["--version"], SUBCOMMANDS),
-        (["plya"], SUBCOMMANDS),  # the complaint lists them all
+        (["plya"], SUBCOMMANDS),  # the error message lists them all
         (["--robot"], SUBCOMMANDS),
         (["--language", "xx"], SUBCOMMANDS),
     ],
 )
-def test_only_the_subcommands_that_are_named_are_loaded(arguments, needed):
-    assert _needed(arguments) == needed
+def test_only_named_subcommands_are_loaded(arguments, expected):
+    assert _find_needed_subcommands(arguments) == expected

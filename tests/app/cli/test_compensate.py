@@ -1,4 +1,4 @@
-"""``rotemina compensate``: what it writes and prints, and how it refuses."""
+"""``rotemina compensate``: files, output and refusals."""
 
 import json
 from pathlib import Path
@@ -7,39 +7,36 @@ import numpy as np
 import pytest
 
 from rotemina.app.cli.main import main
-from rotemina.sim.compensate import anfis
-from rotemina.sim.compensate.file import read_trained
-from rotemina.sim.records.reading import read_record
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.records.writing import write_record
+from rotemina.sim.compensate import anfis, read_trained
+from rotemina.sim.records import Record, Tap, read_record, write_record
 
 ROWS = 3000
 
 
 @pytest.fixture(autouse=True)
-def folder(tmp_path, monkeypatch):
+def working_folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(anfis.Settings, "__init__", _hasty)
+    monkeypatch.setattr(anfis.AnfisSettings, "__init__", _set_quick_settings)
 
 
-def _hasty(self):
-    """Set an ANFIS that is trained in an instant."""
+def _set_quick_settings(self):
+    """Initialise ANFIS settings that train in an instant."""
     values = {"memberships": 3, "plays": (), "epochs": 2, "patience": 2}
     for name, value in values.items():
         object.__setattr__(self, name, value)
 
 
-def write(name, axes=("zn",), taps=(Tap.CMD, Tap.MEAS), phase=0.0):
-    """Write a record of a bow with a little backlash-like loop, on the nominal robot."""
+def write_looped_record(name, axes=("zn",), taps=(Tap.CMD, Tap.MEAS), phase=0.0):
+    """Write a record of a curved response with a small backlash-like loop."""
     spans = {"thx": 1.16355e-3, "zn": 65e-6, "x": 0.055}
-    turn = np.linspace(0.0, 60.0, ROWS) + phase
-    shares = 0.5 - 0.48 * np.linspace(1.0, 0.2, ROWS) * np.cos(turn)
-    lost, play = np.empty(ROWS), 0.0
+    phases = np.linspace(0.0, 60.0, ROWS) + phase
+    shares = 0.5 - 0.48 * np.linspace(1.0, 0.2, ROWS) * np.cos(phases)
+    positions, play = np.empty(ROWS), 0.0
     for k, x in enumerate(shares):
         play = max(x - 0.1, min(x + 0.1, play))
-        lost[k] = 0.8 * x + 0.15 * play + 0.05 * x * x
+        positions[k] = 0.8 * x + 0.15 * play + 0.05 * x * x
     signals = {
-        (axis, tap): spans[axis] * (lost if tap is Tap.MEAS else shares)
+        (axis, tap): spans[axis] * (positions if tap is Tap.MEAS else shares)
         for axis in axes
         for tap in taps
     }
@@ -48,12 +45,12 @@ def write(name, axes=("zn",), taps=(Tap.CMD, Tap.MEAS), phase=0.0):
 
 
 def test_train_then_check(capsys):
-    write("a.csv")
-    write("b.csv", phase=0.4)
+    write_looped_record("a.csv")
+    write_looped_record("b.csv", phase=0.4)
     assert main(["compensate", "train", "a.csv", "-o", "zn.json"]) == 0
-    said = capsys.readouterr()
-    assert "recommended: " in said.out
-    assert "zn.json: 4 inverses" in said.out
+    output = capsys.readouterr()
+    assert "recommended: " in output.out
+    assert "zn.json: 4 inverses" in output.out
     trained, provenance = read_trained("zn.json")
     assert [source.name for source in provenance.trained_on] == ["a.csv"]
     assert len(provenance.trained_on[0].sha256) == 64
@@ -65,27 +62,36 @@ def test_train_then_check(capsys):
         assert any(line.startswith(kind + " ") for line in lines)
     assert main(["compensate", "check", "zn.json", "b.csv", "--json", "-"]) == 0
     figures = json.loads(capsys.readouterr().out)
-    assert figures["recommended"] == trained.chosen
-    left = figures["residuals"]
-    assert left["modified_prandtl_ishlinskii"]["rms"] < 0.2 * left["linear"]["rms"]
+    assert figures["recommended"] == trained.recommended_kind
+    residuals = figures["residuals"]
+    assert residuals["modified_prandtl_ishlinskii"]["rms"] < 0.2 * residuals["linear"]["rms"]
 
 
-def test_a_held_out_record_judges(capsys):
-    write("a.csv")
-    write("b.csv", phase=0.4)
-    asked = ["compensate", "train", "a.csv", "--held-out", "b.csv", "-o", "zn.json"]
-    assert main([*asked, "--json", "figures.json"]) == 0
+def test_held_out_record_is_used_for_the_evaluation(capsys):
+    write_looped_record("a.csv")
+    write_looped_record("b.csv", phase=0.4)
+    arguments = ["compensate", "train", "a.csv", "--held-out", "b.csv", "-o", "zn.json"]
+    assert main([*arguments, "--json", "figures.json"]) == 0
     _, provenance = read_trained("zn.json")
     assert [source.name for source in provenance.held_out] == ["b.csv"]
     assert json.loads(Path("figures.json").read_text("utf-8"))["axis"] == "zn"
 
 
 @pytest.mark.slow
-@pytest.mark.slow
-def test_the_simulator_is_learned_from_and_the_same_seed_gives_the_same_bytes():
+def test_training_on_the_simulator_is_reproducible_by_seed():
     for name, seed in (("a.json", "3"), ("b.json", "3"), ("c.json", "4")):
-        asked = ["compensate", "train", "--simulate", "--axis", "zn", "--seed", seed, "-o", name]
-        assert main(asked) == 0
+        arguments = [
+            "compensate",
+            "train",
+            "--simulate",
+            "--axis",
+            "zn",
+            "--seed",
+            seed,
+            "-o",
+            name,
+        ]
+        assert main(arguments) == 0
     assert Path("a.json").read_bytes() == Path("b.json").read_bytes()
     assert Path("a.json").read_bytes() != Path("c.json").read_bytes()
     assert read_trained("a.json")[1].seed == 3
@@ -102,6 +108,13 @@ def test_the_simulator_is_learned_from_and_the_same_seed_gives_the_same_bytes():
         ("train a.csv --seed 1 -o it.json", "--effects and --seed belong to --simulate"),
         ("train a.csv -o no/it.json", "there is no folder no"),
         ("train a.csv -o a.csv", "a.csv is named twice"),
+        ("train a.csv -o link.csv", "link.csv is named twice"),
+        ("train two.csv --held-out a.csv -o link.csv", "link.csv is named twice"),
+        ("train a.csv -o it.json --json a.csv", "a.csv is named twice"),
+        ("train a.csv -o it.json --json it.json", "it.json is named twice"),
+        ("train a.csv -o it.json --json no/it.json", "there is no folder no"),
+        ("check it.json a.csv --json link.csv", "link.csv is named twice"),
+        ("apply it.json a.csv -o link.csv", "link.csv is named twice"),
         ("train none.csv -o it.json", "none.csv cannot be read (file not found)"),
         ("train two.csv -o it.json", "two.csv: its piezo axes are thx, zn; name one by --axis"),
         ("train a.csv --axis thx -o it.json", "axis thx needs the columns thx.cmd"),
@@ -111,11 +124,12 @@ def test_the_simulator_is_learned_from_and_the_same_seed_gives_the_same_bytes():
         ("check none.json a.csv", "none.json cannot be read"),
     ],
 )
-def test_a_bad_request_is_one_clear_line_and_status_2(arguments, message, capsys):
-    write("a.csv")
-    write("two.csv", axes=("thx", "zn"))
-    write("x.csv", axes=("x",))
-    write("bare.csv", taps=(Tap.CMD,))
+def test_bad_request_gives_one_clear_line_and_status_2(arguments, message, capsys):
+    write_looped_record("a.csv")
+    write_looped_record("two.csv", axes=("thx", "zn"))
+    write_looped_record("x.csv", axes=("x",))
+    write_looped_record("bare.csv", taps=(Tap.CMD,))
+    Path("link.csv").symlink_to("a.csv")
     assert main(["compensate", *arguments.split()]) == 2
     error = capsys.readouterr().err
     assert message in error
@@ -125,35 +139,35 @@ def test_a_bad_request_is_one_clear_line_and_status_2(arguments, message, capsys
 
 
 def test_inverses_of_another_robot_are_refused(capsys):
-    write("a.csv")
+    write_looped_record("a.csv")
     assert main(["compensate", "train", "a.csv", "-o", "zn.json"]) == 0
     assert main(["compensate", "check", "zn.json", "a.csv", "--robot", "picma"]) == 2
     assert "was trained for robot 'RoTeMiNa', not for" in capsys.readouterr().err
 
 
-def test_a_trajectory_is_compensated_and_played(capsys):
-    write("a.csv")
+def test_trajectory_is_compensated_and_played(capsys):
+    write_looped_record("a.csv")
     assert main(["compensate", "train", "a.csv", "-o", "zn.json"]) == 0
     time_s = 1e-3 * np.arange(300)
-    path = 30e-6 - 10e-6 * np.cos(20.0 * time_s)
-    wanted = Record.from_signals(time_s, {("zn", Tap.CMD): path}, {"zn": "m"})
-    write_record(wanted, "way.csv")
+    position = 30e-6 - 10e-6 * np.cos(20.0 * time_s)
+    trajectory = Record.from_signals(time_s, {("zn", Tap.CMD): position}, {"zn": "m"})
+    write_record(trajectory, "way.csv")
     assert main(["compensate", "apply", "zn.json", "way.csv", "-o", "sent.csv"]) == 0
     assert "sent.csv: 300 rows, 0.299 s\naxis zn: commands of" in capsys.readouterr().out
-    sent = read_record("sent.csv")
-    assert sent.metadata["compensation zn"].endswith(", zn.json")
-    assert np.abs(sent.signal("zn", Tap.CMD) - path).max() > 1e-7
+    compensated = read_record("sent.csv")
+    assert compensated.metadata["compensation zn"].endswith(", zn.json")
+    assert np.abs(compensated.signal("zn", Tap.CMD) - position).max() > 1e-7
     assert main(["play", "sent.csv", "-o", "played.csv"]) == 0
     assert main(["play", "way.csv", "--compensate", "zn.json", "-o", "live.csv"]) == 0
-    live = read_record("live.csv")
-    assert np.allclose(live.signal("zn", Tap.CMD), path, atol=1e-12)
-    assert live.metadata["compensation zn"] == sent.metadata["compensation zn"]
-    # Ahead or by extrapolation, the inverse asks for much the same.
-    played = read_record("played.csv").signal("zn", Tap.CMD)
-    assert np.abs(live.signal("zn", Tap.U) * 5e-7 - played)[50:].max() < 1e-6
+    live_record = read_record("live.csv")
+    assert np.allclose(live_record.signal("zn", Tap.CMD), position, atol=1e-12)
+    assert live_record.metadata["compensation zn"] == compensated.metadata["compensation zn"]
+    # Computed ahead or extrapolated live, the inverse commands are nearly the same.
+    played_commands = read_record("played.csv").signal("zn", Tap.CMD)
+    assert np.abs(live_record.signal("zn", Tap.U) * 5e-7 - played_commands)[50:].max() < 1e-6
 
     write_record(
-        Record.from_signals(time_s, {("zn", Tap.CMD): path + 24.9e-6}, {"zn": "m"}), "f.csv"
+        Record.from_signals(time_s, {("zn", Tap.CMD): position + 24.9e-6}, {"zn": "m"}), "f.csv"
     )
     for arguments in ("compensate apply zn.json f.csv -o o.csv", "play f.csv --compensate zn.json"):
         assert main(arguments.split()) == 2

@@ -1,14 +1,14 @@
-"""``rotemina driver``: what is installed, and the check with its exit status."""
+"""``rotemina driver``: the list of installed drivers, and the check with its exit status."""
 
 from importlib.metadata import EntryPoint
 
 import pytest
 
 from rotemina.app.cli.main import main
-from rotemina.drivers import registry
+from rotemina.drivers.contract import registry
 
-PLUGINS = """
-from rotemina.drivers.simulator.driver import Simulator
+PLUGIN_SOURCE = """
+from rotemina.drivers.simulator import Simulator
 
 
 class Careless(Simulator):
@@ -23,15 +23,15 @@ class Real(Simulator):
 
 @pytest.fixture
 def plugins(tmp_path, monkeypatch):
-    """A driver that ignores leases, one in real time, and one that is missing."""
-    (tmp_path / "careless_drivers.py").write_text(PLUGINS, "utf-8")
+    """Install a driver that ignores leases, one in real time, and one that cannot be imported."""
+    (tmp_path / "careless_drivers.py").write_text(PLUGIN_SOURCE, "utf-8")
     monkeypatch.syspath_prepend(str(tmp_path))
     values = {
         "careless": "careless_drivers:Careless",
         "real": "careless_drivers:Real",
         "lost": "no_such_module:Lost",
     }
-    points = [EntryPoint(name, value, registry.DRIVERS) for name, value in values.items()]
+    points = [EntryPoint(name, value, registry.DRIVER_GROUP) for name, value in values.items()]
     monkeypatch.setattr(registry, "entry_points", lambda group: points)
 
 
@@ -41,26 +41,26 @@ def test_list_has_a_line_for_each_driver(command, capsys):
     lines = capsys.readouterr().out.splitlines()
     (line,) = [line for line in lines if line.startswith("simulator ")]
     assert "any clock" in line
-    assert "VelocityMover, Homer, VoltageOutput" in line
+    assert "VelocityMover, AxisHomer, VoltageOutput" in line
 
 
-def test_list_says_what_cannot_be_loaded_and_why(plugins, capsys):
+def test_list_reports_drivers_that_cannot_be_loaded(plugins, capsys):
     assert main(["driver", "list"]) == 0
     assert "left out: lost: no_such_module:Lost cannot be imported" in capsys.readouterr().out
 
 
 def test_check_passes_with_status_0(capsys):
-    only = ["--only", "units", "--only", "making", "--only", "fault"]
-    assert main(["driver", "check", "simulator", "--robot", "fsm", *only]) == 0
-    making, fault, units, summary = capsys.readouterr().out.splitlines()
-    assert making.split() == ["ok", "making"]
-    assert fault.split()[:2] == ["-", "fault"]
-    assert "cannot cause fault" in fault
-    assert units.split() == ["ok", "units"]
-    assert summary == "simulator on Fine steering mirror: 2 passed, 0 failed, 1 skipped"
+    options = ["--only", "units", "--only", "making", "--only", "fault"]
+    assert main(["driver", "check", "simulator", "--robot", "fsm", *options]) == 0
+    making_line, fault_line, units_line, summary_line = capsys.readouterr().out.splitlines()
+    assert making_line.split() == ["ok", "making"]
+    assert fault_line.split()[:2] == ["-", "fault"]
+    assert "cannot cause fault" in fault_line
+    assert units_line.split() == ["ok", "units"]
+    assert summary_line == "simulator on Fine steering mirror: 2 passed, 0 failed, 1 skipped"
 
 
-def test_check_fails_with_status_1_and_says_what_was_seen(plugins, capsys):
+def test_failed_check_has_status_1_and_reports_the_observation(plugins, capsys):
     assert main(["driver", "check", "careless", "--only", "lease-expiry"]) == 1
     failed, demand, _ = capsys.readouterr().out.splitlines()
     assert failed.split()[:2] == ["FAILED", "lease-expiry"]
@@ -70,36 +70,38 @@ def test_check_fails_with_status_1_and_says_what_was_seen(plugins, capsys):
 
 def test_settings_reach_the_driver(capsys):
     command = ["driver", "check", "simulator", "--only", "homing", "--verbose"]
-    assert main([*command, "--set", "start_homed=false", "--set", "sample_rate_hz=500"]) == 0
+    assert main([*command, "--set", "start_homed = 0", "--set", "sample_rate_hz=500"]) == 0
     assert "After homing the position is known" in capsys.readouterr().out
 
 
-def test_a_real_device_moves_only_when_that_is_asked_for(plugins, capsys):
-    only = ["--only", "making", "--only", "units"]
-    assert main(["driver", "check", "real", *only]) == 0
-    said = capsys.readouterr().out.splitlines()
-    assert "--move lets the axes move" in said[0]
-    assert said[2].endswith("it moves axes")
+def test_real_device_moves_only_on_request(plugins, capsys):
+    options = ["--only", "making", "--only", "units"]
+    assert main(["driver", "check", "real", *options]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert "--move lets the axes move" in lines[0]
+    assert lines[2].endswith("it moves axes")
     assert main(["driver", "check", "real", "--move", "--only", "making"]) == 0
     assert "ALL AXES WILL MOVE" in capsys.readouterr().out.splitlines()[0]
 
 
 @pytest.mark.parametrize(
-    ("arguments", "named"),
+    ("arguments", "message"),
     [
         (["nope"], "nope"),
         (["simulator", "--robot", "no_such_robot"], "no_such_robot"),
         (["simulator", "--only", "nonsense"], "nonsense"),
-        (["simulator", "--set", "seed"], "KEY=VALUE"),
+        (["simulator", "--set", "seed"], "name=value"),
         (["simulator", "--set", "colour=red"], "colour"),
-        (["simulator", "--set", "seed=1.5"], "must be int"),
+        (["simulator", "--set", "seed=1.5"], "'1.5' is not an integer"),
+        (["simulator", "--set", "seed=1_0"], "'1_0' is not an integer"),
+        (["simulator", "--set", "settle_s=nan"], "'nan' is not a number"),
         (["simulator", "--set", "start_homed=perhaps"], "true or false"),
         (["simulator", "--set", "settle_s=-1"], "settle_s"),
     ],
 )
-def test_bad_input_is_one_line_and_status_2(arguments, named, capsys):
+def test_bad_input_gives_one_line_and_status_2(arguments, message, capsys):
     assert main(["driver", "check", *arguments]) == 2
     captured = capsys.readouterr()
     assert captured.out == ""
     assert len(captured.err.splitlines()) == 1
-    assert named in captured.err
+    assert message in captured.err

@@ -1,4 +1,4 @@
-"""``rotemina effect``: the catalogue as its users read it, and the check with its exit status."""
+"""``rotemina effect``: the catalogue of effects, and the check with its exit status."""
 
 from importlib.metadata import EntryPoint
 
@@ -7,9 +7,15 @@ import pytest
 from rotemina.app.cli.main import main
 from rotemina.sim.effects import registry
 
-BROKEN = """
-from rotemina.sim.effects.formulation import (
-    EVERY_KIND, Effect, Formulation, Parameter, Reading, Stage, Trait
+BROKEN_EFFECT_SOURCE = """
+from rotemina.sim.effects import (
+    EVERY_KIND,
+    Effect,
+    EffectParameter,
+    EffectStage,
+    EffectTrait,
+    Formulation,
+    ReadingFunction,
 )
 
 
@@ -18,12 +24,13 @@ def bent(x, other, t, h, a, b, p, s):
 
 
 WRONG = Effect(
-    id="wrong", title="Wrong", summary="Not what it says.", stage=Stage.SENSOR, kinds=EVERY_KIND,
+    id="wrong", title="Wrong", summary="Not what it says.",
+    stage=EffectStage.SENSOR, kinds=EVERY_KIND,
     formulations=(
         Formulation(
             name="square", equation="y = x + k x²", source="nowhere",
-            parameters=(Parameter("k", "curvature", "1/q", 0.0, 1.0, 0.5),),
-            acts=Reading(step=bent), traits=frozenset({Trait.LINEAR}),
+            parameters=(EffectParameter("k", "curvature", "1/q", 0.0, 1.0, 0.5),),
+            acts=ReadingFunction(step=bent), traits=frozenset({EffectTrait.LINEAR}),
         ),
     ),
 )
@@ -31,9 +38,9 @@ WRONG = Effect(
 
 
 @pytest.fixture
-def wrong(tmp_path, monkeypatch):
-    """A plugin whose effect is not linear although it says so, beside one that is missing."""
-    (tmp_path / "wrong_effect.py").write_text(BROKEN, "utf-8")
+def broken_plugins(tmp_path, monkeypatch):
+    """Install an effect that is falsely declared linear, and one that cannot be imported."""
+    (tmp_path / "wrong_effect.py").write_text(BROKEN_EFFECT_SOURCE, "utf-8")
     monkeypatch.syspath_prepend(str(tmp_path))
     points = {
         "wrong": EntryPoint("wrong", "wrong_effect:WRONG", registry.GROUP),
@@ -42,10 +49,10 @@ def wrong(tmp_path, monkeypatch):
             "sensor_gain", "rotemina.sim.effects.sensor_gain:SENSOR_GAIN", registry.GROUP
         ),
     }
-    monkeypatch.setattr(registry, "_points", lambda: points)
-    registry.effect_named.cache_clear()
+    monkeypatch.setattr(registry, "_find_entry_points", lambda: points)
+    registry.load_effect.cache_clear()
     yield
-    registry.effect_named.cache_clear()
+    registry.load_effect.cache_clear()
 
 
 @pytest.mark.parametrize("command", [["effect"], ["effect", "list"]])
@@ -54,18 +61,23 @@ def test_list_has_a_line_for_each_effect(command, capsys):
     lines = capsys.readouterr().out.splitlines()
     delay = next(line for line in lines if line.startswith("delay "))
     assert delay.split() == ["delay", "electronics", "force,", "piezo,", "stepper", "Delay"]
-    places = {line.split()[0]: number for number, line in enumerate(lines)}
-    assert places["delay"] < places["hysteresis"] < places["friction"] < places["sensor_gain"]
+    line_numbers = {line.split()[0]: number for number, line in enumerate(lines)}
+    assert (
+        line_numbers["delay"]
+        < line_numbers["hysteresis"]
+        < line_numbers["friction"]
+        < line_numbers["sensor_gain"]
+    )
 
 
-def test_list_says_what_cannot_be_loaded_and_why(wrong, capsys):
+def test_list_reports_effects_that_cannot_be_loaded(broken_plugins, capsys):
     assert main(["effect", "list"]) == 0
     assert (
         "left out: effect 'lost': no_such_module:LOST cannot be imported" in capsys.readouterr().out
     )
 
 
-def test_show_has_equations_sources_and_figures_on_the_axes_of_a_robot(capsys):
+def test_show_has_equations_sources_and_values_per_axis(capsys):
     assert main(["effect", "show", "sensor_drift"]) == 0
     text = capsys.readouterr().out
     assert "formulation random_walk" in text
@@ -78,7 +90,7 @@ def test_show_has_equations_sources_and_figures_on_the_axes_of_a_robot(capsys):
     assert any(line.startswith("thx, thy ") and "rad/√s" in line for line in lines)
 
 
-def test_show_leaves_out_axes_that_cannot_carry_it(capsys):
+def test_show_omits_axes_that_the_effect_does_not_fit(capsys):
     assert main(["effect", "show", "hysteresis", "--robot", "rotemina"]) == 0
     text = capsys.readouterr().out
     assert "x, y, z" not in text
@@ -92,22 +104,22 @@ def test_check_passes_with_status_0(capsys):
     assert second.split()[:2] == ["clock_skew", "passed"]
 
 
-def test_check_fails_with_status_1_and_says_where(wrong, capsys):
+def test_failed_check_has_status_1_and_names_the_failure(broken_plugins, capsys):
     assert main(["effect", "check", "--robot", "rotemina"]) == 1
     out = capsys.readouterr().out
     assert "sensor_gain             passed" in out
     assert "wrong                   FAILED" in out
     assert "lost                    FAILED" in out
-    (found,) = [line for line in out.splitlines() if "RoTeMiNa thx" in line]
-    assert "trait linear" in found
-    assert "(bound 1e-06)  superposition does not hold" in found
+    (failure,) = [line for line in out.splitlines() if "RoTeMiNa thx" in line]
+    assert "trait linear" in failure
+    assert "(bound 1e-06)  superposition does not hold" in failure
 
 
 def test_verbose_shows_every_check_with_value_and_bound(capsys):
     assert main(["effect", "check", "sensor_gain", "--robot", "picma", "--verbose"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert len(lines) > 12
-    (pieces,) = [line for line in lines if "in pieces is as at once" in line]
+    (pieces,) = [line for line in lines if "gives the same in pieces" in line]
     assert pieces.split()[:4] == ["ok", "proportional", "PICMA", "P-885.91"]
     assert "(bound 1e-09)" in pieces
 
@@ -116,7 +128,7 @@ def test_verbose_shows_every_check_with_value_and_bound(capsys):
     "arguments",
     [["check", "nope"], ["show", "nope"], ["check", "delay", "--robot", "no_such_robot"]],
 )
-def test_bad_input_is_one_line_and_status_2(arguments, capsys):
+def test_bad_input_gives_one_line_and_status_2(arguments, capsys):
     assert main(["effect", *arguments]) == 2
     captured = capsys.readouterr()
     assert captured.out == ""
@@ -124,9 +136,9 @@ def test_bad_input_is_one_line_and_status_2(arguments, capsys):
     assert arguments[-1] in captured.err
 
 
-def test_what_fits_no_axis_is_not_said_to_have_passed(capsys):
+def test_effect_that_fits_no_axis_is_reported_as_not_tried(capsys):
     assert main(["effect", "check", "hysteresis", "--robot", "emps"]) == 0
-    said = capsys.readouterr().out
-    assert "NOT TRIED: it fits no axis" in said
+    output = capsys.readouterr().out
+    assert "NOT TRIED: it fits no axis" in output
     assert main(["effect", "check", "delay", "--robot", "emps"]) == 0
     assert "NOT TRIED" not in capsys.readouterr().out

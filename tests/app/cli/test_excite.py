@@ -1,4 +1,4 @@
-"""``rotemina excite`` as its users meet it."""
+"""``rotemina excite`` from the command line."""
 
 from pathlib import Path
 
@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from rotemina.app.cli.main import main
-from rotemina.sim.excitation.generator import KINDS
-from rotemina.sim.records.reading import read_record
-from rotemina.sim.records.record import Tap
+from rotemina.sim.excitation import EXCITATION_KINDS
+from rotemina.sim.records import Tap, read_record
 
 
 @pytest.fixture(autouse=True)
@@ -18,21 +17,28 @@ def in_tmp(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("robot", ["rotemina", "fsm", "picma", "emps"])
-@pytest.mark.parametrize("kind", KINDS)
-def test_every_kind_is_a_file_that_says_what_it_is(kind, robot, capsys):
+@pytest.mark.parametrize("kind", EXCITATION_KINDS)
+def test_every_kind_writes_a_file_that_names_its_excitation(kind, robot, capsys):
     limits = [] if robot == "rotemina" else ["--max-speed", "100mm/s"]
     assert main(["excite", kind, "--robot", robot, *limits, "-o", "it.csv"]) == 0
     record = read_record("it.csv")
     assert record.metadata["excitation"] == kind
-    said = capsys.readouterr().out
-    assert said.startswith(f"it.csv: {len(record.time_s)} rows")
-    assert all(f"  {axis}: {kind}; " in said for axis in record.axes)
+    output = capsys.readouterr().out
+    assert output.startswith(f"it.csv: {len(record.time_s)} rows")
+    assert all(f"  {axis}: {kind}; " in output for axis in record.axes)
     assert main(["play", "it.csv", "--robot", robot, "--dry-run"]) == 0
 
 
-def test_each_axis_may_have_its_own_values():
-    asked = ["--axes", "x,thx,zn", "--amplitude", "x=20um,thx=200urad,10%", "--frequency", "zn=2,1"]
-    assert main(["excite", "sine", *asked, "--offset", "x=30mm", "-o", "it.csv"]) == 0
+def test_each_axis_can_have_its_own_values():
+    arguments = [
+        "--axes",
+        "x,thx,zn",
+        "--amplitude",
+        "x=20um,thx=200urad,10%",
+        "--frequency",
+        "zn=2,1",
+    ]
+    assert main(["excite", "sine", *arguments, "--offset", "x=30mm", "-o", "it.csv"]) == 0
     record = read_record("it.csv")
     assert record.axes == ("x", "thx", "zn")
     spans = [np.ptp(record.signal(axis, Tap.CMD)) for axis in record.axes]
@@ -43,7 +49,7 @@ def test_each_axis_may_have_its_own_values():
 
 
 @pytest.mark.parametrize(
-    ("arguments", "words"),
+    ("arguments", "text"),
     [
         ("sine --frequency 2Hz --duration 3s --periodic", "cycles = 6"),
         ("triangle --frequency 2 --offset 25%", "offset_rad = 0.000290887"),
@@ -56,15 +62,15 @@ def test_each_axis_may_have_its_own_values():
         ("steps --rise 0.1 --jerk 1000mrad/s3 --cycles 2", "cycles = 2"),
     ],
 )
-def test_every_parameter_has_its_option(arguments, words):
+def test_every_parameter_has_its_option(arguments, text):
     assert main(["excite", *arguments.split(), "--axes", "thx", "-o", "it.csv"]) == 0
-    assert words in read_record("it.csv").metadata["excitation thx"]
+    assert text in read_record("it.csv").metadata["excitation thx"]
 
 
-def test_the_same_seed_writes_the_same_bytes():
+def test_same_seed_writes_same_bytes():
     for name, seed in (("a.csv", "3"), ("b.csv", "3"), ("c.csv", "4")):
-        asked = ["--axes", "thx,thy", "--seed", seed, "--rate", "1000", "-o", name]
-        assert main(["excite", "multisine", *asked]) == 0
+        options = ["--axes", "thx,thy", "--seed", seed, "--rate", "1000", "-o", name]
+        assert main(["excite", "multisine", *options]) == 0
     assert Path("a.csv").read_bytes() == Path("b.csv").read_bytes()
     assert Path("a.csv").read_bytes() != Path("c.csv").read_bytes()
     record = read_record("a.csv")
@@ -72,19 +78,19 @@ def test_the_same_seed_writes_the_same_bytes():
     assert record.period_samples == 1000
 
 
-def test_what_was_reduced_is_said(capsys):
-    asked = ["excite", "sine", "--axes", "x", "--amplitude", "5mm", "--frequency", "1"]
-    assert main([*asked, "-o", "it.csv"]) == 0
-    said = capsys.readouterr().out
+def test_reduced_amplitude_is_reported(capsys):
+    arguments = ["excite", "sine", "--axes", "x", "--amplitude", "5mm", "--frequency", "1"]
+    assert main([*arguments, "-o", "it.csv"]) == 0
+    output = capsys.readouterr().out
     assert (
         "changed: axis x: amplitude 5 mm → 1.59156 mm (× 0.3183), for the speed limit 10 mm/s"
-        in said
+        in output
     )
-    assert main([*asked, "--strict", "-o", "strict.csv"]) == 2
+    assert main([*arguments, "--strict", "-o", "strict.csv"]) == 2
     error = capsys.readouterr().err
     assert error == (
         "rotemina: axis x: amplitude 5 mm is beyond 1.59156 mm, "
-        "the most within the speed limit 10 mm/s\n"
+        "the most permitted by the speed limit 10 mm/s\n"
     )
     assert not Path("strict.csv").exists()
 
@@ -118,7 +124,7 @@ def test_what_was_reduced_is_said(capsys):
         ("sine -o no/such/folder/it.csv", "it.csv"),
     ],
 )
-def test_a_bad_request_is_one_clear_line_and_status_2(arguments, message, capsys):
+def test_bad_request_gives_one_clear_line_and_status_2(arguments, message, capsys):
     output = [] if "-o " in arguments else ["-o", "it.csv"]
     assert main(["excite", *arguments.split(), *output]) == 2
     error = capsys.readouterr().err
@@ -128,15 +134,15 @@ def test_a_bad_request_is_one_clear_line_and_status_2(arguments, message, capsys
     assert not list(Path().iterdir())
 
 
-def test_without_a_speed_limit_it_asks_for_one_and_keeps_it(capsys):
-    asked = ["excite", "triangle", "--robot", "fsm", "--axes", "m1,m2", "-o", "it.csv"]
-    asked += ["--frequency", "1", "--amplitude", "1um"]
-    assert main(asked) == 2
+def test_missing_speed_limit_is_requested_and_then_observed(capsys):
+    arguments = ["excite", "triangle", "--robot", "fsm", "--axes", "m1,m2", "-o", "it.csv"]
+    arguments += ["--frequency", "1", "--amplitude", "1um"]
+    assert main(arguments) == 2
     error = capsys.readouterr().err
     assert "states no speed limit (max_speed) of m1 and m2" in error
     assert "--max-speed m1=1mm/s,m2=1mm/s" in error
     assert not Path("it.csv").exists()
-    assert main([*asked, "--max-speed", "m1=2um/s,1um/s"]) == 0
+    assert main([*arguments, "--max-speed", "m1=2um/s,1um/s"]) == 0
     assert "for the speed limit 2 µm/s" in capsys.readouterr().out
     record = read_record("it.csv")
     speeds = [np.abs(np.diff(record.signal(axis, Tap.CMD))).max() for axis in ("m1", "m2")]
@@ -156,14 +162,14 @@ def test_without_a_speed_limit_it_asks_for_one_and_keeps_it(capsys):
         ("1mm/s,2mm/s", "--max-speed 1mm/s,2mm/s: has two values for m/s"),
     ],
 )
-def test_a_speed_limit_that_is_none_is_refused(speed, message, capsys):
-    asked = ["excite", "sine", "--robot", "fsm", "--axes", "m1", f"--max-speed={speed}"]
-    assert main([*asked, "-o", "it.csv"]) == 2
+def test_invalid_speed_limit_is_refused(speed, message, capsys):
+    arguments = ["excite", "sine", "--robot", "fsm", "--axes", "m1", f"--max-speed={speed}"]
+    assert main([*arguments, "-o", "it.csv"]) == 2
     assert message in capsys.readouterr().err
 
 
-def test_it_does_not_go_without_an_output(capsys):
-    with pytest.raises(SystemExit) as caught:
+def test_output_option_is_required(capsys):
+    with pytest.raises(SystemExit) as exit_info:
         main(["excite", "sine"])
-    assert caught.value.code == 2
+    assert exit_info.value.code == 2
     assert "-o/--output" in capsys.readouterr().err

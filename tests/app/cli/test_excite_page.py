@@ -1,4 +1,4 @@
-"""The page about excitations keeps its promises."""
+"""The commands and the program on the page about excitations work."""
 
 import re
 from pathlib import Path
@@ -6,24 +6,24 @@ from pathlib import Path
 import pytest
 
 from rotemina.app.cli.main import main
-from rotemina.sim.excitation.generator import KINDS
+from rotemina.sim.excitation import EXCITATION_KINDS
 
 PAGE = (Path(__file__).parents[3] / "docs" / "excitations.md").read_text("utf-8")
 COMMANDS = re.findall(r"^ +(?:\$ )?rotemina (excite .+)$", PAGE, re.MULTILINE)
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_its_commands_work(command, tmp_path, monkeypatch):
+def test_commands_on_the_page_work(command, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert main(command.split()) == 0
 
 
-def test_it_names_every_kind():
-    assert [kind for kind in KINDS if f"| `{kind}` |" not in PAGE] == []
+def test_page_names_every_kind():
+    assert [kind for kind in EXCITATION_KINDS if f"| `{kind}` |" not in PAGE] == []
 
 
-def test_its_program_runs():
+def test_program_on_the_page_runs():
     (program,) = re.findall(r"```python\n(.+?)```", PAGE, re.DOTALL)
     names = {}
-    exec(program, names)  # noqa: S102 the page's own text
+    exec(program, names)  # noqa: S102 the text of the page
     assert names["made"].record.axes == ("thx", "x")

@@ -1,4 +1,4 @@
-"""``rotemina gap diagnose`` on records that are too poor, and what then tells more."""
+"""``rotemina gap diagnose`` on a record with too little excitation, then with its experiment."""
 
 import json
 from html import escape
@@ -8,15 +8,13 @@ import numpy as np
 import pytest
 
 from rotemina.app.cli.main import main
-from rotemina.sim.records.reading import read_record
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.records.writing import write_record
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.robot.model import AxisEffect
-from rotemina.sim.simulation.simulation import simulate
+from rotemina.sim.records import Record, Tap, read_record, write_record
+from rotemina.sim.robot import AxisEffect
+from rotemina.sim.robot_files import load_robot
+from rotemina.sim.simulation import simulate
 
 ROBOT = load_robot("rotemina")
-TRUTH = AxisEffect(axis="zn", id="delay", parameters={"delay": 3e-3})
+TRUE_EFFECT = AxisEffect(axis="zn", id="delay", parameters={"delay": 3e-3})
 
 
 @pytest.fixture(autouse=True)
@@ -25,7 +23,7 @@ def in_tmp(tmp_path, monkeypatch):
 
 
 def write_measured(commands, name):
-    record = simulate(ROBOT, [TRUTH], commands, np.random.default_rng(0))
+    record = simulate(ROBOT, [TRUE_EFFECT], commands, np.random.default_rng(0))
     signals = {
         (axis, tap): record.signal(axis, tap)
         for axis, tap in record.columns
@@ -35,15 +33,15 @@ def write_measured(commands, name):
 
 
 @pytest.mark.slow
-def test_a_sine_alone_is_too_poor_and_the_suggested_test_then_tells(capsys):
+def test_suggested_experiment_resolves_a_poorly_exciting_sine(capsys):
     time_s = np.arange(4000) / 1000.0
     sine = 32.5e-6 + 13e-6 * np.minimum(time_s, 1.0) * np.sin(2.0 * np.pi * time_s)
     write_measured(Record.from_signals(time_s, {("zn", Tap.CMD): sine}, {"zn": "m"}), "sine.csv")
-    asked = ["gap", "diagnose", "sine.csv", "--json", "out.json", "--report", "out.html"]
-    assert main(asked) == 0
-    first = json.loads(Path("out.json").read_text("utf-8"))
-    assert first["verdict"] == "insufficient_excitation"
-    [experiment] = first["next_experiments"]
+    arguments = ["gap", "diagnose", "sine.csv", "--json", "out.json", "--report", "out.html"]
+    assert main(arguments) == 0
+    first_diagnosis = json.loads(Path("out.json").read_text("utf-8"))
+    assert first_diagnosis["verdict"] == "insufficient_excitation"
+    [experiment] = first_diagnosis["next_experiments"]
     assert "delay" in experiment["splits"]
     assert escape(experiment["why"]) in Path("out.html").read_text("utf-8")
 
@@ -54,7 +52,9 @@ def test_a_sine_alone_is_too_poor_and_the_suggested_test_then_tells(capsys):
 
     write_measured(read_record(experiment["commands"], robot=ROBOT), "suggested.csv")
     assert main(["gap", "diagnose", "sine.csv", "suggested.csv", "--json", "then.json"]) == 0
-    then = json.loads(Path("then.json").read_text("utf-8"))
-    assert then["verdict"] == "explained"
-    assert [(one["effect"], one["ambiguous_with"]) for one in then["causes"]] == [("delay", [])]
-    assert then["next_experiments"] == []
+    second_diagnosis = json.loads(Path("then.json").read_text("utf-8"))
+    assert second_diagnosis["verdict"] == "explained"
+    assert [(cause["effect"], cause["ambiguous_with"]) for cause in second_diagnosis["causes"]] == [
+        ("delay", [])
+    ]
+    assert second_diagnosis["next_experiments"] == []

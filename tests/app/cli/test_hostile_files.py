@@ -1,4 +1,4 @@
-"""What no file can be read from, and names that none can have: one clear line and status 2."""
+"""Unreadable files and impossible names: one clear line and status 2."""
 
 import json
 import os
@@ -7,12 +7,12 @@ import pytest
 
 from rotemina.app.cli.main import main
 
-LONG = "a" * 300
-CUT = f"{'a' * 100} … {'a' * 30} (300 characters)"
+LONG_NAME = "a" * 300
+SHORTENED_NAME = f"{'a' * 100} … {'a' * 30} (300 characters)"
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "message"),
     [
         (["compare", "good.csv", "--robot", "pipe"], "pipe cannot be read (it is a pipe"),
         (["gap", "predict", "pipe", "good.csv"], "pipe cannot be read (it is a pipe"),
@@ -25,8 +25,11 @@ CUT = f"{'a' * 100} … {'a' * 30} (300 characters)"
             "/dev/zero cannot be read (it is",
         ),
         (["convert", "good.csv", "-o", "good.csv/x.csv"], "good.csv/x.csv cannot be written"),
-        (["convert", "good.csv", "-o", f"{LONG}.csv"], ".csv (304 characters): File name too long"),
-        (["compare", LONG], f"{CUT} cannot be read (File name too long)"),
+        (
+            ["convert", "good.csv", "-o", f"{LONG_NAME}.csv"],
+            ".csv (304 characters): File name too long",
+        ),
+        (["compare", LONG_NAME], f"{SHORTENED_NAME} cannot be read (File name too long)"),
         (["compare", "good.csv", "--robot", "deep.toml"], "deep.toml: tables or lists are nested"),
         (
             ["tune", "--axis", "zn", "-o", "o", "--population", "1000000000"],
@@ -35,7 +38,7 @@ CUT = f"{'a' * 100} … {'a' * 30} (300 characters)"
         (["tune", "--axis", "zn", "-o", "o", "--rate", "1e15"], "loop rate 1e+15 Hz"),
     ],
 )
-def test_one_clear_line(arguments, said, tmp_path, monkeypatch, capsys):
+def test_unusable_file_gives_one_clear_line(arguments, message, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "good.csv").write_text("t [s],x.cmd [um],x.meas [um]\n0,0,0\n0.001,1,1\n")
     (tmp_path / "deep.toml").write_text(".".join(["a"] * 50_000) + " = 1")
@@ -44,7 +47,7 @@ def test_one_clear_line(arguments, said, tmp_path, monkeypatch, capsys):
     assert main(arguments) == 2
     error = capsys.readouterr().err
     assert error.count("\n") == 1
-    assert said in error
+    assert message in error
 
 
 @pytest.mark.parametrize("value", ["k" * 100_000, "a\x1b[31mb\nc\rd", "k " * 50_000])
@@ -67,7 +70,9 @@ def test_one_clear_line(arguments, said, tmp_path, monkeypatch, capsys):
         ["{}"],
     ],
 )
-def test_a_value_is_quoted_in_brief(arguments, value, tmp_path, monkeypatch, capsys):
+def test_long_or_unprintable_value_is_quoted_shortened(
+    arguments, value, tmp_path, monkeypatch, capsys
+):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "good.csv").write_text("t [s],x.cmd [um]\n0,0\n0.001,1\n")
     (tmp_path / "mode.csv").write_text(f"# mode: {value}\nt [s],x.cmd [um]\n0,0\n0.001,1\n")

@@ -1,44 +1,44 @@
-"""The language of the command line: as asked for, as set for the window, else the system's."""
+"""The language of the command line: the option, else the window's setting, else the system's."""
 
 import pytest
 
-from rotemina.app.cli import language
 from rotemina.app.cli.main import main
-from rotemina.sim.messages import Wording
+from rotemina.app.cli.terminal import language
+from rotemina.sim.messages import MessageWording
 
 
 @pytest.fixture(autouse=True)
-def unset(monkeypatch, tmp_path):
+def clear_language_settings(monkeypatch, tmp_path):
     for name in ("LANGUAGE", "LC_ALL", "LC_MESSAGES", "LANG"):
         monkeypatch.delenv(name, raising=False)
-    monkeypatch.setattr(language, "Settings", lambda: {})
+    monkeypatch.setattr(language, "UserSettings", lambda: {})
     monkeypatch.chdir(tmp_path)
 
 
-def refusal(capsys, *arguments):
+def run_refused_command(capsys, *arguments):
     assert main([*arguments, "gap", "diagnose", "missing.csv"]) == 2
     return capsys.readouterr().err
 
 
-def test_a_refusal_is_german_where_german_is_asked_for_or_spoken(capsys, monkeypatch):
+def test_refusal_is_german_by_option_or_environment(capsys, monkeypatch):
     english = "rotemina: missing.csv cannot be read (file not found); name a record file\n"
     german = (
         "rotemina: missing.csv kann nicht gelesen werden (Datei nicht gefunden); eine Datei "
         "mit einer Aufzeichnung angeben\n"
     )
-    assert refusal(capsys) == english
-    assert refusal(capsys, "--language", "de") == german
+    assert run_refused_command(capsys) == english
+    assert run_refused_command(capsys, "--language", "de") == german
     monkeypatch.setenv("LANG", "de_AT.UTF-8")
-    assert refusal(capsys) == german
-    assert refusal(capsys, "--language", "en") == english
+    assert run_refused_command(capsys) == german
+    assert run_refused_command(capsys, "--language", "en") == english
 
 
-def test_the_windows_choice_comes_before_the_systems(monkeypatch):
+def test_window_setting_takes_precedence_over_the_system(monkeypatch):
     monkeypatch.setenv("LANG", "de_DE.UTF-8")
     monkeypatch.setenv("LC_ALL", "C")
-    assert language.chosen() == "C"
-    assert type(language.wording()) is Wording
+    assert language.find_window_language() == "C"
+    assert type(language.load_wording()) is MessageWording
     monkeypatch.setenv("LANGUAGE", "de:en")
-    assert language.chosen() == "de"
-    monkeypatch.setattr(language, "Settings", lambda: {language.LANGUAGE: "en"})
-    assert language.chosen() == "en"
+    assert language.find_window_language() == "de"
+    monkeypatch.setattr(language, "UserSettings", lambda: {language.LANGUAGE_KEY: "en"})
+    assert language.find_window_language() == "en"

@@ -1,4 +1,4 @@
-"""The model that a command uses: named on stderr, and never compared with a stranger's record."""
+"""A command names its model on stderr and refuses records of another machine."""
 
 import json
 from pathlib import Path
@@ -7,10 +7,9 @@ import numpy as np
 import pytest
 
 from rotemina.app.cli.main import main
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.records.writing import write_record
+from rotemina.sim.records import Record, Tap, write_record
 
-BUILT_IN = "Model: RoTeMiNa (built in); choose another with --robot"
+BUILT_IN_MODEL_LINE = "Model: RoTeMiNa (built in); choose another with --robot"
 TIME_S = np.arange(400) / 1000.0
 
 
@@ -19,9 +18,9 @@ def in_tmp(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
 
 
-def write(name, highest, measured=None):
-    """Write a record of x between 20 mm and some other place."""
-    command = np.linspace(0.02, highest, len(TIME_S))
+def write_x_record(name, end_m, measured=None):
+    """Write a record of x from 20 mm to ``end_m``."""
+    command = np.linspace(0.02, end_m, len(TIME_S))
     signals = {("x", Tap.CMD): command, ("x", Tap.MEAS): command if measured is None else measured}
     write_record(Record.from_signals(TIME_S, signals, {"x": "m"}), name)
 
@@ -38,24 +37,24 @@ def write(name, highest, measured=None):
         "effect show delay",
     ],
 )
-def test_the_first_line_on_stderr_names_the_model(command, capsys):
-    write("r.csv", 0.0201)
+def test_first_line_on_stderr_names_the_model(command, capsys):
+    write_x_record("r.csv", 0.0201)
     Path("t.csv").write_text("t [s],x [mm]\n0,20\n1,20\n", "utf-8")
     assert main(command.split()) == 0
-    said = capsys.readouterr()
-    assert said.err.splitlines()[0] == BUILT_IN
-    assert "Model:" not in said.out
+    output = capsys.readouterr()
+    assert output.err.splitlines()[0] == BUILT_IN_MODEL_LINE
+    assert "Model:" not in output.out
     if "--json -" in command:
-        assert json.loads(said.out)["format"] == "rotemina-comparison 1"
+        assert json.loads(output.out)["format"] == "rotemina-comparison 1"
 
 
-def test_a_model_from_a_file_is_named_with_its_file(capsys):
+def test_model_from_a_file_is_named_with_its_file(capsys):
     Path("own.toml").write_text(
         '[robot]\nname = "Mine"\naxes = ["x"]\n[axis.x]\nkind = "piezo"\nunit = "m"\n'
         "range = [0.0, 0.2]\ngain = 1.0\nstatic = true\n",
         "utf-8",
     )
-    write("r.csv", 0.1)
+    write_x_record("r.csv", 0.1)
     assert main(["compare", "r.csv", "--robot", "own.toml"]) == 0
     assert capsys.readouterr().err == "Model: Mine (own.toml)\n"
 
@@ -72,8 +71,8 @@ def test_a_model_from_a_file_is_named_with_its_file(capsys):
         "recording report far.csv -o r.html",
     ],
 )
-def test_a_record_whose_commands_leave_the_range_far_is_refused(command, capsys):
-    write("far.csv", 0.08)
+def test_record_with_commands_far_outside_the_range_is_refused(command, capsys):
+    write_x_record("far.csv", 0.08)
     assert main(command.split()) == 2
     error = capsys.readouterr().err.splitlines()[-1]
     assert "far.csv: x.cmd = 80 mm at row 400 is outside the range 0 mm to 55 mm" in error
@@ -82,12 +81,12 @@ def test_a_record_whose_commands_leave_the_range_far_is_refused(command, capsys)
     assert [path.name for path in Path().iterdir()] == ["far.csv"]
 
 
-def test_a_little_beyond_the_range_and_measured_values_are_no_reason_to_refuse(capsys):
-    write("r.csv", 0.0577, measured=np.full(len(TIME_S), 3.0))
+def test_slight_excess_and_measured_values_are_accepted(capsys):
+    write_x_record("r.csv", 0.0577, measured=np.full(len(TIME_S), 3.0))
     assert main(["compare", "r.csv"]) == 0
 
 
-def test_two_runs_of_a_stranger_may_be_compared_with_each_other(capsys):
+def test_two_runs_of_another_machine_can_be_compared_with_each_other(capsys):
     for name in ("a.csv", "b.csv"):
-        write(name, 0.08)
+        write_x_record(name, 0.08)
     assert main(["compare", "a.csv", "--with", "b.csv"]) == 0

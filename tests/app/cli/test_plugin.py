@@ -1,25 +1,25 @@
-"""``rotemina plugin``: a new package, what is installed, and the check with its exit status."""
+"""``rotemina plugin``: a new package, the list of plugins, and the check with its exit status."""
 
 import pytest
 
+from rotemina.app import plugin_kit
 from rotemina.app.cli.main import main
-from rotemina.app.plugin_kit import checking, plugin_kinds
-from rotemina.app.plugin_kit.plugin_kinds import Kind
-from rotemina.drivers import registry
-from rotemina.drivers.cameras.source import CameraSource
-from rotemina.drivers.conformance.check import Result, Verdict
+from rotemina.app.plugin_kit import PluginKind, plugin_kinds
+from rotemina.drivers.cameras import CameraSource
+from rotemina.drivers.conformance import CheckVerdict, DriverCheckResult
+from rotemina.drivers.contract import registry
 
 
-def test_new_writes_a_package_and_says_what_comes_next(tmp_path, capsys):
+def test_new_writes_a_package_and_prints_the_next_steps(tmp_path, capsys):
     assert main(["plugin", "new", "driver", "glass", "--folder", str(tmp_path)]) == 0
-    said = capsys.readouterr().out
-    assert f"pip install --editable '{tmp_path / 'rotemina-glass'}[test]'" in said
-    assert "rotemina plugin check glass" in said
+    output = capsys.readouterr().out
+    assert f"pip install --editable '{tmp_path / 'rotemina-glass'}[test]'" in output
+    assert "rotemina plugin check glass" in output
     assert (tmp_path / "rotemina-glass" / "pyproject.toml").is_file()
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "message"),
     [
         (["new", "panel", "Glass"], "'Glass' cannot be the name of a plugin"),
         (
@@ -30,60 +30,63 @@ def test_new_writes_a_package_and_says_what_comes_next(tmp_path, capsys):
         (["check", "delay", "--kind", "camera"], "there is no camera 'delay'"),
     ],
 )
-def test_bad_input_is_one_clear_line(tmp_path, monkeypatch, capsys, arguments, said):
+def test_bad_input_gives_one_clear_line(tmp_path, monkeypatch, capsys, arguments, message):
     monkeypatch.chdir(tmp_path)
     assert main(["plugin", *arguments]) == 2
     (line,) = capsys.readouterr().err.splitlines()
-    assert said in line
+    assert message in line
     assert list(tmp_path.iterdir()) == []
 
 
-def test_an_unknown_kind_is_refused(capsys):
+def test_unknown_kind_is_refused(capsys):
     with pytest.raises(SystemExit):
         main(["plugin", "new", "gripper", "glass"])
     assert "driver" in capsys.readouterr().err
 
 
-def test_list_has_a_line_for_each_plugin_and_says_what_was_left_out(monkeypatch, capsys):
+def test_list_has_a_line_for_each_plugin_including_broken_ones(monkeypatch, capsys):
     reason = "no.such:Thing cannot be imported"
-    ours = registry.discover(Kind.CAMERA.group, CameraSource).found
+    cameras = registry.discover_plugins(PluginKind.CAMERA.group, CameraSource).plugins
     monkeypatch.setitem(
         plugin_kinds._FINDERS,
-        Kind.CAMERA,
-        lambda: ({"opencv": ours["opencv"]}, {"sequence": reason, "micromanager": reason}),
+        PluginKind.CAMERA,
+        lambda: ({"opencv": cameras["opencv"]}, {"sequence": reason, "micromanager": reason}),
     )
     assert main(["plugin", "list", "camera"]) == 0
-    head, *lines = capsys.readouterr().out.splitlines()
-    assert head.split() == ["kind", "name", "package", "version", "interface", "state"]
-    broken, good = lines[0].split(maxsplit=7), lines[1].split()
-    assert good[:3] == ["camera", "opencv", "rotemina"]
-    assert good[4:] == ["1", "of", "1", "loaded"]
-    assert broken[1] == "micromanager"
-    assert broken[4] == "?"
-    assert broken[7] == f"left out: {reason}"
+    heading, *lines = capsys.readouterr().out.splitlines()
+    assert heading.split() == ["kind", "name", "package", "version", "interface", "state"]
+    broken_line, good_line = lines[0].split(maxsplit=7), lines[1].split()
+    assert good_line[:3] == ["camera", "opencv", "rotemina"]
+    version = str(PluginKind.CAMERA.api_version)
+    assert good_line[4:] == [version, "of", version, "loaded"]
+    assert broken_line[1] == "micromanager"
+    assert broken_line[4] == "?"
+    assert broken_line[7] == f"left out: {reason}"
 
 
-def test_list_without_a_kind_has_all_kinds(monkeypatch, capsys):
-    for kind in Kind:
+def test_list_without_a_kind_covers_all_kinds(monkeypatch, capsys):
+    for kind in PluginKind:
         monkeypatch.setitem(plugin_kinds._FINDERS, kind, lambda: ({}, {}))
     monkeypatch.setattr(plugin_kinds, "entry_points", lambda group: [])
     assert main(["plugin", "list"]) == 0
     assert len(capsys.readouterr().out.splitlines()) == 1
 
 
-@pytest.mark.parametrize(("verdict", "status"), [(Verdict.PASSED, 0), (Verdict.FAILED, 1)])
-def test_check_tells_each_result_and_its_status(monkeypatch, capsys, verdict, status):
-    found = [Result("painting", "paint itself", verdict, "what was seen")]
-    monkeypatch.setattr(checking, "check_plugin", lambda *_: iter(found))
+@pytest.mark.parametrize(
+    ("verdict", "status"), [(CheckVerdict.PASSED, 0), (CheckVerdict.FAILED, 1)]
+)
+def test_check_prints_results_and_returns_status(monkeypatch, capsys, verdict, status):
+    results = [DriverCheckResult("painting", "paint itself", verdict, "what was seen")]
+    monkeypatch.setattr(plugin_kit, "check_plugin", lambda *_: iter(results))
     assert main(["plugin", "check", "plots"]) == status
-    said = capsys.readouterr().out
-    assert said.startswith("panel plots (rotemina.plugins.plots.panel:PlotsPanel)\n")
-    assert "what was seen" in said
-    assert ("paint itself" in said) == bool(status)
+    output = capsys.readouterr().out
+    assert output.startswith("panel plots (rotemina.plugins.plots.panel:PlotsPanel)\n")
+    assert "what was seen" in output
+    assert ("paint itself" in output) == bool(status)
 
 
-def test_check_of_an_effect_runs_the_kit_of_effects(capsys):
+def test_check_of_an_effect_runs_the_effect_checks(capsys):
     assert main(["plugin", "check", "sensor_gain"]) == 0
-    said = capsys.readouterr().out
-    assert "ok      loading" in said
-    assert "stays finite at presets and bounds" in said
+    output = capsys.readouterr().out
+    assert "ok      loading" in output
+    assert "stays finite at presets and bounds" in output

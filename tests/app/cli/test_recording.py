@@ -1,21 +1,20 @@
-"""``rotemina recording`` as its users meet it."""
+"""``rotemina recording`` from the command line."""
 
 import numpy as np
 import pytest
 
 from rotemina.app.cli.main import main
-from rotemina.app.motion.recording.session_recorder import SessionRecorder
+from rotemina.app.motion.recording import SessionRecorder
 from rotemina.app.motion.session import MotionSession
-from rotemina.drivers.clock import VirtualClock
-from rotemina.drivers.simulator.driver import Simulator
-from rotemina.sim.records.reading import read_record
-from rotemina.sim.records.record import Tap
-from rotemina.sim.robot.file import load_robot
+from rotemina.drivers.contract import VirtualClock
+from rotemina.drivers.simulator import Simulator
+from rotemina.sim.records import Tap, read_record
+from rotemina.sim.robot_files import load_robot
 
 
 @pytest.fixture
-def crashed(tmp_path, monkeypatch):
-    """A recording of a move that nobody ended."""
+def unfinished_recording(tmp_path, monkeypatch):
+    """The unfinished recording that remains of a move after a crash."""
     monkeypatch.chdir(tmp_path)
     clock = VirtualClock(7.0)
     session = MotionSession(Simulator(load_robot("rotemina"), clock=clock))
@@ -34,7 +33,7 @@ def crashed(tmp_path, monkeypatch):
     return tmp_path / "run.arrows.part"
 
 
-def test_recover_then_info(crashed, capsys):
+def test_recover_then_info(unfinished_recording, capsys):
     assert main(["recording", "recover", "run.arrows.part"]) == 0
     assert capsys.readouterr().out == "run.arrows\n"
     assert main(["recording", "info", "run.arrows", "--events"]) == 0
@@ -45,42 +44,42 @@ def test_recover_then_info(crashed, capsys):
     assert "0.220000 state          moving" in out
 
 
-def test_the_robot_file_in_it_is_printed_to_be_used(crashed, capsys):
+def test_embedded_robot_file_is_printed_and_can_be_loaded(unfinished_recording, capsys):
     main(["recording", "recover", "run.arrows.part"])
     capsys.readouterr()
     assert main(["recording", "info", "run.arrows", "--robot-file"]) == 0
-    crashed.with_name("robot.toml").write_text(capsys.readouterr().out, "utf-8")
+    unfinished_recording.with_name("robot.toml").write_text(capsys.readouterr().out, "utf-8")
     assert load_robot("robot.toml").axes == load_robot("rotemina").axes
 
 
-def test_a_folder_is_recovered_but_for_what_is_none(crashed, capsys):
-    crashed.with_name("bad.arrows.part").write_bytes(b"nothing of ours")
+def test_recover_reports_invalid_files_of_a_folder(unfinished_recording, capsys):
+    unfinished_recording.with_name("bad.arrows.part").write_bytes(b"nothing of ours")
     assert main(["recording", "recover", "."]) == 2
-    told = capsys.readouterr()
-    assert told.out == "run.arrows\n"
-    assert "bad.arrows.part: not an interrupted recording of this program" in told.err
-    crashed.with_name("bad.arrows.part").unlink()
+    output = capsys.readouterr()
+    assert output.out == "run.arrows\n"
+    assert "bad.arrows.part: not an interrupted recording of this program" in output.err
+    unfinished_recording.with_name("bad.arrows.part").unlink()
     assert main(["recording", "recover", "."]) == 0
     assert "nothing to recover" in capsys.readouterr().out
 
 
-def test_export_a_record_and_a_trajectory_that_plays(crashed, capsys):
+def test_exported_record_is_readable_and_exported_trajectory_plays(unfinished_recording, capsys):
     main(["recording", "recover", "."])
     assert main(["recording", "export", "run.arrows", "-o", "a.csv", "--from", "0.5"]) == 0
     record = read_record("a.csv")
     assert len(record.time_s) == pytest.approx(701, abs=1)
     assert float(record.metadata["recording_from_s"]) == pytest.approx(0.5, abs=1.1e-3)
     assert main(["recording", "export", "run.arrows", "-o", "b.csv", "--trajectory"]) == 0
-    again = read_record("b.csv", robot=load_robot("rotemina"))
-    assert again.axes == ("x",)
-    assert again.signal("x", Tap.CMD)[-1] == 0.028
+    trajectory = read_record("b.csv", robot=load_robot("rotemina"))
+    assert trajectory.axes == ("x",)
+    assert trajectory.signal("x", Tap.CMD)[-1] == 0.028
     assert main(["play", "b.csv", "-o", "c.csv"]) == 0
-    played = read_record("c.csv").signal("x", Tap.CMD)
-    np.testing.assert_allclose(played, again.signal("x", Tap.CMD), rtol=0, atol=1e-12)
+    played_commands = read_record("c.csv").signal("x", Tap.CMD)
+    np.testing.assert_allclose(played_commands, trajectory.signal("x", Tap.CMD), rtol=0, atol=1e-12)
 
 
 @pytest.mark.parametrize(
-    ("arguments", "words"),
+    ("arguments", "message"),
     [
         (["info", "none.arrows"], "none.arrows cannot be read"),
         (["info", "run.arrows.part"], "recover it first"),
@@ -95,25 +94,25 @@ def test_export_a_record_and_a_trajectory_that_plays(crashed, capsys):
         ),
     ],
 )
-def test_bad_input_is_one_clear_line(crashed, capsys, arguments, words):
+def test_bad_input_gives_one_clear_line(unfinished_recording, capsys, arguments, message):
     if "run.arrows" in arguments:
         main(["recording", "recover", "."])
     assert main(["recording", *arguments]) == 2
-    err = capsys.readouterr().err
-    assert words in err
-    assert err.count("\n") == 1
-    assert not crashed.with_name("a.csv").exists()
+    error = capsys.readouterr().err
+    assert message in error
+    assert error.count("\n") == 1
+    assert not unfinished_recording.with_name("a.csv").exists()
 
 
-def test_a_report_is_written_of_a_recording_and_of_a_record(crashed, capsys, monkeypatch):
-    monkeypatch.setenv("XDG_DATA_HOME", str(crashed.parent / "data"))
+def test_report_of_a_recording_and_of_a_record(unfinished_recording, capsys, monkeypatch):
+    monkeypatch.setenv("XDG_DATA_HOME", str(unfinished_recording.parent / "data"))
     main(["recording", "recover", "run.arrows.part"])
     assert main(["recording", "report", "run.arrows", "-o", "run.html"]) == 0
     assert capsys.readouterr().out.endswith("run.html\n")
-    assert "Run report: run" in crashed.with_name("run.html").read_text("utf-8")
+    assert "Run report: run" in unfinished_recording.with_name("run.html").read_text("utf-8")
     assert main(["recording", "export", "run.arrows", "-o", "run.csv"]) == 0
     assert main(["recording", "report", "run.csv", "-o", "csv.html"]) == 0
-    page = crashed.with_name("csv.html").read_text("utf-8")
+    page = unfinished_recording.with_name("csv.html").read_text("utf-8")
     assert page.count("<svg") == 1
     assert main(["recording", "report", "run.csv", "-o", "run.csv"]) == 2
     assert "is the input file" in capsys.readouterr().err

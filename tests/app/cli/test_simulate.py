@@ -1,4 +1,4 @@
-"""``rotemina simulate`` as its users meet it."""
+"""``rotemina simulate`` from the command line."""
 
 import csv
 import gzip
@@ -10,13 +10,10 @@ import numpy as np
 import pytest
 
 from rotemina.app.cli.main import main
-from rotemina.sim.records.reading import read_record
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.records.record_pieces import PIECE_ROWS, read_pieces
-from rotemina.sim.records.writing import write_record
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.robot.model import AxisEffect
-from rotemina.sim.simulation.simulation import Simulation, simulate
+from rotemina.sim.records import PIECE_ROWS, Record, Tap, read_pieces, read_record, write_record
+from rotemina.sim.robot import AxisEffect
+from rotemina.sim.robot_files import load_robot
+from rotemina.sim.simulation import SimulatedMachine, simulate
 
 ROBOT = load_robot("rotemina")
 EFFECTS = """
@@ -36,8 +33,8 @@ def in_tmp(tmp_path, monkeypatch):
 
 
 @pytest.fixture
-def own_robot():
-    """A robot file of one's own, with effects."""
+def robot_with_effects():
+    """Write a user's robot file with effects and return its name."""
     shipped = resources.files("rotemina.resources.robots").joinpath("rotemina.toml")
     Path("own.toml").write_text(shipped.read_text("utf-8") + EFFECTS, "utf-8")
     return "own.toml"
@@ -50,32 +47,35 @@ def make_commands(rows=2000, axes=("x", "thx"), **metadata):
     return Record.from_signals(time_s, signals, {a: ROBOT.unit(a) for a in axes}, metadata)
 
 
-def write_commands(name="c.csv", **how):
-    record = make_commands(**how)
+def write_commands(name="c.csv", **options):
+    record = make_commands(**options)
     write_record(record, name)
     return record
 
 
-def same(left, right):
+def is_bitwise_equal(left, right):
     return left.columns == right.columns and left.values.tobytes() == right.values.tobytes()
 
 
-def test_a_record_has_what_the_machine_would_have_recorded(own_robot, capsys):
+def test_record_matches_the_simulation_of_the_machine(robot_with_effects, capsys):
     commands = write_commands(note="n")
-    assert main(["simulate", "c.csv", "--robot", own_robot, "-o", "r.csv"]) == 0
+    assert main(["simulate", "c.csv", "--robot", robot_with_effects, "-o", "r.csv"]) == 0
     assert capsys.readouterr().out == "r.csv: 2000 rows, 1.999 s\n"
     record = read_record("r.csv")
-    names = ["x.cmd", "x.ref", "x.meas", "thx.cmd", "thx.u", "thx.ref", "thx.meas"]
-    assert [str(column) for column in record.columns] == names
-    expected = simulate(load_robot(own_robot), None, commands, np.random.default_rng(0))
-    assert same(record, expected)
-    assert not same(record, simulate(ROBOT, (), commands, np.random.default_rng(0)))
+    column_names = ["x.cmd", "x.ref", "x.meas", "thx.cmd", "thx.u", "thx.ref", "thx.meas"]
+    assert [str(column) for column in record.columns] == column_names
+    expected = simulate(load_robot(robot_with_effects), None, commands, np.random.default_rng(0))
+    assert is_bitwise_equal(record, expected)
+    assert not is_bitwise_equal(record, simulate(ROBOT, (), commands, np.random.default_rng(0)))
     assert main(["compare", "r.csv"]) == 0
 
 
-def test_the_record_says_how_it_came_about(own_robot):
+def test_record_metadata_describes_the_simulation(robot_with_effects):
     write_commands(note="n", **{"simulated effect 7": "of another time"})
-    assert main(["simulate", "c.csv", "--robot", own_robot, "--seed", "4", "-o", "r.csv"]) == 0
+    assert (
+        main(["simulate", "c.csv", "--robot", robot_with_effects, "--seed", "4", "-o", "r.csv"])
+        == 0
+    )
     metadata = read_record("r.csv").metadata
     assert metadata["note"] == "n"
     assert metadata["simulated robot"] == "RoTeMiNa"
@@ -89,78 +89,84 @@ def test_the_record_says_how_it_came_about(own_robot):
     assert not [key for key in metadata if "effect" in key]
 
 
-def test_a_simulated_record_can_be_simulated_again_from_its_commands(own_robot):
+def test_simulated_record_can_be_simulated_again_from_its_commands(robot_with_effects):
     write_commands()
-    assert main(["simulate", "c.csv", "--robot", own_robot, "-o", "a.csv"]) == 0
-    assert main(["simulate", "a.csv", "--robot", own_robot, "-o", "b.csv"]) == 0
+    assert main(["simulate", "c.csv", "--robot", robot_with_effects, "-o", "a.csv"]) == 0
+    assert main(["simulate", "a.csv", "--robot", robot_with_effects, "-o", "b.csv"]) == 0
     assert Path("a.csv").read_bytes() == Path("b.csv").read_bytes()
 
 
-def test_a_record_of_unknown_history_is_simulated_from_rest():
+def test_record_of_unknown_history_is_simulated_from_rest():
     write_commands(history="unknown")
     assert main(["simulate", "c.csv", "-o", "r.csv"]) == 0
     assert read_record("r.csv").history == "rest"
 
 
-def test_seeds_and_their_absence():
+def test_seed_option_and_no_noise():
     commands = write_commands()
-    for name, asked in (
+    for name, options in (
         ("usual", []),
         ("zero", ["--seed", "0"]),
         ("one", ["--seed", "1"]),
         ("none", ["--no-noise"]),
     ):
-        assert main(["simulate", "c.csv", *asked, "-o", f"{name}.csv"]) == 0
+        assert main(["simulate", "c.csv", *options, "-o", f"{name}.csv"]) == 0
     assert Path("usual.csv").read_bytes() == Path("zero.csv").read_bytes()
-    assert not same(read_record("usual.csv"), read_record("one.csv"))
-    assert same(read_record("none.csv"), simulate(ROBOT, (), commands))
+    assert not is_bitwise_equal(read_record("usual.csv"), read_record("one.csv"))
+    assert is_bitwise_equal(read_record("none.csv"), simulate(ROBOT, (), commands))
 
 
-def test_effects_of_another_robot_file(own_robot):
+def test_effects_of_another_robot_file(robot_with_effects):
     commands = write_commands()
-    assert main(["simulate", "c.csv", "--effects", own_robot, "-o", "with.csv"]) == 0
-    arguments = ["--robot", own_robot, "--effects", "rotemina", "-o", "without.csv"]
+    assert main(["simulate", "c.csv", "--effects", robot_with_effects, "-o", "with.csv"]) == 0
+    arguments = ["--robot", robot_with_effects, "--effects", "rotemina", "-o", "without.csv"]
     assert main(["simulate", "c.csv", *arguments]) == 0
-    rng = np.random.default_rng
-    assert same(read_record("with.csv"), simulate(load_robot(own_robot), None, commands, rng(0)))
-    assert same(read_record("without.csv"), simulate(ROBOT, (), commands, rng(0)))
+    make_rng = np.random.default_rng
+    assert is_bitwise_equal(
+        read_record("with.csv"),
+        simulate(load_robot(robot_with_effects), None, commands, make_rng(0)),
+    )
+    assert is_bitwise_equal(read_record("without.csv"), simulate(ROBOT, (), commands, make_rng(0)))
 
 
 @pytest.mark.parametrize("name", ["c.csv", "c.csv.gz"])
 @pytest.mark.parametrize("output", ["r.csv", "r.csv.gz"])
-def test_a_long_file_streams_to_the_same_bits(monkeypatch, own_robot, name, output):
-    """Three pieces, one of them short; the machine keeps its state and its chance between."""
+def test_long_file_streams_to_the_same_bits(monkeypatch, robot_with_effects, name, output):
+    """Three pieces, the last one short. State and random streams continue between them."""
     commands = write_commands(name, rows=2 * PIECE_ROWS + 100, axes=("thx",))
-    whole = simulate(load_robot(own_robot), None, commands, np.random.default_rng(0))
-    monkeypatch.setattr("rotemina.app.cli.simulate.read_record", None)  # it is not read at once
-    assert main(["simulate", name, "--robot", own_robot, "-o", output]) == 0
+    expected = simulate(load_robot(robot_with_effects), None, commands, np.random.default_rng(0))
+    # The file must not be read as a whole.
+    monkeypatch.setattr("rotemina.app.cli.records.simulate.read_record", None)
+    assert main(["simulate", name, "--robot", robot_with_effects, "-o", output]) == 0
     assert Path(output).read_bytes().startswith(b"\x1f\x8b") == output.endswith(".gz")
-    assert same(read_record(output), whole)
+    assert is_bitwise_equal(read_record(output), expected)
 
 
-def leads():
+def make_leading_clock_effects():
     return [AxisEffect(axis="thx", id="clock_skew", parameters={"skew": -1000.0})]
 
 
-@pytest.mark.parametrize("why", ["periodic", "a clock that leads"])
-def test_what_looks_ahead_is_read_at_once(why):
+@pytest.mark.parametrize("reason", ["periodic", "a clock that leads"])
+def test_simulation_that_looks_ahead_reads_the_whole_file(reason):
     rows = PIECE_ROWS + 1000
-    metadata = {"history": "periodic", "period_samples": str(rows)} if why == "periodic" else {}
+    metadata = {"history": "periodic", "period_samples": str(rows)} if reason == "periodic" else {}
     commands = write_commands(rows=rows, axes=("thx",), **metadata)
-    effects, asked = (), []
+    effects, options = (), []
     if not metadata:
-        effects, asked = leads(), ["--effects", "leads.toml"]
+        effects, options = make_leading_clock_effects(), ["--effects", "leads.toml"]
         Path("leads.toml").write_text(
             '[robot]\nname = "a"\naxes = ["thx"]\n[axis.thx]\nkind = "piezo"\nrange = [0.0, 1.0]\n'
             'gain = 1.0\nstatic = true\n[[axis.thx.effect]]\nid = "clock_skew"\nskew = -1000.0\n'
         )
-    assert main(["simulate", "c.csv", *asked, "-o", "r.csv"]) == 0
-    assert same(read_record("r.csv"), simulate(ROBOT, effects, commands, np.random.default_rng(0)))
+    assert main(["simulate", "c.csv", *options, "-o", "r.csv"]) == 0
+    assert is_bitwise_equal(
+        read_record("r.csv"), simulate(ROBOT, effects, commands, np.random.default_rng(0))
+    )
     if metadata:
         assert read_record("r.csv").history == "periodic"
 
 
-def test_a_command_outside_its_range_is_simulated_and_said(capsys):
+def test_command_outside_its_range_is_simulated_and_reported(capsys):
     time_s = np.arange(4) / 1000
     signals = {("x", Tap.CMD): np.array([0.05, 0.0551, 0.056, 0.05])}
     write_record(Record.from_signals(time_s, signals, {"x": "m"}), "c.csv")
@@ -173,23 +179,23 @@ def test_a_command_outside_its_range_is_simulated_and_said(capsys):
     assert read_record("r.csv").signal("x", Tap.CMD)[2] == 0.056
 
 
-def test_the_row_outside_is_counted_from_the_first_piece(capsys):
+def test_row_numbers_count_from_the_first_piece(capsys):
     rows = PIECE_ROWS + 10
     command = np.full(rows, 0.02)
     command[-3:] = -0.001
     signals = {("x", Tap.CMD): command}
     write_record(Record.from_signals(np.arange(rows) / 1000, signals, {"x": "m"}), "c.csv")
     assert main(["simulate", "c.csv", "-o", "r.csv"]) == 0
-    said = f"x.cmd = -0.001 at row {rows - 2} (t = {(rows - 3) / 1000:.9g} s)"
-    assert said in capsys.readouterr().err
+    message = f"x.cmd = -0.001 at row {rows - 2} (t = {(rows - 3) / 1000:.9g} s)"
+    assert message in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("name", ["c.csv", "c.csv.gz"])
-def test_a_refusal_in_a_later_piece_leaves_no_file(name, capsys):
+def test_invalid_value_in_a_later_piece_leaves_no_file(name, capsys):
     write_commands(rows=PIECE_ROWS + 5000, axes=("thx",))
     lines = Path("c.csv").read_text().splitlines()
-    broken = PIECE_ROWS + 4000
-    lines[broken] = lines[broken].split(",")[0] + ",nan"
+    index = PIECE_ROWS + 4000
+    lines[index] = lines[index].split(",")[0] + ",nan"
     text = ("\n".join(lines) + "\n").encode()
     Path(name).write_bytes(gzip.compress(text, 1) if name.endswith(".gz") else text)
     if name != "c.csv":
@@ -197,7 +203,7 @@ def test_a_refusal_in_a_later_piece_leaves_no_file(name, capsys):
     assert main(["simulate", name, "--loads", "l.csv", "-o", "r.csv"]) == 2
     error = capsys.readouterr().err
     assert error == (
-        f"rotemina: {name}:{broken + 1}:thx.cmd: value 'nan' is not finite; write a finite number\n"
+        f"rotemina: {name}:{index + 1}:thx.cmd: value 'nan' is not finite; write a finite number\n"
     )
     assert [path.name for path in Path().iterdir()] == [name]
 
@@ -214,12 +220,14 @@ def test_a_refusal_in_a_later_piece_leaves_no_file(name, capsys):
         ("c.csv -o c.csv", "c.csv is named twice"),
         ("c.csv -o r.csv --loads r.csv", "r.csv is named twice"),
         ("c.csv -o r.csv --loads ./c.csv", "c.csv is named twice"),
+        ("c.csv --robot q.toml -o q.toml", "q.toml is named twice"),
+        ("c.csv --effects q.toml -o r.csv --loads q.toml", "q.toml is named twice"),
         ("c.csv -o no/such/r.csv", "no/such/r.csv cannot be written"),
         ("c.csv -o r.csv --loads no/such/l.csv", "no/such/l.csv cannot be written"),
         ("p.csv -o r.csv", "period_samples = 5000: the record has only 2000 rows"),
     ],
 )
-def test_a_bad_request_is_one_clear_line_and_status_2(arguments, message, capsys):
+def test_bad_request_gives_one_clear_line_and_status_2(arguments, message, capsys):
     write_commands()
     write_commands("p.csv", history="periodic", period_samples="5000")
     Path("q.toml").write_text(
@@ -238,16 +246,16 @@ def test_a_bad_request_is_one_clear_line_and_status_2(arguments, message, capsys
 
 
 def test_seed_and_no_noise_exclude_each_other(capsys):
-    with pytest.raises(SystemExit) as caught:
+    with pytest.raises(SystemExit) as exit_info:
         main(["simulate", "c.csv", "-o", "r.csv", "--seed", "1", "--no-noise"])
-    assert caught.value.code == 2
+    assert exit_info.value.code == 2
     assert "not allowed with" in capsys.readouterr().err
 
 
-def test_loads_are_a_table_with_units(own_robot):
+def test_loads_are_written_as_a_table_with_units(robot_with_effects):
     write_commands()
-    asked = ["--robot", own_robot, "--no-noise", "--loads", "l.csv"]
-    assert main(["simulate", "c.csv", *asked, "-o", "r.csv"]) == 0
+    options = ["--robot", robot_with_effects, "--no-noise", "--loads", "l.csv"]
+    assert main(["simulate", "c.csv", *options, "-o", "r.csv"]) == 0
     with Path("l.csv").open(newline="") as file:
         heading, *rows = csv.reader(file)
     column = {name: index for index, name in enumerate(heading)}
@@ -266,32 +274,32 @@ def test_loads_are_a_table_with_units(own_robot):
     positions = table[:, column["thx position [rad]"]]
     assert positions.tolist() == record.signal("thx", Tap.REF).tolist()
     for axis, force in (("x", "N"), ("thx", "N m"), ("thy", "N m")):  # thy is coupled to thx
-        term = {
+        terms = {
             name: table[:, column[f"{axis} {name} [{force}]"]]
             for name in (
                 ["inertia", "damping", "stiffness", "actuation", "constant", "perturbation", "rest"]
             )
         }
-        left = term["inertia"] + term["damping"] + term["stiffness"]
-        right = term["actuation"] + term["constant"] + term["perturbation"] + term["rest"]
-        assert np.abs(left - right).max() <= 1e-12 * np.abs(term["stiffness"]).max()
+        left = terms["inertia"] + terms["damping"] + terms["stiffness"]
+        right = terms["actuation"] + terms["constant"] + terms["perturbation"] + terms["rest"]
+        assert np.abs(left - right).max() <= 1e-12 * np.abs(terms["stiffness"]).max()
     assert table[:, column["x rest [N]"]].any()  # friction
 
 
-def test_loads_of_a_long_file_are_as_long(monkeypatch):
-    """Piece by piece or at once, row for row."""
+def test_loads_of_a_long_file_are_the_same_in_pieces(monkeypatch):
+    """Reading in pieces gives the same rows as reading the whole file."""
     write_commands(rows=1000, axes=("zn",))
     assert main(["simulate", "c.csv", "--loads", "whole.csv.gz", "-o", "r.csv"]) == 0
     small = partial(read_pieces, rows=97)
-    monkeypatch.setattr("rotemina.app.cli.simulate.read_pieces", small)
+    monkeypatch.setattr("rotemina.app.cli.records.simulate.read_pieces", small)
     assert main(["simulate", "c.csv", "--loads", "pieces.csv", "-o", "r2.csv"]) == 0
     whole = np.loadtxt("whole.csv.gz", delimiter=",", skiprows=1)
     pieces = np.loadtxt("pieces.csv", delimiter=",", skiprows=1)
-    # What is left between forces of some 10⁵ N that balance is rounded as these are.
+    # Differences of balanced forces of about 10⁵ N carry the rounding errors of those forces.
     assert pieces == pytest.approx(whole, rel=1e-6, abs=2e-14 * np.abs(whole).max())
 
 
-def test_static_axes_have_no_columns_of_forces():
+def test_static_axes_have_no_force_columns():
     Path("s.toml").write_text(
         '[robot]\nname = "s"\naxes = ["q"]\n[axis.q]\nkind = "piezo"\nrange = [0.0, 1.0]\n'
         "gain = 1.0\nstatic = true\n"
@@ -305,24 +313,24 @@ def test_static_axes_have_no_columns_of_forces():
     )
 
 
-def test_an_interrupt_leaves_no_file(capsys, monkeypatch):
+def test_interrupt_leaves_no_file(capsys, monkeypatch):
     write_commands(rows=PIECE_ROWS + 10, axes=("thx",))
-    respond, calls = Simulation.respond, []
+    respond, calls = SimulatedMachine.respond, []
 
-    def interrupted(self, commands):
+    def interrupt_second_call(self, commands):
         calls.append(len(commands.time_s))
         if len(calls) == 2:
             raise KeyboardInterrupt
         return respond(self, commands)
 
-    monkeypatch.setattr(Simulation, "respond", interrupted)
+    monkeypatch.setattr(SimulatedMachine, "respond", interrupt_second_call)
     assert main(["simulate", "c.csv", "--loads", "l.csv", "-o", "r.csv"]) == 130
     assert capsys.readouterr().err.splitlines()[-1] == "rotemina: interrupted"
     assert calls == [PIECE_ROWS, 10]
     assert [path.name for path in Path().iterdir()] == ["c.csv"]
 
 
-def test_progress_is_told_on_a_terminal(capsys, monkeypatch):
+def test_progress_is_shown_on_a_terminal(capsys, monkeypatch):
     write_commands(axes=("thx",))
     monkeypatch.setattr("sys.stderr.isatty", lambda: True, raising=False)
     assert main(["simulate", "c.csv", "-o", "r.csv"]) == 0
@@ -331,7 +339,7 @@ def test_progress_is_told_on_a_terminal(capsys, monkeypatch):
     assert progress == "\rsimulated 2.0 s\n"
 
 
-def test_an_effect_without_a_part_is_said_and_not_claimed(capsys, tmp_path):
+def test_inactive_effect_is_reported_and_not_in_the_metadata(capsys, tmp_path):
     write_commands(rows=100, axes=("zn",))
     text = (resources.files("rotemina.resources.robots") / "rotemina.toml").read_text("utf-8")
     Path("worn.toml").write_text(

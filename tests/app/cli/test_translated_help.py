@@ -1,4 +1,4 @@
-"""The help of the command line in German: complete, current, and with the same values in it."""
+"""The German help of the command line is complete and current, with the same placeholders."""
 
 import re
 import xml.etree.ElementTree as ET
@@ -6,15 +6,14 @@ from pathlib import Path
 
 import pytest
 
-from rotemina.app.cli import language
 from rotemina.app.cli.main import build_parser, main
-from rotemina.app.cli.translated_help import translate_argparse, translate_parser
+from rotemina.app.cli.terminal import language, translate_argparse, translate_parser
 
-FILE = Path(__file__).parents[3] / "resources" / "languages" / "de" / "help.ts"
-VALUE = re.compile(r"%\(\w+\)\w|%[srdg%]")
-IDS = re.compile(r"[a-z-]+(, [a-z-]+)*")  # names that the reader types
-# What argparse says itself, besides what the parsers show.
-ERRORS = (
+TRANSLATION_FILE = Path(__file__).parents[3] / "resources" / "languages" / "de" / "help.ts"
+PLACEHOLDER = re.compile(r"%\(\w+\)\w|%[srdg%]")
+IDS = re.compile(r"[a-z-]+(, [a-z-]+)*")  # names that the user types
+# Messages of argparse itself, in addition to the texts of the parsers.
+ARGPARSE_MESSAGES = (
     "usage: ",
     "%(prog)s: error: %(message)s\n",
     "argument %(argument_name)s: %(message)s",
@@ -36,32 +35,37 @@ ERRORS = (
 
 
 @pytest.fixture(autouse=True)
-def english_after():
+def restore_english():
     yield
     translate_argparse(str)
 
 
-def test_every_text_of_the_help_is_german_and_has_the_same_values():
-    root = ET.parse(FILE).getroot()  # noqa: S314 (a file of this repository)
-    german = {one.findtext("source"): one.findtext("translation") for one in root.iter("message")}
-    shown = set()
+def test_every_help_text_is_translated_with_the_same_placeholders():
+    root = ET.parse(TRANSLATION_FILE).getroot()  # noqa: S314 (a file of this repository)
+    german = {
+        message.findtext("source"): message.findtext("translation")
+        for message in root.iter("message")
+    }
+    help_texts = set()
     translate_argparse(str)
-    translate_parser(build_parser(), lambda text: shown.add(text) or text)
-    wanted = shown | set(ERRORS)
-    wanted = {text for text in wanted if not IDS.fullmatch(text) or text in german}
-    assert wanted == german.keys()
-    other = [en for en, de in german.items() if VALUE.findall(en) != VALUE.findall(de)]
-    assert other == []
+    translate_parser(build_parser(), lambda text: help_texts.add(text) or text)
+    expected = help_texts | set(ARGPARSE_MESSAGES)
+    expected = {text for text in expected if not IDS.fullmatch(text) or text in german}
+    assert expected == german.keys()
+    mismatches = [
+        en for en, de in german.items() if PLACEHOLDER.findall(en) != PLACEHOLDER.findall(de)
+    ]
+    assert mismatches == []
 
 
-def test_help_and_errors_are_german_where_german_is_asked_for(capsys, monkeypatch):
-    monkeypatch.setattr(language, "Settings", lambda: {})
+def test_help_and_errors_follow_the_language_option(capsys, monkeypatch):
+    monkeypatch.setattr(language, "UserSettings", lambda: {})
     with pytest.raises(SystemExit):
         main(["--language", "de", "compare", "--help"])
-    said = capsys.readouterr().out
-    assert said.startswith("Aufruf: rotemina compare")
-    assert "ein Bild zeichnen" in said
-    assert "Optionen:" in said
+    output = capsys.readouterr().out
+    assert output.startswith("Aufruf: rotemina compare")
+    assert "ein Bild zeichnen" in output
+    assert "Optionen:" in output
     with pytest.raises(SystemExit):
         main(["--language=de", "compare"])
     assert "Fehler: diese Argumente fehlen: RECORD" in capsys.readouterr().err

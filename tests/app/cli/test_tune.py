@@ -1,4 +1,4 @@
-"""``rotemina tune`` as its users meet it."""
+"""``rotemina tune`` from the command line."""
 
 import json
 import tomllib
@@ -8,13 +8,11 @@ import numpy as np
 import pytest
 
 from rotemina.app.cli.main import main
-from rotemina.sim.records.reading import read_record
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.records.writing import write_record
-from rotemina.sim.tuning import search
-from rotemina.sim.tuning.tuning_result import load_tuning
+from rotemina.sim import tuning
+from rotemina.sim.records import Record, Tap, read_record, write_record
+from rotemina.sim.tuning import load_tuning
 
-SHORT = ["--generations", "2", "--population", "12", "--jobs", "1"]
+QUICK_SEARCH = ["--generations", "2", "--population", "12", "--jobs", "1"]
 EFFECTS = """
 [[axis.zn.effect]]
 id = "hysteresis"
@@ -26,96 +24,98 @@ def in_tmp(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
 
 
-def tuned(capsys, *more):
-    status = main(["tune", "--axis", "zn", "-o", "zn.toml", *SHORT, *more])
+def run_tune(capsys, *options):
+    status = main(["tune", "--axis", "zn", "-o", "zn.toml", *QUICK_SEARCH, *options])
     return status, capsys.readouterr()
 
 
-def test_a_search_writes_a_front_and_tells_it(capsys):
-    status, said = tuned(capsys, "--json", "zn.json")
+def test_search_writes_and_prints_a_front(capsys):
+    status, output = run_tune(capsys, "--json", "zn.json")
     assert status == 0
     tuning = load_tuning("zn.toml")
-    assert tuning.provenance.whole
-    assert "zn.toml: axis zn, loop at 5000 Hz" in said.out
-    assert "recommended" in said.out
-    assert len(said.out.splitlines()) == 2 + len(tuning.points)
+    assert tuning.provenance.is_complete
+    assert "zn.toml: axis zn, loop at 5000 Hz" in output.out
+    assert "recommended" in output.out
+    assert len(output.out.splitlines()) == 2 + len(tuning.points)
     document = json.loads(Path("zn.json").read_text("utf-8"))
-    assert document["points"][tuning.chosen]["gains"]["integral"] == tuning.best.gains.integral
+    assert (
+        document["points"][tuning.chosen]["gains"]["integral"] == tuning.chosen_point.gains.integral
+    )
 
 
 def test_json_can_be_printed(capsys):
-    _, said = tuned(capsys, "--json", "-")
-    assert json.loads(said.out)["axis"] == "zn"
+    _, output = run_tune(capsys, "--json", "-")
+    assert json.loads(output.out)["axis"] == "zn"
 
 
-def test_effects_and_the_second_objective_are_told_in_the_file(capsys):
+def test_file_names_effects_and_second_objective(capsys):
     robot = Path(__file__).parents[3] / "resources/robots/rotemina.toml"
     Path("worn.toml").write_text(robot.read_text("utf-8") + EFFECTS, "utf-8")
-    assert tuned(capsys, "--effects", "worn.toml", "--against", "settling")[0] == 0
+    assert run_tune(capsys, "--effects", "worn.toml", "--against", "settling")[0] == 0
     provenance = load_tuning("zn.toml").provenance
     assert provenance.effects[0].startswith("hysteresis on zn")
     assert provenance.against == "settling"
 
 
-def test_a_point_is_chosen_without_a_search(capsys):
-    tuned(capsys)
+def test_point_is_chosen_without_a_search(capsys):
+    run_tune(capsys)
     before = load_tuning("zn.toml")
     last = len(before.points) - 1
     assert main(["tune", "-o", "zn.toml", "--choose", str(last)]) == 0
     after = load_tuning("zn.toml")
-    assert after == before.choosing(last)
+    assert after == before.with_choice(last)
     assert main(["tune", "-o", "zn.toml", "--choose", "99"]) == 2
     assert f"has points 0 to {last}" in capsys.readouterr().err
     assert load_tuning("zn.toml") == after
 
 
 def test_unstable_gains_are_not_chosen(capsys):
-    tuned(capsys)
+    run_tune(capsys)
     path = Path("zn.toml")
     document = tomllib.loads(path.read_text("utf-8"))
-    wild = str(document["points"][0]["gains"]["integral"])
-    path.write_text(path.read_text("utf-8").replace(f"integral = {wild}", "integral = 9e9", 1))
+    integral = str(document["points"][0]["gains"]["integral"])
+    path.write_text(path.read_text("utf-8").replace(f"integral = {integral}", "integral = 9e9", 1))
     before = path.read_bytes()
     assert main(["tune", "-o", "zn.toml", "--choose", "0"]) == 2
     assert "unstable" in capsys.readouterr().err
     assert path.read_bytes() == before
 
 
-def test_a_tuning_is_not_for_another_robot(capsys):
-    tuned(capsys)
+def test_tuning_of_another_robot_is_refused(capsys):
+    run_tune(capsys)
     assert main(["tune", "-o", "zn.toml", "--choose", "0", "--robot", "picma"]) == 2
     assert "tuned for robot 'RoTeMiNa'" in capsys.readouterr().err
 
 
-def test_an_interrupt_keeps_what_was_found_and_says_so(capsys, monkeypatch):
-    whole = search.generations
+def test_interrupted_search_keeps_its_points_and_reports_it(capsys, monkeypatch):
+    run_search = tuning.run_search
 
-    def interrupted(*arguments):
-        for number, one in enumerate(whole(*arguments)):
+    def interrupted_search(*arguments):
+        for number, progress in enumerate(run_search(*arguments)):
             if number == 1:
                 raise KeyboardInterrupt
-            yield one
+            yield progress
 
-    monkeypatch.setattr(search, "generations", interrupted)
-    status, said = tuned(capsys, "--generations", "9")
+    monkeypatch.setattr(tuning, "run_search", interrupted_search)
+    status, output = run_tune(capsys, "--generations", "9")
     assert status == 130
-    assert "stopped after 1 of 9 generations; zn.toml holds the points found so far" in said.err
+    assert "stopped after 1 of 9 generations; zn.toml holds the points found so far" in output.err
     assert load_tuning("zn.toml").provenance.done == 1
 
 
-def test_an_interrupt_before_anything_was_found_leaves_no_file(capsys, monkeypatch):
-    def interrupted(*_):
+def test_interrupt_before_the_first_points_leaves_no_file(capsys, monkeypatch):
+    def interrupted_search(*_):
         raise KeyboardInterrupt
         yield
 
-    monkeypatch.setattr(search, "generations", interrupted)
-    status, _ = tuned(capsys)
+    monkeypatch.setattr(tuning, "run_search", interrupted_search)
+    status, _ = run_tune(capsys)
     assert status == 130
     assert not Path("zn.toml").exists()
 
 
 @pytest.mark.parametrize(
-    ("given", "message"),
+    ("options", "message"),
     [
         (["--axis", "q"], "no such axis"),
         (["--rate", "900"], "too slow"),
@@ -126,34 +126,62 @@ def test_an_interrupt_before_anything_was_found_leaves_no_file(capsys, monkeypat
         (["--inverse", "none.toml"], "none.toml"),
     ],
 )
-def test_bad_input_is_told_before_any_work(capsys, given, message):
-    status, said = tuned(capsys, *given)
+def test_bad_input_is_refused_before_the_search(capsys, options, message):
+    status, output = run_tune(capsys, *options)
     assert status == 2
-    assert message in said.err
+    assert message in output.err
     assert not list(Path().iterdir())
 
 
-def test_an_axis_is_needed(capsys):
+def test_no_input_is_overwritten_through_a_link(capsys):
+    robot = Path(__file__).parents[3] / "resources/robots/rotemina.toml"
+    for name in ("own.toml", "worn.toml"):
+        Path(name).write_text(robot.read_text("utf-8") + EFFECTS, "utf-8")
+        Path("link.toml").unlink(missing_ok=True)
+        Path("link.toml").symlink_to(name)
+        for output in (["-o", "link.toml"], ["--json", "link.toml"]):
+            status, streams = run_tune(
+                capsys, "--robot", "own.toml", "--effects", "worn.toml", *output
+            )
+            assert status == 2
+            assert "link.toml is named twice" in streams.err
+    # Both outputs would be written to a file that does not exist yet.
+    Path("late.toml").symlink_to("new.toml")
+    status, streams = run_tune(capsys, "-o", "new.toml", "--json", "late.toml")
+    assert status == 2
+    assert "late.toml is named twice" in streams.err
+
+
+def test_choosing_a_point_does_not_overwrite_the_tuning_with_json(capsys):
+    run_tune(capsys)
+    assert main(["tune", "-o", "zn.toml", "--choose", "0", "--json", "./zn.toml"]) == 2
+    assert "zn.toml is named twice" in capsys.readouterr().err
+    load_tuning("zn.toml")
+
+
+def test_axis_is_required(capsys):
     assert main(["tune", "-o", "zn.toml"]) == 2
     assert "--axis" in capsys.readouterr().err
 
 
-def test_a_tuned_loop_plays_a_trajectory_and_one_that_is_not_stable_does_not(capsys):
-    assert tuned(capsys)[0] == 0
-    path = 32e-6 + 15e-6 * np.sin(2.0 * np.pi * 5.0 * 1e-3 * np.arange(400))
-    way = Record.from_signals(1e-3 * np.arange(400), {("zn", Tap.CMD): path}, {"zn": "m"})
-    write_record(way, Path("way.csv"))
+def test_tuned_loop_plays_a_trajectory_but_an_unstable_one_does_not(capsys):
+    assert run_tune(capsys)[0] == 0
+    position = 32e-6 + 15e-6 * np.sin(2.0 * np.pi * 5.0 * 1e-3 * np.arange(400))
+    trajectory = Record.from_signals(
+        1e-3 * np.arange(400), {("zn", Tap.CMD): position}, {"zn": "m"}
+    )
+    write_record(trajectory, Path("way.csv"))
     errors = []
-    for more in ([], ["--tuning", "zn.toml"]):
+    for options in ([], ["--tuning", "zn.toml"]):
         out = f"out{len(errors)}.csv"
-        assert main(["play", "way.csv", "-o", out, *more]) == 0
+        assert main(["play", "way.csv", "-o", out, *options]) == 0
         record = read_record(out)
-        errors.append(np.std((record.signal("zn", Tap.MEAS) - path)[50:]))
+        errors.append(np.std((record.signal("zn", Tap.MEAS) - position)[50:]))
     assert record.metadata["feedback zn"].startswith("zn.toml, point ")
     assert errors[1] < 0.5 * errors[0]
     text = Path("zn.toml").read_text("utf-8")
-    chosen = load_tuning("zn.toml").best.gains.integral
-    Path("bad.toml").write_text(text.replace(f"integral = {chosen!r}", "integral = 9e3"), "utf-8")
+    integral = load_tuning("zn.toml").chosen_point.gains.integral
+    Path("bad.toml").write_text(text.replace(f"integral = {integral!r}", "integral = 9e3"), "utf-8")
     capsys.readouterr()
     assert main(["play", "way.csv", "-o", "no.csv", "--tuning", "bad.toml"]) == 2
     assert "nothing was applied" in capsys.readouterr().err

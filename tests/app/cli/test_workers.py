@@ -1,4 +1,4 @@
-"""Parallel work on a real Dask scheduler of this machine."""
+"""Parallel jobs on a real local Dask scheduler."""
 
 import os
 import signal
@@ -10,13 +10,12 @@ import numpy as np
 import pytest
 
 from rotemina.app.cli.main import main
-from rotemina.app.cli.workers import workers
+from rotemina.app.cli.terminal import prepare_workers
 from rotemina.sim.errors import InputError
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.records.writing import write_record
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.robot.model import AxisEffect
-from rotemina.sim.simulation.simulation import simulate
+from rotemina.sim.records import Record, Tap, write_record
+from rotemina.sim.robot import AxisEffect
+from rotemina.sim.robot_files import load_robot
+from rotemina.sim.simulation import simulate
 
 pytestmark = pytest.mark.slow  # starts processes
 
@@ -43,20 +42,20 @@ class Unsendable:
         raise RuntimeError("dictionary changed size during iteration")
 
 
-def _nothing(_):
+def _do_nothing(_):
     return None
 
 
-def test_work_that_cannot_be_sent_ends_the_run_with_an_error(cluster):
+def test_job_that_cannot_be_sent_ends_the_run_with_an_error(cluster):
     with (
-        workers(None, cluster.scheduler_address) as jobs,
+        prepare_workers(None, cluster.scheduler_address) as jobs,
         pytest.raises(InputError, match=r"could not be sent: .*Unsendable"),
     ):
-        joblib.Parallel(n_jobs=jobs)([joblib.delayed(_nothing)(Unsendable())])
+        joblib.Parallel(n_jobs=jobs)([joblib.delayed(_do_nothing)(Unsendable())])
 
 
-def test_a_diagnosis_goes_on_when_a_worker_is_killed(cluster, tmp_path, monkeypatch, capsys):
-    """Another one takes over, and the answer is that of a run without a cluster."""
+def test_diagnosis_continues_when_a_worker_is_killed(cluster, tmp_path, monkeypatch, capsys):
+    """Another worker takes over, and the result equals that of a run without a cluster."""
     monkeypatch.chdir(tmp_path)
     robot = load_robot("rotemina")
     time_s = np.arange(2000) / 200.0
@@ -64,40 +63,40 @@ def test_a_diagnosis_goes_on_when_a_worker_is_killed(cluster, tmp_path, monkeypa
     commands = Record.from_signals(time_s, {("thx", Tap.CMD): command}, {"thx": "rad"})
     effect = AxisEffect(axis="thx", id="hysteresis")
     write_record(simulate(robot, [effect], commands, np.random.default_rng(1)), "a.csv")
-    killed, done = [], []
+    killed_pids, finished = [], []
     distributed = pytest.importorskip("distributed")
 
-    def kill():
+    def kill_busy_worker():
         with distributed.Client(cluster, set_as_default=False) as client:
-            while not killed and not done:
-                busy = [address for address, keys in client.processing().items() if keys]
-                if busy:
-                    pids = client.run(os.getpid, workers=busy[:1])
-                    killed.extend(pids.values())
-                    os.kill(killed[0], signal.SIGKILL)
+            while not killed_pids and not finished:
+                busy_workers = [address for address, keys in client.processing().items() if keys]
+                if busy_workers:
+                    pids = client.run(os.getpid, workers=busy_workers[:1])
+                    killed_pids.extend(pids.values())
+                    os.kill(killed_pids[0], signal.SIGKILL)
 
-    killer = threading.Thread(target=kill)
+    killer = threading.Thread(target=kill_busy_worker)
     killer.start()
     address = cluster.scheduler_address
     try:
         status = main(["gap", "diagnose", "a.csv", "--json", "far.json", "--cluster", address])
     finally:
-        done.append(True)
+        finished.append(True)
         killer.join()
     assert status == 0
-    assert killed
+    assert killed_pids
     assert main(["gap", "diagnose", "a.csv", "--json", "near.json", "--jobs", "1"]) == 0
     assert Path("far.json").read_bytes() == Path("near.json").read_bytes()
 
 
-def _ends_its_process(_):
+def _kill_own_process(_):
     os.kill(os.getpid(), signal.SIGKILL)
 
 
-def test_work_that_ends_its_worker_ends_the_run_with_an_error(cluster):
-    cluster.scheduler.allowed_failures = 0  # otherwise three more try it first
+def test_job_that_kills_its_worker_ends_the_run_with_an_error(cluster):
+    cluster.scheduler.allowed_failures = 0  # otherwise three more workers try it first
     with (
         pytest.raises(InputError, match=r"--cluster: a worker died repeatedly"),
-        workers(None, cluster.scheduler_address) as jobs,
+        prepare_workers(None, cluster.scheduler_address) as jobs,
     ):
-        joblib.Parallel(n_jobs=jobs)([joblib.delayed(_ends_its_process)(1)])
+        joblib.Parallel(n_jobs=jobs)([joblib.delayed(_kill_own_process)(1)])

@@ -1,6 +1,6 @@
-"""A machine under a simulated microscope whose mounting nobody tells, on a clock set by hand.
+"""A machine under a simulated microscope with unknown mounting and a virtual clock.
 
-``Bench`` has session and camera beside each other; ``Workplace`` the whole microscope over them.
+``CameraBench`` has a session and a camera. ``MicroscopeRig`` adds the microscope service.
 """
 
 from types import MappingProxyType
@@ -8,34 +8,27 @@ from types import MappingProxyType
 import numpy as np
 import pytest
 
-from rotemina.app.cameras.feed import FeedState, FeedView
-from rotemina.app.cameras.frame_check import FrameCheck, PictureState
-from rotemina.app.microscope.calibration_file import (
+from rotemina.app.cameras import FeedState, FeedView, FrameCheck, PictureState
+from rotemina.app.microscope import (
     MICRO,
     NANO,
-    MicroscopeCalibration,
+    Microscope,
     StageCalibration,
-    View,
+    StageCalibrationPhase,
+    TipState,
+    VisitState,
 )
-from rotemina.app.microscope.calibration_run import CalibrationRun, Phase
-from rotemina.app.microscope.click_corrections import Visit
-from rotemina.app.microscope.microscope import Microscope
-from rotemina.app.microscope.status import TipState
+from rotemina.app.microscope.calibration_file import CalibratedRegion, MicroscopeCalibration
+from rotemina.app.microscope.calibration_run import StageCalibrationRun
 from rotemina.app.motion.session import MotionSession
-from rotemina.drivers.cameras.hub import CameraHub
-from rotemina.drivers.cameras.simulated import SimulatedMicroscope
-from rotemina.drivers.clock import VirtualClock
-from rotemina.drivers.samples import DeviceState
-from rotemina.drivers.simulator.driver import Simulator
-from rotemina.sim.kinematics.chain import Chain
-from rotemina.sim.kinematics.forward import tip_position
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.vision.calibration import StageMap
-from rotemina.sim.vision.image import grey
-from rotemina.sim.vision.pipette import Pipette
-from rotemina.sim.vision.tracking import begin_track
+from rotemina.drivers.cameras import CameraHub, SimulatedMicroscope
+from rotemina.drivers.contract import DeviceState, VirtualClock
+from rotemina.drivers.simulator import Simulator
+from rotemina.sim.kinematics import KinematicChain, compute_tip_position
+from rotemina.sim.robot_files import load_robot
+from rotemina.sim.vision import Pipette, StageMap, begin_track, to_grey
 
-HIDDEN = MappingProxyType(
+HIDDEN_MOUNTING = MappingProxyType(
     {
         "width": 650,
         "height": 520,
@@ -48,10 +41,10 @@ HIDDEN = MappingProxyType(
 )
 
 
-class Bench:
-    """A session and a camera beside each other; frames may be spoilt by ``spoil``."""
+class CameraBench:
+    """A session and a camera. A test can set ``transform_frame`` to change frames."""
 
-    def __init__(self, mounting=HIDDEN, effects=()):
+    def __init__(self, mounting=HIDDEN_MOUNTING, effects=()):
         self.clock = VirtualClock(5.0)
         self.robot = load_robot("rotemina")
         self.driver = Simulator(self.robot, clock=self.clock)
@@ -69,9 +62,9 @@ class Bench:
         )
         self.camera = source.camera(source.devices()[0])
         self.camera.open()
-        self.chain = Chain.of(self.robot)
-        self.spoil = lambda frame: frame
-        self.frame = self.found = None
+        self.chain = KinematicChain.of(self.robot)
+        self.transform_frame = lambda frame: frame
+        self.frame = self.learned_pipette = None
         self.step(5)
 
     def step(self, times=1, seconds=0.08):
@@ -80,16 +73,16 @@ class Bench:
             self.session.run_once()
             frame = self.camera.grab(0.0)
             if frame is not None:
-                self.frame = self.spoil(frame)
+                self.frame = self.transform_frame(frame)
 
-    def rest(self):
-        """Let the machine come to rest unseen."""
+    def settle(self):
+        """Let the machine come to rest without taking frames."""
         for _ in range(400):
             self.clock.advance(0.02)
             self.session.run_once()
         assert self.session.snapshot().activity is DeviceState.IDLE
 
-    def newest(self):
+    def get_newest_frame(self):
         return self.frame
 
     @property
@@ -98,61 +91,68 @@ class Bench:
 
     @property
     def pipette(self):
-        """The pipette as an operator would set it up: by the robot file's pixel size, roughly."""
+        """The pipette as an operator would roughly set it up, with the pixel size in the file."""
         body = self.optics.mapping @ np.array([1.0, 0.0, 0.0])
-        return Pipette.seen(
+        return Pipette.from_optics(
             float(np.arctan2(body[1], body[0])) + 0.04,
             0.335e-6,
             approach=self.camera.scene.pin.approach_rad,
             aperture=self.optics.aperture,
         )
 
-    def beside(self, columns, rows):
-        """Return a pixel so far from the tip."""
+    def make_offset_pixel(self, columns, rows):
+        """Return the pixel at this offset from the tip."""
         return self.true_pixel() + np.array([columns, rows])
 
     def true_pixel(self):
-        return self.optics.pixel_of(tip_position(self.chain, np.array(self.driver.true_positions)))
+        return self.optics.pixel_of(
+            compute_tip_position(self.chain, np.array(self.driver.true_positions))
+        )
 
-    def begin(self, stage=MICRO, pipette=True, **options):
-        return CalibrationRun(
+    def start_calibration(self, stage=MICRO, pipette=True, **options):
+        return StageCalibrationRun(
             self.session,
-            self.newest,
+            self.get_newest_frame,
             stage,
             self.pipette if pipette else None,
             now_s=self.clock(),
             **options,
         )
 
-    def run(self, run, most=1500):
-        for _ in range(most):
+    def run_until_finished(self, run, max_steps=1500):
+        for _ in range(max_steps):
             self.step()
             status = run.step(self.clock())
-            if getattr(status, "phase", None) in (Phase.DONE, Phase.FAILED):
+            if getattr(status, "phase", None) in (
+                StageCalibrationPhase.DONE,
+                StageCalibrationPhase.FAILED,
+            ):
                 return status
-            if getattr(status, "visit", None) in (Visit.ARRIVED, Visit.FAILED):
+            if getattr(status, "state", None) in (VisitState.ARRIVED, VisitState.FAILED):
                 return status
         raise AssertionError(f"still {status}")
 
-    def calibrated(self, *stages):
-        """Calibrate stages, and return what is kept."""
-        known = self.empty()
-        self.track()
+    def calibrate_stages(self, *stages):
+        """Calibrate stages and return the calibration."""
+        calibration = self.make_empty_calibration()
+        self.track_tip()
         for stage in stages:
-            status = self.run(self.begin(stage))
-            assert status.phase is Phase.DONE, status.reason
-            known = known.with_stage(stage, status.calibration)
-        return known
+            status = self.run_until_finished(self.start_calibration(stage))
+            assert status.phase is StageCalibrationPhase.DONE, status.reason
+            calibration = calibration.with_stage(stage, status.calibration)
+        return calibration
 
-    def empty(self):
+    def make_empty_calibration(self):
         return MicroscopeCalibration(
-            camera="simulated:microscope", objective="20x", view=View.of(self.frame.region)
+            camera="simulated:microscope",
+            objective="20x",
+            view=CalibratedRegion.from_region(self.frame.region),
         )
 
-    def known(self):
-        """Return a calibration as good as the truth, without the moves."""
+    def make_true_calibration(self):
+        """Make a calibration from the true mounting, without moves."""
         matrix = self.optics.mapping[:, :2]
-        tip_m = tip_position(self.chain, np.array(self.driver.true_positions))
+        tip_m = compute_tip_position(self.chain, np.array(self.driver.true_positions))
         stage = StageCalibration(
             date="2026-11-21T10:00:00+00:00",
             matrix=tuple(map(tuple, matrix.tolist())),
@@ -161,16 +161,16 @@ class Bench:
             tip_px=tuple(self.true_pixel().tolist()),
             residual_px=0.05,
         )
-        return self.empty().with_stage(MICRO, stage).with_stage(NANO, stage)
+        return self.make_empty_calibration().with_stage(MICRO, stage).with_stage(NANO, stage)
 
-    def image(self):
-        return grey(self.frame.pixels)
+    def make_grey_image(self):
+        return to_grey(self.frame.pixels)
 
-    def track(self):
-        """Find the tip; where it is found first, in a clear place, its direction is learnt."""
-        if self.found is None:
-            self.found = begin_track(self.image(), self.pipette).pipette
-        return begin_track(self.image(), self.found, turning=False)
+    def track_tip(self):
+        """Find the tip. The first call also learns its direction."""
+        if self.learned_pipette is None:
+            self.learned_pipette = begin_track(self.make_grey_image(), self.pipette).pipette
+        return begin_track(self.make_grey_image(), self.learned_pipette, turning=False)
 
     def true_map(self):
         return StageMap(self.optics.mapping[:, :2], np.zeros((4, 4)))
@@ -183,8 +183,8 @@ class SteppedFeed:
         self.camera = camera
         self.view = FeedView()
         self._listeners = []
-        self._watch = FrameCheck()
-        self.spoil = lambda frame: frame
+        self._frame_check = FrameCheck()
+        self.transform_frame = lambda frame: frame
 
     @property
     def newest(self):
@@ -204,9 +204,9 @@ class SteppedFeed:
     def configure(self, settings):
         self.camera.configure(settings)
 
-    def listen(self, tell):
-        self._listeners.append(tell)
-        return lambda: self._listeners.remove(tell)
+    def listen(self, listener):
+        self._listeners.append(listener)
+        return lambda: self._listeners.remove(listener)
 
     def lose(self, reason):
         self.view = FeedView(FeedState.LOST, reason, self.view.frame)
@@ -217,22 +217,24 @@ class SteppedFeed:
         frame = self.camera.grab(0.0)
         if frame is None:
             return
-        frame = self.spoil(frame)
-        showing = self._watch.judge(frame)
-        state = {PictureState.FROZEN: FeedState.FROZEN, PictureState.BLACK: FeedState.BLACK}
-        if self._watch.is_repeated:
+        frame = self.transform_frame(frame)
+        picture_state = self._frame_check.classify(frame)
+        feed_states = {PictureState.FROZEN: FeedState.FROZEN, PictureState.BLACK: FeedState.BLACK}
+        if self._frame_check.is_repeated:
             frame = self.view.frame
-        self.view = FeedView(state.get(showing, FeedState.LIVE), f"it is {showing}", frame)
-        if self._watch.is_repeated:
+        self.view = FeedView(
+            feed_states.get(picture_state, FeedState.LIVE), f"it is {picture_state}", frame
+        )
+        if self._frame_check.is_repeated:
             return
-        for tell in self._listeners:
-            tell(frame)
+        for listener in self._listeners:
+            listener(frame)
 
 
-class Workplace:
-    """Session, camera and microscope; ``step`` lets all of them go on."""
+class MicroscopeRig:
+    """Session, camera and microscope. ``step`` advances all of them."""
 
-    def __init__(self, folder, mounting=HIDDEN, seconds=0.08, **options):
+    def __init__(self, folder, mounting=HIDDEN_MOUNTING, seconds=0.08, **options):
         self.clock, self.seconds = VirtualClock(5.0), seconds
         self.robot = load_robot("rotemina")
         self.driver = Simulator(self.robot, clock=self.clock)
@@ -251,12 +253,12 @@ class Workplace:
             folder,
             hub=CameraHub({"simulated": source}),
             clock=self.clock,
-            feed_of=self._feed_of,
+            make_feed=self._make_feed,
             **options,
         )
-        self.chain = Chain.of(self.robot)
+        self.chain = KinematicChain.of(self.robot)
 
-    def _feed_of(self, camera):
+    def _make_feed(self, camera):
         self.feed = SteppedFeed(camera)
         return self.feed
 
@@ -268,15 +270,15 @@ class Workplace:
                 self.feed.grab()
             self.microscope.step(self.clock())
 
-    def look(self):
-        """Have somebody look at the picture from now on."""
+    def find_cameras(self):
+        """Read the status as a view does, which starts the search for cameras."""
         assert not self.microscope.status.cameras
         self.step(3)
 
-    def until(self, done, most=2000):
-        for _ in range(most):
+    def step_until(self, condition, max_steps=2000):
+        for _ in range(max_steps):
             self.step()
-            if done(self.microscope.status):
+            if condition(self.microscope.status):
                 return self.microscope.status
         raise AssertionError(f"still {self.microscope.status}")
 
@@ -285,13 +287,13 @@ class Workplace:
         return self.feed.camera.scene.optics
 
     def true_tip(self):
-        return tip_position(self.chain, np.array(self.driver.true_positions))
+        return compute_tip_position(self.chain, np.array(self.driver.true_positions))
 
     def true_pixel(self):
         return self.optics.pixel_of(self.true_tip())
 
-    def calibrate_by_truth(self):
-        """Keep calibrations as good as the truth, without the moves."""
+    def store_true_calibration(self):
+        """Store calibrations from the true mounting, without moves."""
         tip_m = self.true_tip()
         stage = StageCalibration(
             date="2026-11-21T10:00:00+00:00",
@@ -302,12 +304,12 @@ class Workplace:
             residual_px=0.05,
         )
         for name in (MICRO, NANO):
-            self.microscope.setup.keep_stage(name, stage, self.feed.newest.region)
+            self.microscope.setup.store_stage(name, stage, self.feed.newest.region)
 
-    def tracking(self):
-        """Track the tip, whose direction is roughly known."""
+    def start_tracking(self):
+        """Start to track the tip, whose direction is roughly known."""
         body = self.optics.mapping @ np.array([1.0, 0.0, 0.0])
-        self.microscope.setup.learn_direction(float(np.arctan2(body[1], body[0])) + 0.03)
+        self.microscope.setup.store_direction(float(np.arctan2(body[1], body[0])) + 0.03)
         self.microscope.track(True)
         self.step(2)
         assert self.microscope.status.tip.state is TipState.TRACKED
@@ -315,31 +317,31 @@ class Workplace:
 
 
 @pytest.fixture
-def make_work():
-    return Workplace
+def make_rig():
+    return MicroscopeRig
 
 
 @pytest.fixture
-def work(tmp_path):
-    """A workplace at whose picture somebody looks, calibrated by the truth."""
-    made = Workplace(tmp_path)
-    made.look()
-    made.calibrate_by_truth()
-    made.step()
-    return made
+def rig(tmp_path):
+    """A microscope with an open view, calibrated with the true mounting."""
+    microscope_rig = MicroscopeRig(tmp_path)
+    microscope_rig.find_cameras()
+    microscope_rig.store_true_calibration()
+    microscope_rig.step()
+    return microscope_rig
 
 
 @pytest.fixture
 def bench():
-    return Bench()
+    return CameraBench()
 
 
 @pytest.fixture(scope="module")
-def still():
-    """Return a bench that nobody moves; a module shares it."""
-    return Bench()
+def shared_bench():
+    """A bench shared by a module. Tests must not move it."""
+    return CameraBench()
 
 
 @pytest.fixture
 def make_bench():
-    return Bench
+    return CameraBench

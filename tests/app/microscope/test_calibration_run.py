@@ -1,4 +1,4 @@
-"""Guided calibrations on the simulated microscope: the hidden mounting is found, or none is."""
+"""Guided calibrations on the simulated microscope find the hidden mounting or fail."""
 
 from dataclasses import replace
 from datetime import UTC, datetime
@@ -7,170 +7,227 @@ from itertools import cycle
 import numpy as np
 import pytest
 
-from rotemina.app.microscope.calibration_file import MICRO, NANO
-from rotemina.app.microscope.calibration_run import Phase
-from rotemina.app.motion.mailbox import RefusedError
-from rotemina.drivers.cameras.frame import Region
-from rotemina.sim.robot.model import AxisEffect
-from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
+from rotemina.app.errors import RequestRefusedError
+from rotemina.app.microscope import MICRO, NANO, StageCalibrationPhase
+from rotemina.drivers.cameras import SensorRegion
+from rotemina.sim.errors import OutOfLimitsError
+from rotemina.sim.robot import AxisEffect
 
 
 @pytest.mark.parametrize("stage", [MICRO, pytest.param(NANO, marks=pytest.mark.slow)])
-def test_the_hidden_mounting_is_found_and_the_stage_goes_back(bench, stage):
+def test_calibration_finds_the_hidden_mounting_and_moves_back(bench, stage):
     before = dict(bench.session.snapshot().command)
-    status = bench.run(bench.begin(stage, today=lambda: datetime(2026, 11, 21, tzinfo=UTC)))
-    assert status.phase is Phase.DONE, status.reason
-    found, truth = status.fit.map.geometry, bench.true_map().geometry
-    for size, true_size in zip(found.pixel_size, truth.pixel_size, strict=True):
+    status = bench.run_until_finished(
+        bench.start_calibration(stage, read_date=lambda: datetime(2026, 11, 21, tzinfo=UTC))
+    )
+    assert status.phase is StageCalibrationPhase.DONE, status.reason
+    measured, true_geometry = status.fit.map.geometry, bench.true_map().geometry
+    for size, true_size in zip(measured.pixel_size, true_geometry.pixel_size, strict=True):
         assert size == pytest.approx(true_size, rel=1e-3)
-    assert np.degrees(abs(found.rotation - truth.rotation)) < 0.05
-    assert np.degrees(abs(found.skew - truth.skew)) < 0.1
-    assert found.handedness == truth.handedness == -1
+    assert np.degrees(abs(measured.rotation - true_geometry.rotation)) < 0.05
+    assert np.degrees(abs(measured.skew - true_geometry.skew)) < 0.1
+    assert measured.handedness == true_geometry.handedness == -1
     assert status.fit.residual_rms < 0.2
     assert status.calibration.date == "2026-11-21T00:00:00+00:00"
     assert bench.session.snapshot().command == pytest.approx(before, abs=1e-9)
     assert status.calibration.tip_px == pytest.approx(bench.true_pixel(), abs=0.3)
 
 
-def test_a_stop_ends_it_where_it_is(bench):
-    run = bench.begin()
-    while run.status.done < 2:
+def test_stop_ends_the_calibration_in_place(bench):
+    run = bench.start_calibration()
+    while run.status.pictures_taken < 2:
         bench.step()
         run.step(bench.clock())
     bench.session.stop()
     bench.step()
-    assert run.step(bench.clock()).phase is Phase.FAILED
+    assert run.step(bench.clock()).phase is StageCalibrationPhase.FAILED
     assert "stopped" in run.status.reason
-    place = dict(bench.session.snapshot().command)
+    stop_position = dict(bench.session.snapshot().command)
     for _ in range(20):
         bench.step()
         run.step(bench.clock())
-    assert bench.session.snapshot().command == place
+    assert bench.session.snapshot().command == stop_position
 
 
-def test_it_can_be_given_up(bench):
-    run = bench.begin()
-    while run.status.done < 2:
+def test_calibration_can_be_aborted(bench):
+    run = bench.start_calibration()
+    while run.status.pictures_taken < 2:
         bench.step()
         run.step(bench.clock())
     run.abort()
-    assert run.status.phase is Phase.FAILED
-    assert bench.session.stop_asked_s is not None
+    assert run.status.phase is StageCalibrationPhase.FAILED
+    assert bench.session.stop_requested_s is not None
 
 
-class Spoilt:
-    """What a camera may do to its frames."""
-
-    @staticmethod
-    def frozen(bench):
-        still = bench.frame
-        return lambda frame: replace(frame, pixels=still.pixels)
+class FrameFaults:
+    """Faults of a camera, as functions that change its frames."""
 
     @staticmethod
-    def cycling(bench):
-        """Give the pictures that were seen before the latest move, one after the other."""
-        buffers = cycle(bench.seen[-3:])
+    def freeze(bench):
+        frozen_frame = bench.frame
+        return lambda frame: replace(frame, pixels=frozen_frame.pixels)
+
+    @staticmethod
+    def cycle_buffers(bench):
+        """Repeat the pictures from before the latest move one after another."""
+        buffers = cycle(bench.recent_pixels[-3:])
         return lambda frame: replace(frame, pixels=next(buffers))
 
     @staticmethod
-    def stalled(bench):
-        still = bench.frame
-        return lambda _: still
+    def stall(bench):
+        last_frame = bench.frame
+        return lambda _: last_frame
 
     @staticmethod
-    def black(bench):
+    def darken(bench):
         return lambda frame: replace(frame, pixels=np.clip(frame.pixels, 0, 45))
 
     @staticmethod
-    def smaller(bench):
-        def cut(frame):
-            region = Region(0, 0, 400, 300)
+    def crop(bench):
+        def crop_frame(frame):
+            region = SensorRegion(0, 0, 400, 300)
             return replace(frame, pixels=frame.pixels[:300, :400], region=region)
 
-        return cut
+        return crop_frame
 
     @staticmethod
-    def empty(bench):
+    def show_noise(bench):
         rng = np.random.default_rng(0)
 
-        def noise(frame):
+        def replace_with_noise(frame):
             pixels = rng.normal(2000.0, 30.0, frame.pixels.shape).astype(np.uint16)
             return replace(frame, pixels=pixels)
 
-        return noise
+        return replace_with_noise
 
 
 @pytest.mark.parametrize(
-    ("how", "told"),
+    ("make_fault", "message"),
     [
-        (Spoilt.frozen, "frozen"),
-        (Spoilt.cycling, "frozen"),
-        (Spoilt.stalled, "stalled"),
-        (Spoilt.black, "black"),
-        (Spoilt.smaller, "400 × 300 px"),
-        (Spoilt.empty, "nothing in the picture matches it"),
+        (FrameFaults.freeze, "frozen"),
+        (FrameFaults.cycle_buffers, "frozen"),
+        (FrameFaults.stall, "stalled"),
+        (FrameFaults.darken, "black"),
+        (FrameFaults.crop, "400 × 300 px"),
+        (FrameFaults.show_noise, "nothing in the picture matches it"),
     ],
 )
-def test_a_picture_that_cannot_be_trusted_ends_it_without_further_moves(bench, how, told):
-    run = bench.begin()
-    bench.seen = []
-    while run.status.done < 1:
+def test_faulty_picture_ends_the_calibration_without_further_moves(bench, make_fault, message):
+    run = bench.start_calibration()
+    bench.recent_pixels = []
+    while run.status.pictures_taken < 1:
         bench.step()
-        bench.seen.append(bench.frame.pixels)
+        bench.recent_pixels.append(bench.frame.pixels)
         run.step(bench.clock())
-    bench.spoil = how(bench)
-    status = bench.run(run)
-    assert status.phase is Phase.FAILED
-    assert told in status.reason
+    bench.transform_frame = make_fault(bench)
+    status = bench.run_until_finished(run)
+    assert status.phase is StageCalibrationPhase.FAILED
+    assert message in status.reason
     assert status.calibration is None
 
 
-def test_a_featureless_picture_is_refused_before_anything_moves(bench):
-    bench.spoil = Spoilt.empty(bench)
+def test_featureless_picture_is_refused_before_any_move(bench):
+    bench.transform_frame = FrameFaults.show_noise(bench)
     bench.step()
     before = dict(bench.session.snapshot().command)
-    status = bench.run(bench.begin())
-    assert status.phase is Phase.FAILED
+    status = bench.run_until_finished(bench.start_calibration())
+    assert status.phase is StageCalibrationPhase.FAILED
     assert "nothing in the picture matches it" in status.reason
     assert bench.session.snapshot().command == before
 
 
-def test_a_tip_that_gets_lost_sends_the_stage_back_to_where_it_began(bench):
+def test_lost_tip_sends_the_stage_back_to_the_start(bench):
     before = dict(bench.session.snapshot().command)
-    run = bench.begin()
-    while run.status.done < 2:
+    run = bench.start_calibration()
+    while run.status.pictures_taken < 2:
         bench.step()
         run.step(bench.clock())
-    bench.spoil = Spoilt.empty(bench)
-    status = bench.run(run)
-    assert status.phase is Phase.FAILED
+    bench.transform_frame = FrameFaults.show_noise(bench)
+    status = bench.run_until_finished(run)
+    assert status.phase is StageCalibrationPhase.FAILED
     assert bench.session.snapshot().command == pytest.approx(before, abs=1e-9)
 
 
-def test_a_background_that_stands_is_no_moving_stage(bench):
-    status = bench.run(bench.begin(pipette=False))
-    assert status.phase is Phase.FAILED
+def refuse_return(monkeypatch, bench, run):
+    """Refuse the move to the start position, after the last picture of the run."""
+    go_to = bench.session.go_to
+
+    def refuse_or_go(targets, *arguments, **options):
+        if run.status.phase is StageCalibrationPhase.RETURNING:
+            raise RequestRefusedError("axis x is reserved")
+        go_to(targets, *arguments, **options)
+
+    monkeypatch.setattr(bench.session, "go_to", refuse_or_go)
+
+
+def test_refused_return_keeps_the_calibration(bench, monkeypatch):
+    run = bench.start_calibration()
+    refuse_return(monkeypatch, bench, run)
+    status = bench.run_until_finished(run)
+    assert status.phase is StageCalibrationPhase.DONE
+    assert status.calibration is not None
+    assert status.reason == "the return to the start position failed: axis x is reserved"
+
+
+def test_refused_return_after_a_failed_calibration_is_reported_with_its_reason(bench, monkeypatch):
+    run = bench.start_calibration()
+    refuse_return(monkeypatch, bench, run)
+    while run.status.pictures_taken < 2:
+        bench.step()
+        run.step(bench.clock())
+    bench.transform_frame = FrameFaults.show_noise(bench)
+    status = bench.run_until_finished(run)
+    assert status.phase is StageCalibrationPhase.FAILED
+    assert status.calibration is None
+    assert "nothing in the picture matches it" in status.reason
+    assert "the return to the start position failed: axis x is reserved" in status.reason
+
+
+@pytest.mark.parametrize("is_aborted", [False, True])
+def test_only_an_abort_during_the_return_discards_the_calibration(bench, is_aborted):
+    run = bench.start_calibration()
+    while run.status.phase is not StageCalibrationPhase.RETURNING:
+        bench.step()
+        run.step(bench.clock())
+    if is_aborted:
+        run.abort("the operator stopped it")
+        assert run.status.phase is StageCalibrationPhase.FAILED
+        assert run.status.reason == "the operator stopped it"
+        return
+    bench.session.stop()
+    bench.step()
+    status = run.step(bench.clock())
+    assert status.phase is StageCalibrationPhase.DONE
+    assert "the return to the start position failed" in status.reason
+    assert "stopped" in status.reason
+
+
+def test_stationary_background_fails_the_calibration(bench):
+    status = bench.run_until_finished(bench.start_calibration(pipette=False))
+    assert status.phase is StageCalibrationPhase.FAILED
     assert "registration" in status.reason or "calibration" in status.reason
 
 
 @pytest.mark.slow
-def test_backlash_that_the_sensors_do_not_see_is_refused(make_bench):
-    slack = [AxisEffect(axis=axis, id="backlash", parameters={"width": 4e-6}) for axis in "xy"]
-    bench = make_bench(effects=slack)
-    status = bench.run(bench.begin())
-    assert status.phase is Phase.FAILED
+def test_backlash_unseen_by_the_sensors_is_refused(make_bench):
+    backlash_effects = [
+        AxisEffect(axis=axis, id="backlash", parameters={"width": 4e-6}) for axis in "xy"
+    ]
+    bench = make_bench(effects=backlash_effects)
+    status = bench.run_until_finished(bench.start_calibration())
+    assert status.phase is StageCalibrationPhase.FAILED
     assert "drifted by" in status.reason
     assert status.calibration is None
 
 
-def test_a_place_at_the_end_of_the_range_is_refused_at_once(bench):
+def test_position_at_the_end_of_the_range_is_refused_at_once(bench):
     bench.session.go_to({"x": 10e-6})
-    bench.rest()
+    bench.settle()
     with pytest.raises(OutOfLimitsError, match="axis x"):
-        bench.begin()
+        bench.start_calibration()
 
 
 def test_locked_motion_is_refused_at_once(bench):
-    bench.session.bar("a replay is shown")
-    with pytest.raises(RefusedError, match="replay"):
-        bench.begin()
+    bench.session.bar_motion("a replay is shown")
+    with pytest.raises(RequestRefusedError, match="replay"):
+        bench.start_calibration()

@@ -1,50 +1,57 @@
-"""The camera in use comes back at the next start, with its settings, or is said to be gone."""
+"""The last camera reopens at the next start with its settings, or is reported as missing."""
 
 from types import SimpleNamespace
 
 import pytest
 
-from rotemina.app.cameras.feed import FeedState, FeedView
+from rotemina.app.cameras import FeedState, FeedView
 from rotemina.app.microscope.camera_in_use import CameraInUse
-from rotemina.app.microscope.camera_memory import KEY, CameraMemory
-from rotemina.app.settings import Settings
-from rotemina.drivers.cameras.camera import CameraIdentity
-from rotemina.drivers.cameras.frame import Region
-from rotemina.drivers.cameras.hub import CameraHub
-from rotemina.drivers.cameras.settings import CameraSettings, PixelType, Trigger
-from rotemina.drivers.cameras.source import CameraSource
-from rotemina.drivers.simulator.driver import Simulator
-from rotemina.sim.robot.file import load_robot
+from rotemina.app.microscope.camera_memory import LAST_CAMERA_KEY, CameraMemory
+from rotemina.app.settings import UserSettings
+from rotemina.drivers.cameras import (
+    CameraHub,
+    CameraIdentity,
+    CameraSettings,
+    CameraSource,
+    CameraTrigger,
+    PixelType,
+    SensorRegion,
+)
+from rotemina.drivers.simulator import Simulator
+from rotemina.sim.robot_files import load_robot
 
-SET = CameraSettings(
-    exposure_s=0.02, region=Region(8, 4, 64, 48), pixel_type=PixelType.MONO8, trigger=Trigger.FREE
+SETTINGS = CameraSettings(
+    exposure_s=0.02,
+    region=SensorRegion(8, 4, 64, 48),
+    pixel_type=PixelType.MONO8,
+    trigger=CameraTrigger.FREE,
 )
 
 
-class Source(CameraSource):
-    """Its cameras are plugged in and out by the test, and are nothing but their identity."""
+class FakeSource(CameraSource):
+    """A source whose cameras the test plugs in and out. They have only an identity."""
 
     def __init__(self, name, *addresses):
         super().__init__(clock=lambda: 0.0)
-        self.name, self.addresses, self.trouble = name, list(addresses), None
+        self.name, self.addresses, self.fault = name, list(addresses), None
 
     @property
     def problem(self):
-        return self.trouble
+        return self.fault
 
     def devices(self):
-        return [CameraIdentity(f"{self.name}:{one}", f"Eye {one}", self.name)
-                for one in self.addresses]  # fmt: skip
+        return [CameraIdentity(f"{self.name}:{address}", f"Eye {address}", self.name)
+                for address in self.addresses]  # fmt: skip
 
-    def addressed(self, address):
+    def parse_address(self, address):
         return CameraIdentity(f"{self.name}:{address}", address, self.name)
 
     def camera(self, identity):
         return SimpleNamespace(identity=identity)
 
 
-class Feed:
-    """Shows a picture as soon as it runs."""
+class FakeFeed:
+    """A feed that shows a picture as soon as it runs."""
 
     def __init__(self, camera):
         self.camera, self.view = camera, FeedView()
@@ -60,128 +67,129 @@ class Feed:
 
 
 @pytest.fixture
-def used(tmp_path):
-    """Return what starts anew with the cameras of ``fake``, and steps once."""
+def restart(tmp_path):
+    """Function that restarts the program with cameras of the source ``fake`` and steps once."""
 
     def start(*addresses, simulator=True):
-        source, driver = Source("fake", *addresses), None
+        source, driver = FakeSource("fake", *addresses), None
         if simulator:
             driver = Simulator(load_robot("rotemina"), clock=lambda: 0.0)
-        hub = CameraHub({"fake": source, "simulated": Source("simulated", "microscope")})
-        memory = CameraMemory(Settings(tmp_path / "settings.json"))
-        made = CameraInUse(hub, lambda: made.driver, Feed, memory)
-        made.watched, made.source, made.driver, made.hub = True, source, driver, hub
-        made.step(0.0)
-        return made
+        hub = CameraHub({"fake": source, "simulated": FakeSource("simulated", "microscope")})
+        memory = CameraMemory(UserSettings(tmp_path / "settings.json"))
+        camera_in_use = CameraInUse(hub, lambda: camera_in_use.driver, FakeFeed, memory)
+        camera_in_use.is_watched = True
+        camera_in_use.source, camera_in_use.driver, camera_in_use.hub = source, driver, hub
+        camera_in_use.step(0.0)
+        return camera_in_use
 
     return start
 
 
-def test_the_camera_used_last_comes_back_with_its_settings(used):
-    first = used("a", "b")
+def test_last_camera_reopens_with_its_settings(restart):
+    first = restart("a", "b")
     assert first.camera.identity.key == "simulated:microscope"
     first.open("fake:b")
     first.step(0.1)
-    first.configure(SET)
+    first.configure(SETTINGS)
     first.step(0.2)
     first.close()
-    again = used("b", "c")
-    assert again.camera.identity.key == "fake:b"
-    assert again.view.settings == SET
+    second = restart("b", "c")
+    assert second.camera.identity.key == "fake:b"
+    assert second.view.settings == SETTINGS
 
 
-def test_one_that_is_gone_is_said_and_opens_when_it_is_back(used):
-    first = used("a")
-    first.open("fake:a", SET)
+def test_missing_camera_is_reported_and_opens_when_it_is_back(restart):
+    first = restart("a")
+    first.open("fake:a", SETTINGS)
     first.step(0.1)
-    gone = used()
-    assert gone.camera is None
-    assert gone.view.state is FeedState.LOST
-    assert gone.view.reason == (
+    second = restart()
+    assert second.camera is None
+    assert second.view.state is FeedState.LOST
+    assert second.view.reason == (
         "Eye a (fake:a), the camera used last, is not connected; plug it in, or choose another"
     )
-    gone.source.addresses.append("a")
-    gone.step(10.0)
-    assert gone.camera.identity.key == "fake:a"
-    assert gone.view.settings == SET
-    other = used()
-    other.open("simulated:microscope")
-    other.step(0.1)
-    other.source.addresses.append("a")
-    other.step(10.0)
-    assert other.camera.identity.key == "simulated:microscope"
+    second.source.addresses.append("a")
+    second.step(10.0)
+    assert second.camera.identity.key == "fake:a"
+    assert second.view.settings == SETTINGS
+    third = restart()
+    third.open("simulated:microscope")
+    third.step(0.1)
+    third.source.addresses.append("a")
+    third.step(10.0)
+    assert third.camera.identity.key == "simulated:microscope"
 
 
-def test_what_no_list_shows_comes_back_by_its_address(used):
-    first = used()
+def test_unlisted_camera_reopens_by_its_address(restart):
+    first = restart()
     first.open_address("fake", "film.avi")
     first.step(0.1)
-    assert used().camera.identity.key == "fake:film.avi"
+    assert restart().camera.identity.key == "fake:film.avi"
 
 
-def test_the_simulated_one_keeps_its_settings_and_shows_no_other_machine(used):
-    first = used()
-    first.configure(SET)
+def test_simulated_camera_keeps_its_settings_and_needs_a_simulator(restart):
+    first = restart()
+    first.configure(SETTINGS)
     first.step(0.1)
-    assert used().view.settings == SET
-    assert used(simulator=False).camera is None
+    assert restart().view.settings == SETTINGS
+    assert restart(simulator=False).camera is None
 
 
 @pytest.mark.parametrize("is_chosen", [True, False])
-def test_the_simulated_one_comes_back_with_a_simulator(used, is_chosen):
-    seen = used()
+def test_simulated_camera_reopens_with_a_simulator(restart, is_chosen):
+    camera_in_use = restart()
     if is_chosen:
-        seen.open("simulated:microscope", SET)
-        seen.step(0.1)
-    simulator, settings = seen.driver, seen.view.settings
+        camera_in_use.open("simulated:microscope", SETTINGS)
+        camera_in_use.step(0.1)
+    simulator, settings = camera_in_use.driver, camera_in_use.view.settings
     for at_s, name in ((10.0, "mc68hc11"), (20.0, "gcode")):
-        seen.driver = SimpleNamespace(name=name)
-        seen.hub.sources["simulated"].trouble = f"{name} shows only a simulated machine"
-        seen.step(at_s)
-        assert seen.view.state is FeedState.LOST
-        assert seen.view.reason == f"{name} shows only a simulated machine"
-    seen.driver, seen.hub.sources["simulated"].trouble = simulator, None
-    seen.step(30.0)
-    assert seen.camera.identity.key == "simulated:microscope"
-    assert (seen.view.state, seen.view.settings) == (FeedState.LIVE, settings)
+        camera_in_use.driver = SimpleNamespace(name=name)
+        camera_in_use.hub.sources["simulated"].fault = f"{name} shows only a simulated machine"
+        camera_in_use.step(at_s)
+        assert camera_in_use.view.state is FeedState.LOST
+        assert camera_in_use.view.reason == f"{name} shows only a simulated machine"
+    camera_in_use.driver, camera_in_use.hub.sources["simulated"].fault = simulator, None
+    camera_in_use.step(30.0)
+    assert camera_in_use.camera.identity.key == "simulated:microscope"
+    assert (camera_in_use.view.state, camera_in_use.view.settings) == (FeedState.LIVE, settings)
 
 
-def test_a_simulated_picture_that_was_lost_meanwhile_comes_back(used):
-    seen = used()
-    seen.step(10.0)
-    seen._feed.view = FeedView(FeedState.LOST, "there is no simulated machine")
-    seen.driver = Simulator(load_robot("rotemina"), clock=lambda: 0.0)  # between two looks
-    seen.step(20.0)
-    assert seen.view.state is FeedState.LIVE
-    seen._feed.view = FeedView(FeedState.LOST, "something else")
-    seen.step(30.0)
-    assert seen.view.reason == "something else"  # no other machine: it is not tried for ever
+def test_lost_simulated_camera_reopens_with_a_new_simulator(restart):
+    camera_in_use = restart()
+    camera_in_use.step(10.0)
+    camera_in_use._feed.view = FeedView(FeedState.LOST, "there is no simulated machine")
+    camera_in_use.driver = Simulator(load_robot("rotemina"), clock=lambda: 0.0)  # between two steps
+    camera_in_use.step(20.0)
+    assert camera_in_use.view.state is FeedState.LIVE
+    camera_in_use._feed.view = FeedView(FeedState.LOST, "something else")
+    camera_in_use.step(30.0)
+    assert camera_in_use.view.reason == "something else"  # same machine: it is not reopened forever
 
 
-def test_another_camera_takes_the_place_of_the_simulated_one_for_good(used):
-    seen = used("a")
-    simulator = seen.driver
-    seen.driver = SimpleNamespace(name="mc68hc11")
-    seen.step(10.0)
-    seen.open("fake:a")
-    seen.step(20.0)
-    seen.driver = simulator
-    seen.step(30.0)
-    assert seen.camera.identity.key == "fake:a"
+def test_chosen_camera_replaces_the_simulated_one_permanently(restart):
+    camera_in_use = restart("a")
+    simulator = camera_in_use.driver
+    camera_in_use.driver = SimpleNamespace(name="mc68hc11")
+    camera_in_use.step(10.0)
+    camera_in_use.open("fake:a")
+    camera_in_use.step(20.0)
+    camera_in_use.driver = simulator
+    camera_in_use.step(30.0)
+    assert camera_in_use.camera.identity.key == "fake:a"
 
 
-def test_who_closed_it_is_asked_anew(used):
-    first = used("a")
+def test_closed_camera_is_forgotten(restart):
+    first = restart("a")
     first.open("fake:a")
     first.step(0.1)
     first.close_and_forget()
     first.step(0.2)
-    assert used("a").camera.identity.key == "simulated:microscope"
+    assert restart("a").camera.identity.key == "simulated:microscope"
 
 
 @pytest.mark.parametrize("text", ["{", '{"identity": 3}', "[]", '{"settings": {"gain": "much"}}'])
-def test_a_spoilt_preference_is_as_none(tmp_path, text, caplog):
-    settings = Settings(tmp_path / "settings.json")
-    settings.set(KEY, text)
-    assert CameraMemory(settings).last is None
+def test_invalid_preference_is_ignored(tmp_path, text, caplog):
+    settings = UserSettings(tmp_path / "settings.json")
+    settings.set(LAST_CAMERA_KEY, text)
+    assert CameraMemory(settings).last_camera is None
     assert "microscope.camera is ignored" in caplog.text

@@ -1,4 +1,4 @@
-"""The whole microscope over a simulated machine: what a panel can ask, and what ends it."""
+"""The whole microscope on a simulated machine: requests of a panel, and failures."""
 
 import dataclasses
 import threading
@@ -6,382 +6,393 @@ import threading
 import numpy as np
 import pytest
 
-from rotemina.app.cameras.feed import FeedState
-from rotemina.app.microscope.calibration_run import Phase
+from rotemina.app.cameras import FeedState
+from rotemina.app.errors import MicroscopeError, RequestRefusedError
+from rotemina.app.microscope import (
+    MicroscopeActivity,
+    MicroscopeRunState,
+    ScaleSource,
+    StageCalibrationPhase,
+    TipState,
+    VisitState,
+    make_reference_record,
+)
 from rotemina.app.microscope.camera_in_use import CameraInUse
-from rotemina.app.microscope.click_corrections import Visit
-from rotemina.app.microscope.errors import MicroscopeError
-from rotemina.app.microscope.focus_run import Search
-from rotemina.app.microscope.recorded_reference import recorded_reference
-from rotemina.app.microscope.status import Activity, ScaleSource, TipState
-from rotemina.app.motion.mailbox import RefusedError
-from rotemina.app.motion.penetration.status import Phase as PenetrationPhase
-from rotemina.app.motion.recording.recording_reader import Recording
-from rotemina.app.motion.recording.session_recorder import SessionRecorder
-from rotemina.drivers.cameras.hub import CameraHub
-from rotemina.drivers.cameras.simulated import SimulatedMicroscope
-from rotemina.sim.records.record import Tap
-from rotemina.sim.vision.calibration import StageMap
+from rotemina.app.motion.penetration import PenetrationPhase
+from rotemina.app.motion.recording import Recording, SessionRecorder
+from rotemina.drivers.cameras import CameraHub, SimulatedMicroscope
+from rotemina.sim.records import Tap
+from rotemina.sim.vision import StageMap
 
 
-def still(work):
-    """Tell whether nothing moves from now on."""
-    before = dict(work.session.snapshot().command)
-    work.step(8)
-    return work.session.snapshot().command == before
+def is_at_rest(rig):
+    """Return whether nothing moves from now on."""
+    before = dict(rig.session.snapshot().command)
+    rig.step(8)
+    return rig.session.snapshot().command == before
 
 
-def test_nothing_is_opened_before_somebody_looks_and_then_by_itself(tmp_path, make_work):
-    work = make_work(tmp_path)
-    work.step(3)
-    assert work.feed is None
-    assert work.microscope.status.feed.frame is None
-    work.step(3)
-    status = work.microscope.status
+def test_camera_opens_only_once_a_view_reads_the_status(tmp_path, make_rig):
+    rig = make_rig(tmp_path)
+    rig.step(3)
+    assert rig.feed is None
+    assert rig.microscope.status.feed.frame is None
+    rig.step(3)
+    status = rig.microscope.status
     assert status.camera.key == "simulated:microscope"
     assert status.feed.frame is not None
     assert status.scale_source is ScaleSource.ROBOT_FILE
-    work.microscope.camera.close_and_forget()
-    work.step(40)
-    assert work.microscope.status.camera is None  # who closed it wants none
+    rig.microscope.camera.close_and_forget()
+    rig.step(40)
+    assert rig.microscope.status.camera is None  # a camera closed by the user stays closed
 
 
-def test_another_machine_than_the_simulated_is_said_in_words():
+def test_real_machine_is_reported_as_not_simulated():
     class Board:
         name = "MC68HC11 board"
 
     source = SimulatedMicroscope(Board)
-    used = CameraInUse(CameraHub({"simulated": source}), Board)
-    used.watched = True
-    used.step(0.0)
-    assert used.camera is None
-    assert "MC68HC11 board shows only a simulated machine" in used.truth
+    camera_in_use = CameraInUse(CameraHub({"simulated": source}), Board)
+    camera_in_use.is_watched = True
+    camera_in_use.step(0.0)
+    assert camera_in_use.camera is None
+    assert "MC68HC11 board shows only a simulated machine" in camera_in_use.simulation_problem
     with pytest.raises(MicroscopeError, match="there is no camera"):
-        used.open("simulated:microscope")
+        camera_in_use.open("simulated:microscope")
 
 
-def test_the_tip_is_found_in_whatever_direction_and_pictures_are_passed_over(work):
-    work.microscope.track(True)
-    work.step(2)
+def test_tip_is_found_in_any_direction_and_late_pictures_are_skipped(rig):
+    rig.microscope.track(True)
+    rig.step(2)
     for _ in range(4):
-        work.clock.advance(0.05)
-        work.feed.grab()
-    work.microscope.step(work.clock())
-    status = work.microscope.status
+        rig.clock.advance(0.05)
+        rig.feed.grab()
+    rig.microscope.step(rig.clock())
+    status = rig.microscope.status
     assert status.tip.state is TipState.TRACKED
-    assert status.tip.pixel == pytest.approx(work.true_pixel(), abs=0.2)
-    assert status.tip.place_m == pytest.approx(work.true_tip()[:2], abs=0.1e-6)
+    assert status.tip.pixel == pytest.approx(rig.true_pixel(), abs=0.2)
+    assert status.tip.position_m == pytest.approx(rig.true_tip()[:2], abs=0.1e-6)
     assert 0.0 < status.tip.sigma_px < 0.2
     assert status.frames_processed == 3
     assert status.frames_skipped >= 3
-    work.microscope.track(False)
-    work.step()
-    assert work.microscope.status.tip.state is TipState.OFF
+    rig.microscope.track(False)
+    rig.step()
+    assert rig.microscope.status.tip.state is TipState.OFF
 
 
-def test_a_click_lands_and_one_run_is_allowed_at_a_time(work):
-    work.tracking()
-    goal = work.true_pixel() + np.array([60.0, -40.0])
-    move = work.microscope.plan(goal)
-    assert work.microscope.status.planned.ghost == pytest.approx(goal, abs=0.1)
-    assert still(work)
-    assert not move.confirm
-    work.microscope.go()
+def test_click_lands_and_only_one_run_is_allowed_at_a_time(rig):
+    rig.start_tracking()
+    goal = rig.true_pixel() + np.array([60.0, -40.0])
+    move = rig.microscope.plan(goal)
+    assert rig.microscope.status.planned_move.predicted_px == pytest.approx(goal, abs=0.1)
+    assert is_at_rest(rig)
+    assert not move.needs_confirmation
+    rig.microscope.go()
     with pytest.raises(MicroscopeError, match="click is under way"):
-        work.microscope.calibrate("micro")
+        rig.microscope.calibrate("micro")
     with pytest.raises(MicroscopeError, match="click is under way"):
-        work.microscope.choose_objective("40x")
-    status = work.until(lambda status: status.activity is Activity.NONE)
-    assert status.visiting.visit is Visit.ARRIVED, status.visiting.reason
-    assert work.true_pixel() == pytest.approx(goal, abs=0.5)
-    assert status.path is not None
+        rig.microscope.choose_objective("40x")
+    status = rig.step_until(lambda status: status.activity is MicroscopeActivity.NONE)
+    assert status.visit_status.state is VisitState.ARRIVED, status.visit_status.reason
+    assert rig.true_pixel() == pytest.approx(goal, abs=0.5)
+    assert status.tip_path is not None
     assert np.ptp(status.nano_limits, axis=0).min() > 50.0
     with pytest.raises(MicroscopeError, match="no move is planned"):
-        work.microscope.go()
+        rig.microscope.go()
 
 
-def test_a_click_is_planned_from_where_the_tip_is_and_not_from_an_old_picture(work):
-    work.tracking()
-    at = work.session.snapshot().command
-    work.session.go_to({"x": at["x"] + 20e-6, "y": at["y"] - 15e-6})
-    for _ in range(40):  # the camera's pictures are late: none is looked at
-        work.clock.advance(0.05)
-        work.session.run_once()
-    assert not work.session.snapshot().queued
-    seen = work.microscope.status.tip.pixel
-    assert np.linalg.norm(work.true_pixel() - seen) > 50.0
-    goal = work.true_pixel() + np.array([30.0, 20.0])
-    work.microscope.plan(goal)
-    work.microscope.go()
-    status = work.until(lambda status: status.activity is Activity.NONE)
-    assert status.visiting.visit is Visit.ARRIVED, status.visiting.reason
-    assert work.true_pixel() == pytest.approx(goal, abs=0.5)
+def test_click_is_planned_from_the_current_tip_position(rig):
+    rig.start_tracking()
+    command = rig.session.snapshot().command
+    rig.session.go_to({"x": command["x"] + 20e-6, "y": command["y"] - 15e-6})
+    for _ in range(40):  # the camera's pictures are late, and none is processed
+        rig.clock.advance(0.05)
+        rig.session.run_once()
+    assert not rig.session.snapshot().queued
+    old_pixel = rig.microscope.status.tip.pixel
+    assert np.linalg.norm(rig.true_pixel() - old_pixel) > 50.0
+    goal = rig.true_pixel() + np.array([30.0, 20.0])
+    rig.microscope.plan(goal)
+    rig.microscope.go()
+    status = rig.step_until(lambda status: status.activity is MicroscopeActivity.NONE)
+    assert status.visit_status.state is VisitState.ARRIVED, status.visit_status.reason
+    assert rig.true_pixel() == pytest.approx(goal, abs=0.5)
 
 
-def test_a_click_wants_the_tip_tracked_and_a_far_one_confirmed(work):
-    work.microscope.plan(work.true_pixel() + 20.0)
+def test_click_needs_a_tracked_tip_and_far_click_a_confirmation(rig):
+    rig.microscope.plan(rig.true_pixel() + 20.0)
     with pytest.raises(MicroscopeError, match="not tracked"):
-        work.microscope.go()
-    work.tracking()
-    work.microscope.plan(np.array([600.0, 60.0]))
+        rig.microscope.go()
+    rig.start_tracking()
+    rig.microscope.plan(np.array([600.0, 60.0]))
     with pytest.raises(MicroscopeError, match="confirm"):
-        work.microscope.go()
-    assert work.microscope.status.activity is Activity.NONE
-    work.microscope.mark_target(np.array([600.0, 60.0]))
+        rig.microscope.go()
+    assert rig.microscope.status.activity is MicroscopeActivity.NONE
+    rig.microscope.mark_target(np.array([600.0, 60.0]))
     with pytest.raises(MicroscopeError, match="confirm"):
-        work.microscope.visit_next()
-    assert still(work)
+        rig.microscope.visit_next()
+    assert is_at_rest(rig)
 
 
-def frozen(work):
-    kept = work.feed.newest.pixels
-    work.feed.spoil = lambda frame: dataclasses.replace(frame, pixels=kept)
-    work.step(16)  # it takes a second until the same picture counts as frozen
+def freeze_camera(rig):
+    frozen_pixels = rig.feed.newest.pixels
+    rig.feed.transform_frame = lambda frame: dataclasses.replace(frame, pixels=frozen_pixels)
+    rig.step(16)  # a repeated picture counts as frozen after one second
 
 
-def test_a_tip_in_a_picture_that_is_no_longer_new_is_lost_until_the_next_new_one(work):
-    work.tracking()
-    frozen(work)
-    seen = work.microscope.status
-    assert (seen.feed.state, seen.tip.state) == (FeedState.FROZEN, TipState.LOST)
-    assert "the camera is frozen" in seen.tip.reason
-    work.feed.spoil = lambda frame: frame
-    work.step(2)
-    assert work.microscope.status.tip.state is TipState.TRACKED
+def test_tip_is_lost_while_the_camera_is_frozen(rig):
+    rig.start_tracking()
+    freeze_camera(rig)
+    status = rig.microscope.status
+    assert (status.feed.state, status.tip.state) == (FeedState.FROZEN, TipState.LOST)
+    assert "the camera is frozen" in status.tip.reason
+    rig.feed.transform_frame = lambda frame: frame
+    rig.step(2)
+    assert rig.microscope.status.tip.state is TipState.TRACKED
 
 
-def black(work):
-    work.feed.spoil = lambda frame: dataclasses.replace(frame, pixels=frame.pixels * np.uint16(0))
+def black_out_camera(rig):
+    rig.feed.transform_frame = lambda frame: dataclasses.replace(
+        frame, pixels=frame.pixels * np.uint16(0)
+    )
 
 
-def lost(work):
-    work.feed.lose("was unplugged")
+def unplug_camera(rig):
+    rig.feed.lose("was unplugged")
 
 
 @pytest.mark.parametrize(
-    ("spoil", "told"), [(frozen, "frozen"), (black, "black"), (lost, "unplugged")]
+    ("cause_fault", "message"),
+    [(freeze_camera, "frozen"), (black_out_camera, "black"), (unplug_camera, "unplugged")],
 )
-def test_a_camera_that_cannot_be_trusted_ends_what_moves_by_it(work, spoil, told):
-    work.tracking()
-    work.microscope.calibrate("micro")
-    work.step(6)
-    assert work.microscope.status.activity is Activity.CALIBRATION
-    spoil(work)
-    work.step(2)
-    status = work.microscope.status
-    assert status.activity is Activity.NONE
-    assert status.calibrating.phase is Phase.FAILED
-    assert told in status.calibrating.reason
-    work.step(5)
-    assert still(work)
-    with pytest.raises(MicroscopeError, match=told):
-        work.microscope.calibrate("micro")
+def test_camera_fault_ends_the_calibration(rig, cause_fault, message):
+    rig.start_tracking()
+    rig.microscope.calibrate("micro")
+    rig.step(6)
+    assert rig.microscope.status.activity is MicroscopeActivity.CALIBRATION
+    cause_fault(rig)
+    rig.step(2)
+    status = rig.microscope.status
+    assert status.activity is MicroscopeActivity.NONE
+    assert status.calibration_status.phase is StageCalibrationPhase.FAILED
+    assert message in status.calibration_status.reason
+    rig.step(5)
+    assert is_at_rest(rig)
+    with pytest.raises(MicroscopeError, match=message):
+        rig.microscope.calibrate("micro")
 
 
 @pytest.mark.slow
-def test_a_lost_tip_ends_a_click(work):
-    work.tracking()
-    work.microscope.plan(work.true_pixel() + np.array([250.0, 0.0]))
-    work.microscope.go(confirmed=True)
-    work.feed.camera.move_focus(450e-6)
-    status = work.until(lambda status: status.activity is Activity.NONE)
-    assert status.visiting.visit is Visit.FAILED
-    assert "tip is" in status.visiting.reason
-    work.step(5)
-    assert still(work)
+def test_lost_tip_ends_a_click(rig):
+    rig.start_tracking()
+    rig.microscope.plan(rig.true_pixel() + np.array([250.0, 0.0]))
+    rig.microscope.go(confirmed=True)
+    rig.feed.camera.move_focus(450e-6)
+    status = rig.step_until(lambda status: status.activity is MicroscopeActivity.NONE)
+    assert status.visit_status.state is VisitState.FAILED
+    assert "tip is" in status.visit_status.reason
+    rig.step(5)
+    assert is_at_rest(rig)
 
 
-def test_a_stop_since_the_wish_ends_a_click_and_a_visit_of_a_target(work):
-    """A yes that was said before the stop, and arrives after it, moves nothing."""
-    work.tracking()
-    place = work.true_pixel() + np.array([20.0, 0.0])
-    microscope, session = work.microscope, work.microscope.session
-    microscope.mark_target(place)
+def test_stop_invalidates_an_earlier_permit_of_a_click_or_visit(rig):
+    """A confirmation given before the stop that arrives after it does not move anything."""
+    rig.start_tracking()
+    pixel = rig.true_pixel() + np.array([20.0, 0.0])
+    microscope, session = rig.microscope, rig.microscope.session
+    microscope.mark_target(pixel)
     for go in (microscope.go, microscope.visit_next):
-        microscope.plan(place)
+        microscope.plan(pixel)
         permit = session.permit()
         session.stop()
-        with pytest.raises(RefusedError, match="try again"):
+        with pytest.raises(RequestRefusedError, match="try again"):
             go(confirmed=True, permit=permit)
-        work.step(2)
-        assert still(work)
+        rig.step(2)
+        assert is_at_rest(rig)
 
 
-def test_stop_ends_a_calibration_where_it_is(work):
-    work.tracking()
-    work.microscope.calibrate("nano")
-    work.step(8)
-    work.microscope.stop()
-    work.step(2)
-    status = work.microscope.status
-    assert status.activity is Activity.NONE
-    assert status.stopped == "stopped"
-    assert still(work)
+def test_stop_ends_a_calibration_in_place(rig):
+    rig.start_tracking()
+    rig.microscope.calibrate("nano")
+    rig.step(8)
+    rig.microscope.stop()
+    rig.step(2)
+    status = rig.microscope.status
+    assert status.activity is MicroscopeActivity.NONE
+    assert status.abort_reason == "stopped"
+    assert is_at_rest(rig)
 
 
 @pytest.mark.slow
-def test_what_the_autofocus_found_is_kept_for_the_next_start(work, tmp_path, make_work):
-    work.tracking()
-    work.microscope.adjustments.autofocus()
-    status = work.until(lambda status: status.activity is Activity.NONE)
-    assert status.focusing.search is Search.DONE, status.focusing.reason
+def test_autofocus_result_is_kept_for_the_next_start(rig, tmp_path, make_rig):
+    rig.start_tracking()
+    rig.microscope.procedures.autofocus()
+    status = rig.step_until(lambda status: status.activity is MicroscopeActivity.NONE)
+    assert status.focus_status.state is MicroscopeRunState.DONE, status.focus_status.reason
     assert 0.0 < status.calibration.focus.uncertainty < 1e-6
-    # The body climbs from the tip away: what is sharpest about it lies a little higher.
+    # The pipette rises away from the tip, so the sharpest focus lies slightly above the tip.
     assert abs(status.calibration.focus.sharpest) < 6e-6
-    again = make_work(tmp_path)
-    again.look()
-    assert again.microscope.status.calibration == status.calibration
-    again.microscope.choose_objective("40x")
-    again.step()
-    assert again.microscope.status.calibration is None
-    assert again.microscope.status.pixel_m == pytest.approx(0.1675e-6)
+    restarted_rig = make_rig(tmp_path)
+    restarted_rig.find_cameras()
+    assert restarted_rig.microscope.status.calibration == status.calibration
+    restarted_rig.microscope.choose_objective("40x")
+    restarted_rig.step()
+    assert restarted_rig.microscope.status.calibration is None
+    assert restarted_rig.microscope.status.pixel_m == pytest.approx(0.1675e-6)
     with pytest.raises(MicroscopeError, match="'axes' cannot focus"):
-        again.microscope.adjustments.autofocus("axes")
+        restarted_rig.microscope.procedures.autofocus("axes")
 
 
-def test_targets_are_visited_one_after_the_other(work):
-    work.tracking()
-    here, cell = work.true_pixel(), work.feed.camera.scene.cell
-    aside = here - work.optics.pixel_of(np.array(cell.centre_m))
-    aside /= np.linalg.norm(aside)
-    for away in (40.0, 80.0):
-        work.microscope.mark_target(here + away * aside)
-    work.microscope.mark_target(here)
-    work.microscope.positioning.sequence.remove(2)
-    for away in (40.0, 80.0):
-        work.microscope.visit_next()
+def test_targets_are_visited_one_after_another(rig):
+    rig.start_tracking()
+    tip_pixel, cell = rig.true_pixel(), rig.feed.camera.scene.cell
+    direction = tip_pixel - rig.optics.pixel_of(np.array(cell.centre_m))
+    direction /= np.linalg.norm(direction)
+    for distance_px in (40.0, 80.0):
+        rig.microscope.mark_target(tip_pixel + distance_px * direction)
+    rig.microscope.mark_target(tip_pixel)
+    rig.microscope.positioning.target_sequence.remove(2)
+    for distance_px in (40.0, 80.0):
+        rig.microscope.visit_next()
         with pytest.raises(MicroscopeError, match="moving to a target"):
-            work.microscope.positioning.sequence.clear()
-        status = work.until(lambda status: status.activity is Activity.NONE)
-        assert work.true_pixel() == pytest.approx(here + away * aside, abs=0.5)
-    assert [one.visit for one in status.targets] == [Visit.ARRIVED, Visit.ARRIVED]
+            rig.microscope.positioning.target_sequence.clear()
+        status = rig.step_until(lambda status: status.activity is MicroscopeActivity.NONE)
+        assert rig.true_pixel() == pytest.approx(tip_pixel + distance_px * direction, abs=0.5)
+    assert [target.visit for target in status.targets] == [VisitState.ARRIVED, VisitState.ARRIVED]
     with pytest.raises(MicroscopeError, match="every target"):
-        work.microscope.visit_next()
+        rig.microscope.visit_next()
 
 
-def test_cell_line_and_drift(work):
-    work.tracking()
-    cell = work.feed.camera.scene.cell
-    middle = work.optics.pixel_of(np.array(cell.centre_m))
-    work.microscope.outline_cell(middle + 8.0)
-    work.microscope.measure(middle, work.true_pixel())
-    work.microscope.jobs.watch_drift(True)
-    work.step(3)
-    status = work.microscope.status
+def test_cell_outline_measured_line_and_drift(rig):
+    rig.start_tracking()
+    cell = rig.feed.camera.scene.cell
+    middle = rig.optics.pixel_of(np.array(cell.centre_m))
+    rig.microscope.outline_cell(middle + 8.0)
+    rig.microscope.measure(middle, rig.true_pixel())
+    rig.microscope.picture_jobs.watch_drift(True)
+    rig.step(3)
+    status = rig.microscope.status
     assert status.cell.outline.centre == pytest.approx(middle, abs=1.0)
-    away = np.linalg.norm(work.true_pixel() - middle) * 0.33e-6
-    assert status.measured.length_m == pytest.approx(away, rel=0.03)
-    assert status.drift.watched
-    work.microscope.outline_cell(np.array([20.0, 20.0]))
-    work.step()
-    assert work.microscope.status.cell.outline is None
-    assert work.microscope.status.cell.reason
+    distance_m = np.linalg.norm(rig.true_pixel() - middle) * 0.33e-6
+    assert status.measured_line.length_m == pytest.approx(distance_m, rel=0.03)
+    assert status.drift.is_watched
+    rig.microscope.outline_cell(np.array([20.0, 20.0]))
+    rig.step()
+    assert rig.microscope.status.cell.outline is None
+    assert rig.microscope.status.cell.reason
 
 
-def test_while_a_penetration_is_armed_the_body_is_learnt(tmp_path, make_work):
+def test_pipette_body_is_learnt_while_a_penetration_is_armed(tmp_path, make_rig):
     phase = [PenetrationPhase.DISARMED]
-    work = make_work(tmp_path, penetration=lambda: phase[0])
-    work.look()
-    work.tracking()
+    rig = make_rig(tmp_path, read_penetration_phase=lambda: phase[0])
+    rig.find_cameras()
+    rig.start_tracking()
     for phase[0], learnt, dimple in (
         (PenetrationPhase.ARMED, 3, False),
         (PenetrationPhase.THRUST, 3, True),
         (PenetrationPhase.DONE, 0, False),
     ):
-        work.step(3)
-        track = work.microscope.tracker.tracked.track
-        assert (track.learnt, track.dimple) == (learnt, dimple)
-        assert track.pixel == pytest.approx(work.true_pixel(), abs=1.5)
+        rig.step(3)
+        track = rig.microscope.tracker.result.track
+        assert (track.learnt_frames, track.dimple) == (learnt, dimple)
+        assert track.pixel == pytest.approx(rig.true_pixel(), abs=1.5)
 
 
-def test_pictures_become_the_reference_of_a_record(tmp_path, make_work):
-    """From frames through a recording to a record whose ``ref`` is the true place."""
-    running = []
-    work = make_work(tmp_path, seconds=0.04, recorder=lambda: running[0] if running else None)
-    work.look()
-    work.calibrate_by_truth()
-    work.tracking()
-    recorder = SessionRecorder(work.session, tmp_path / "run.arrows", clock=work.clock)
+def test_pictures_become_the_reference_of_a_record(tmp_path, make_rig):
+    """From frames through a recording to a record whose ``ref`` is the true position."""
+    recorders = []
+    rig = make_rig(tmp_path, seconds=0.04, get_recorder=lambda: recorders[0] if recorders else None)
+    rig.find_cameras()
+    rig.store_true_calibration()
+    rig.start_tracking()
+    recorder = SessionRecorder(rig.session, tmp_path / "run.arrows", clock=rig.clock)
     recorder.start(thread=False)
-    running.append(recorder)
-    begin = work.session.snapshot().command["x"]
+    recorders.append(recorder)
+    start = rig.session.snapshot().command["x"]
     truth = []
     for step in range(36):
         if step == 10:
-            work.session.go_to({"x": begin + 30e-6}, speeds={"x": 40e-6})
-        work.step()
-        frame = work.microscope.tracker.tracked.frame
-        truth.append((frame.host_time_s, work.driver.true_positions[0]))
+            rig.session.go_to({"x": start + 30e-6}, speeds={"x": 40e-6})
+        rig.step()
+        frame = rig.microscope.tracker.result.frame
+        truth.append((frame.host_time_s, rig.driver.true_positions[0]))
     recorder.writer.run_once()
     recorder.close()
     recording = Recording.open(tmp_path / "run.arrows")
-    frames = recording.channel("frames")
+    frames = recording.read_channel("frames")
     assert np.all(np.diff(frames["number"]) >= 1.0)
-    assert np.array_equal(recording.channel("tip")["frame"], frames["number"])
-    record = recorded_reference(recording, "x")
-    seen = record.signal("x", Tap.REF)
-    times, places = np.array(truth).T
-    samples = recording.samples()
+    assert np.array_equal(recording.read_channel("tip")["frame"], frames["number"])
+    record = make_reference_record(recording, "x")
+    reference = record.signal("x", Tap.REF)
+    times, positions = np.array(truth).T
+    samples = recording.read_samples()
     at_s = np.interp(record.time_s, samples.device_time_s - samples.device_time_s[0],
                      samples.host_time_s)  # fmt: skip
-    assert seen == pytest.approx(np.interp(at_s, times, places), abs=0.1e-6)
-    assert np.ptp(seen) == pytest.approx(30e-6, rel=0.01)
+    assert reference == pytest.approx(np.interp(at_s, times, positions), abs=0.1e-6)
+    assert np.ptp(reference) == pytest.approx(30e-6, rel=0.01)
     with pytest.raises(MicroscopeError, match="depth has no zero"):
-        recorded_reference(recording, "zn")
+        make_reference_record(recording, "zn")
 
 
-def test_close_lets_go_of_everything(tmp_path, make_work):
-    work = make_work(tmp_path)
-    work.microscope.start()
-    work.microscope.close()
+def test_close_ends_all_threads(tmp_path, make_rig):
+    rig = make_rig(tmp_path)
+    rig.microscope.start()
+    rig.microscope.close()
     names = {thread.name for thread in threading.enumerate()}
     assert not names & {"microscope", "tip tracking", "cameras"}
 
 
 @pytest.mark.slow
-def test_over_the_edge_of_a_cell_the_nano_stage_lands_within_half_a_pixel(tmp_path, make_work):
-    """In the usual order: what the tip uncovers while it is calibrated becomes the background."""
-    work = make_work(tmp_path)
-    work.look()
+def test_nano_stage_lands_within_half_a_pixel_near_the_edge_of_a_cell(tmp_path, make_rig):
+    """In the usual order. The area uncovered during the calibration becomes the background."""
+    rig = make_rig(tmp_path)
+    rig.find_cameras()
     for stage in ("micro", "nano"):
-        work.microscope.calibrate(stage)
-        status = work.until(lambda status: status.activity is Activity.NONE)
-        assert status.calibrating.phase is Phase.DONE, status.calibrating.reason
+        rig.microscope.calibrate(stage)
+        status = rig.step_until(lambda status: status.activity is MicroscopeActivity.NONE)
+        assert status.calibration_status.phase is StageCalibrationPhase.DONE, (
+            status.calibration_status.reason
+        )
     assert status.tip.state is TipState.TRACKED
-    cell = work.feed.camera.scene.cell
-    middle = work.optics.pixel_of(np.array(cell.centre_m))
+    cell = rig.feed.camera.scene.cell
+    cell_centre = rig.optics.pixel_of(np.array(cell.centre_m))
     rng = np.random.default_rng(3)
     stages = []
     for angle in rng.uniform(0.0, 2.0 * np.pi, 8):
-        goal = middle + 60.0 * np.array([np.cos(angle), np.sin(angle)])  # about where it ends
-        stages.append(work.microscope.plan(goal).stage)
-        work.microscope.go(confirmed=True)
-        status = work.until(lambda status: status.activity is Activity.NONE)
-        assert status.visiting.visit is Visit.ARRIVED, status.visiting.reason
-        assert np.linalg.norm(work.true_pixel() - goal) < 0.5
+        # A point near the edge of the cell.
+        goal = cell_centre + 60.0 * np.array([np.cos(angle), np.sin(angle)])
+        stages.append(rig.microscope.plan(goal).stage)
+        rig.microscope.go(confirmed=True)
+        status = rig.step_until(lambda status: status.activity is MicroscopeActivity.NONE)
+        assert status.visit_status.state is VisitState.ARRIVED, status.visit_status.reason
+        assert np.linalg.norm(rig.true_pixel() - goal) < 0.5
     assert stages.count("nano") >= 5
 
 
 @pytest.mark.slow
-def test_the_whole_picture_is_calibrated_and_a_click_lands_within_half_a_pixel(tmp_path, make_work):
-    """The acceptance: full size, a hidden mounting, nothing known beforehand but the robot."""
+def test_full_size_calibration_and_clicks_land_within_half_a_pixel(tmp_path, make_rig):
+    """The acceptance test: full size, hidden mounting, and only the robot is known beforehand."""
     mounting = {"rotation_rad": -1.9, "mirrored": True, "skew_rad": 0.015, "pixel_m": 0.341e-6}
-    work = make_work(tmp_path, mounting)
-    work.look()
-    true = StageMap(work.optics.mapping[:, :2], np.zeros((4, 4))).geometry
+    rig = make_rig(tmp_path, mounting)
+    rig.find_cameras()
+    true_geometry = StageMap(rig.optics.mapping[:, :2], np.zeros((4, 4))).geometry
     for stage in ("micro", "nano"):
-        work.microscope.calibrate(stage)
-        status = work.until(lambda status: status.activity is Activity.NONE)
-        assert status.calibrating.phase is Phase.DONE, status.calibrating.reason
-        told = status.calibration.stage(stage).map.geometry
-        assert told.handedness == true.handedness
-        assert told.pixel_size == pytest.approx(true.pixel_size, rel=1e-3)
-        assert np.degrees(told.rotation) == pytest.approx(np.degrees(true.rotation), abs=0.05)
-        assert np.degrees(told.skew) == pytest.approx(np.degrees(true.skew), abs=0.05)
-    work.tracking()
+        rig.microscope.calibrate(stage)
+        status = rig.step_until(lambda status: status.activity is MicroscopeActivity.NONE)
+        assert status.calibration_status.phase is StageCalibrationPhase.DONE, (
+            status.calibration_status.reason
+        )
+        measured = status.calibration.get_stage(stage).map.geometry
+        assert measured.handedness == true_geometry.handedness
+        assert measured.pixel_size == pytest.approx(true_geometry.pixel_size, rel=1e-3)
+        assert np.degrees(measured.rotation) == pytest.approx(
+            np.degrees(true_geometry.rotation), abs=0.05
+        )
+        assert np.degrees(measured.skew) == pytest.approx(np.degrees(true_geometry.skew), abs=0.05)
+    rig.start_tracking()
     for goal in ((250.4, 300.7), (1000.0, 800.3), (700.2, 500.0), (680.0, 510.0)):
-        work.microscope.plan(np.array(goal))
-        work.microscope.go(confirmed=True)
-        status = work.until(lambda status: status.activity is Activity.NONE)
-        assert status.visiting.visit is Visit.ARRIVED, status.visiting.reason
-        assert np.linalg.norm(work.true_pixel() - goal) < 0.5
+        rig.microscope.plan(np.array(goal))
+        rig.microscope.go(confirmed=True)
+        status = rig.step_until(lambda status: status.activity is MicroscopeActivity.NONE)
+        assert status.visit_status.state is VisitState.ARRIVED, status.visit_status.reason
+        assert np.linalg.norm(rig.true_pixel() - goal) < 0.5

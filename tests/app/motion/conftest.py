@@ -1,4 +1,4 @@
-"""Sessions that tests step by hand, a driver that misbehaves on request, and boards as they run."""
+"""Sessions that a test steps, a driver that fails on request, and boards as processes."""
 
 import subprocess
 import sys
@@ -7,16 +7,16 @@ from contextlib import contextmanager
 import pytest
 
 from rotemina.app.motion.session import MotionSession
-from rotemina.app.motion.state import Faulted
-from rotemina.drivers.clock import VirtualClock
-from rotemina.drivers.samples import DeviceState
-from rotemina.drivers.simulator.driver import Simulator
+from rotemina.app.motion.state import FaultRaised
+from rotemina.drivers.contract import DeviceState, VirtualClock
+from rotemina.drivers.simulator import Simulator
 from rotemina.sim.errors import InputError
-from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot_files import load_robot
 
-TRIED_AGAIN = "tried again"  # as the summary of a run counts it
-TRIES = 4
-STARVED = (
+# Property that the summary of a test run counts.
+RETRY_PROPERTY = "tried again"
+MAX_TRIES = 4
+STARVATION_SYMPTOMS = (
     "a set-point came too late",
     "the host was silent",
     "has not answered for",
@@ -25,8 +25,8 @@ STARVED = (
 )
 
 
-class Unruly(Simulator):
-    """The simulator, with hooks that a test may replace by ``before[hook] = callable``."""
+class UnrulySimulator(Simulator):
+    """The simulator; a test can run code before a hook with ``before[hook] = callable``."""
 
     name = "unruly"
 
@@ -56,8 +56,8 @@ class Unruly(Simulator):
         super()._stop()
 
 
-class Stepped:
-    """A session without a thread, its clock, driver and events."""
+class SessionHarness:
+    """A session without a thread, with its clock, driver and events."""
 
     def __init__(self, driver, clock, **options):
         self.clock = clock
@@ -77,17 +77,17 @@ class Stepped:
             self.session.run_once()
         return self.session.snapshot()
 
-    def until(self, *activities, limit_s=60.0):
+    def step_until(self, *activities, limit_s=60.0):
         for _ in range(round(limit_s / 0.02)):
             state = self.step(0.02)
             if state.activity in activities:
                 return state
         raise AssertionError(f"still {self.session.snapshot()}")
 
-    def until_idle(self):
-        return self.until(DeviceState.IDLE)
+    def step_until_idle(self):
+        return self.step_until(DeviceState.IDLE)
 
-    def told(self, kind):
+    def list_events(self, kind):
         return [event for event in self.events if isinstance(event, kind)]
 
 
@@ -97,28 +97,28 @@ def clock():
 
 
 @pytest.fixture
-def stepped(clock):
-    return Stepped(Unruly(load_robot("rotemina"), clock=clock), clock).connect()
+def harness(clock):
+    return SessionHarness(UnrulySimulator(load_robot("rotemina"), clock=clock), clock).connect()
 
 
 @pytest.fixture
-def make_stepped(clock):
-    def make(robot="rotemina", connect=True, driver=Unruly, settings=None, **options):
+def make_harness(clock):
+    def make(robot="rotemina", connect=True, driver=UnrulySimulator, settings=None, **options):
         machine = load_robot(robot) if isinstance(robot, str) else robot
-        made = Stepped(driver(machine, settings, clock=clock), clock, **options)
-        return made.connect() if connect else made
+        harness = SessionHarness(driver(machine, settings, clock=clock), clock, **options)
+        return harness.connect() if connect else harness
 
     return make
 
 
 @pytest.fixture
-def stepped_type():
-    return Stepped
+def harness_type():
+    return SessionHarness
 
 
 @pytest.fixture
 def board_process():
-    """Serve both boards, each on a pseudo-terminal of its own; give names and standard input."""
+    """Serve both boards, each on its own pseudo-terminal; yield the ports and standard input."""
 
     @contextmanager
     def board_process(robot, *options):
@@ -142,23 +142,30 @@ def board_process():
 
 
 @pytest.fixture
-def patiently(request):
-    """Do what needs boards in real time; once more, where this machine was too busy for that.
+def retry_when_starved(request):
+    """Return a function that repeats a real-time test if the machine was too busy.
 
-    A machine that lets the program or the boards wait for longer than they do for one another
-    ends a motion, as it must, or leaves holes in what is recorded. What is done is given a list to
-    fill with the session's events.
+    On a busy machine the program or the boards exceed their time-outs. The motion then ends, as it
+    must, or samples are missing. The function under test receives a list, which it fills with the
+    events of the session.
     """
 
-    def patiently(work, tries=TRIES):
+    def retry_when_starved(work, tries=MAX_TRIES):
         events = []
         try:
             return work(events)
         except (AssertionError, InputError) as error:
-            said = [str(error), *(event.message for event in events if isinstance(event, Faulted))]
-            if tries == 1 or not any(sign in one for one in said for sign in STARVED):
+            messages = [
+                str(error),
+                *(event.message for event in events if isinstance(event, FaultRaised)),
+            ]
+            if tries == 1 or not any(
+                symptom in message_text
+                for message_text in messages
+                for symptom in STARVATION_SYMPTOMS
+            ):
                 raise
-            request.node.user_properties.append((TRIED_AGAIN, said[-1]))
-        return patiently(work, tries - 1)
+            request.node.user_properties.append((RETRY_PROPERTY, str(messages[-1])))
+        return retry_when_starved(work, tries - 1)
 
-    return patiently
+    return retry_when_starved

@@ -1,87 +1,98 @@
-"""A small model of requests, worker, drivers and stops, of which every interleaving is walked.
+"""Small model of requests, worker, drivers and stops that walks through all interleavings.
 
-Each actor is a list of atomic steps; between any two of them any other actor may take one of its
-own. What must hold is judged by what happened, not by what the model's gate counts.
+Each actor is a list of atomic steps; between any two of them any other actor may take a step. The
+required properties are checked on the events themselves, not on the counters of the gate.
 """
 
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
-STOP = ("shut", "drop", "look", "halt", "halt", "return")
+STOP_STEPS = ("shut", "drop", "look", "halt", "halt", "return")
 PROGRAMS = {
     "move": ("draw", "check", "pass", "queue"),
-    "speed": ("draw", "check", "pass", "queue"),  # with a lease
-    "clear": ("draw", "check", "pass", "queue"),  # a fault
-    "stop": STOP,
-    "emergency": STOP,
+    # A speed command has a lease.
+    "speed": ("draw", "check", "pass", "queue"),
+    # Clears a fault.
+    "clear": ("draw", "check", "pass", "queue"),
+    "stop": STOP_STEPS,
+    "emergency": STOP_STEPS,
     "release": ("release",),
-    "disconnect": (*STOP, "connection nothing"),
+    "disconnect": (*STOP_STEPS, "connection nothing"),
     "reconnect": ("connection own",),
-    "use": (*STOP, "exchange", "reconnected", "connection own"),
-    "lose": ("lose",),  # the link
-    "wait": ("wait",),  # until leases have run out
+    "use": (*STOP_STEPS, "exchange", "reconnected", "connection own"),
+    # The link is lost.
+    "lose": ("lose",),
+    # Waits until leases have expired.
+    "wait": ("wait",),
 }
-LET_GO = ("reconnected", "drop", "shut", "halt own", "close")
-CONNECT = ("drop", "open", "reconnected", "connected")
-#: Mistakes that the walk must find.
+DISCONNECT_STEPS = ("reconnected", "drop", "shut", "halt own", "close")
+CONNECT_STEPS = ("drop", "open", "reconnected", "connected")
+#: Mistakes in the gate that the walk must find.
 FLAWS = {
     "the permit is drawn after the check",
     "the permit is stamped when it is taken",
-    "the gate is asked before the write alone",
-    "the gate is shut after the drivers were told",
-    "a latch is not looked at",
-    "a stop reaches one driver alone",
+    "the gate is checked only before the write",
+    "the gate is shut after the drivers were halted",
+    "a latch is not checked",
+    "a stop reaches only one driver",
     "a connection is not counted",
-    "a lease is looked at before the write alone",
+    "a lease is checked only before the write",
 }
 
 
 class Counts(NamedTuple):
-    """Stops, connections and releases, as the gate counts them."""
+    """The numbers of stops, connections and releases, as counted by the gate."""
 
     stops: int = 0
     connections: int = 0
     releases: int = 0
 
 
-_NONE = Counts()
+_NO_COUNTS = Counts()
 
 
 @dataclass(frozen=True, slots=True)
 class Request:
-    """What somebody asked, the permit, and what had happened before."""
+    """A request with its permit, and the events before it."""
 
     kind: str
     permit: Counts | None = None
-    stops: frozenset[str] = frozenset()  # that had begun
+    # The stops that began before the request.
+    stops: frozenset[str] = frozenset()
     opening: int = 0
 
 
 @dataclass(frozen=True, slots=True)
 class State:
-    """Everything that there is; equal states have an equal future."""
+    """The complete state of the model; equal states have an equal future."""
 
-    at: tuple[int, ...]  # of each actor, its next step
-    requests: tuple[Request, ...]  # of each actor, what it asks for, if it does
-    seen: tuple[tuple[str, ...], ...]  # of each actor, the drivers that its stop has yet to tell
-    counts: Counts = _NONE
+    # Index of the next step of each actor.
+    at: tuple[int, ...]
+    # The request of each actor.
+    requests: tuple[Request, ...]
+    # The drivers that the stop of each actor still has to halt.
+    drivers_to_halt: tuple[tuple[str, ...], ...]
+    counts: Counts = _NO_COUNTS
     latched: bool = False
     queue: tuple[Request, ...] = ()
-    hand: Request | None = None
-    worker: tuple[str, ...] = ()  # what it does next
+    current_request: Request | None = None
+    # The next steps of the worker.
+    worker: tuple[str, ...] = ()
     connection_request: str | None = None
     session_driver: str = "a"
     worker_driver: str = "a"
     open: str | None = "a"
-    moving: Request | None = None  # why the open driver's machine moves
+    # The request that the machine of the open driver executes.
+    moving: Request | None = None
     connected: bool = True
     opening: int = 0
     lost: bool = False
     lease_over: bool = False
-    begun: frozenset[str] = frozenset()
-    returned: frozenset[str] = frozenset()
-    moved: frozenset[str] = frozenset()  # the kinds of requests that reached a device
-    wrong: str | None = None
+    begun_stops: frozenset[str] = frozenset()
+    returned_stops: frozenset[str] = frozenset()
+    # The kinds of requests that a device executed.
+    executed_kinds: frozenset[str] = frozenset()
+    violation: str | None = None
 
 
 Trace = tuple[str, ...]
@@ -89,7 +100,7 @@ Trace = tuple[str, ...]
 
 @dataclass(frozen=True)
 class Walk:
-    """What a walk has found: traces that between them come through every state, and faults."""
+    """Result of a walk: traces that together visit every state, and the faults."""
 
     states: int = 0
     traces: list[Trace] = field(default_factory=list)
@@ -97,7 +108,7 @@ class Walk:
 
 
 class Model:
-    """A few actors and the worker, with one of :data:`FLAWS` or none."""
+    """Several actors and the worker, optionally with one of the :data:`FLAWS`."""
 
     def __init__(self, *actors: str, flaw: str | None = None) -> None:
         assert flaw is None or flaw in FLAWS
@@ -106,8 +117,8 @@ class Model:
         self.programs = tuple(self._program(actor) for actor in actors)
 
     @property
-    def beginning(self) -> State:
-        """Connected, at rest."""
+    def initial_state(self) -> State:
+        """The initial state: connected, at rest."""
         none = tuple(() for _ in self.actors)
         return State(tuple(0 for _ in self.actors), tuple(map(Request, self.actors)), none)
 
@@ -115,67 +126,69 @@ class Model:
         steps = list(PROGRAMS[actor])
         if self.flaw == "the permit is drawn after the check" and steps[0] == "draw":
             steps[:2] = ["check", "draw"]
-        if self.flaw == "the gate is shut after the drivers were told" and steps[0] == "shut":
+        if self.flaw == "the gate is shut after the drivers were halted" and steps[0] == "shut":
             steps[:5] = ["drop", "look", "halt", "halt", "shut"]
         return tuple(steps)
 
-    # --- walking ----------------------------------------------------------------------------------
-
-    def able(self, state: State) -> list[str]:
-        """Return the actors, the worker among them, that can take a step."""
-        able = [
+    def find_ready_actors(self, state: State) -> list[str]:
+        """Return the actors that can take a step; the worker may be among them."""
+        ready_actors = [
             actor
             for actor, program, at in zip(self.actors, self.programs, state.at, strict=True)
             if at < len(program)
         ]
         waits = state.connection_request or (state.connected and (state.queue or state.lost))
-        return [*able, "worker"] if state.worker or waits else able
+        return [*ready_actors, "worker"] if state.worker or waits else ready_actors
 
     def step(self, state: State, actor: str) -> State:
         """Return the state after an actor's next step."""
         after = self._work(state) if actor == "worker" else self._act(state, actor)
         moving = after.moving
-        if moving is not None and not after.returned <= moving.stops and after.wrong is None:
-            after = replace(after, wrong="something asked before a stop moves after its return")
+        if (
+            moving is not None
+            and not after.returned_stops <= moving.stops
+            and after.violation is None
+        ):
+            after = replace(
+                after, violation="a request from before a stop moves after the stop has returned"
+            )
         return after
 
     def next_step(self, state: State, actor: str) -> str:
-        """Return what an actor's next step is called; "" where it is at its end."""
+        """Return the name of an actor's next step; "" at its end."""
         if actor == "worker":
             return self._plan(state)[0]
         index = self.actors.index(actor)
         return "".join(self.programs[index][state.at[index] : state.at[index] + 1])
 
     def walk(self) -> Walk:
-        """Take every step from every state that can be reached."""
-        found = Walk()
-        known = {self.beginning}
-        pending: list[tuple[State, Trace]] = [(self.beginning, ())]
+        """Take every possible step from every reachable state."""
+        result = Walk()
+        known_states = {self.initial_state}
+        pending: list[tuple[State, Trace]] = [(self.initial_state, ())]
         while pending:
             state, trace = pending.pop()
             new = False
-            for actor in self.able(state) if state.wrong is None else ():
+            for actor in self.find_ready_actors(state) if state.violation is None else ():
                 after = self.step(state, actor)
-                if after not in known:
-                    known.add(after)
+                if after not in known_states:
+                    known_states.add(after)
                     pending.append((after, (*trace, actor)))
                     new = True
-            if state.wrong is not None:
-                found.faults.setdefault(state.wrong, trace)
+            if state.violation is not None:
+                result.faults.setdefault(state.violation, trace)
             elif not new:
-                found.traces.append(trace)
-        return replace(found, states=len(known))
-
-    # --- the gate ---------------------------------------------------------------------------------
+                result.traces.append(trace)
+        return replace(result, states=len(known_states))
 
     def _passes(self, state: State, request: Request, *, writes: bool = False) -> bool:
         permit = request.permit
         assert permit is not None
-        if writes and self.flaw == "the gate is asked before the write alone":
+        if writes and self.flaw == "the gate is checked only before the write":
             return True
-        latched = state.latched and self.flaw != "a latch is not looked at"
+        latched = state.latched and self.flaw != "a latch is not checked"
         late = request.kind == "speed" and state.lease_over
-        if writes and self.flaw == "a lease is looked at before the write alone":
+        if writes and self.flaw == "a lease is checked only before the write":
             late = False
         exchanged = state.session_driver != state.worker_driver
         return not (permit != state.counts or latched or late or exchanged or not state.connected)
@@ -189,8 +202,6 @@ class Model:
             return state
         counts = state.counts._replace(connections=state.counts.connections + 1)
         return replace(state, counts=counts)
-
-    # --- those who ask ----------------------------------------------------------------------------
 
     def _act(self, state: State, actor: str) -> State:
         index = self.actors.index(actor)
@@ -218,13 +229,13 @@ class Model:
     def _ask(self, state: State, index: int, step: str) -> State:
         request = state.requests[index]
         if step == self.programs[index][0]:
-            request = replace(request, stops=state.begun, opening=state.opening)
+            request = replace(request, stops=state.begun_stops, opening=state.opening)
         if step == "draw":
             request = replace(request, permit=state.counts)
         state = replace(state, requests=_with(state.requests, index, request))
         exchanged = state.session_driver != state.worker_driver
         refused = {
-            "check": (state.latched and self.flaw != "a latch is not looked at")
+            "check": (state.latched and self.flaw != "a latch is not checked")
             or exchanged
             or not state.connected,
             "pass": step == "pass" and not self._passes(state, request),
@@ -236,35 +247,35 @@ class Model:
     def _halt(self, state: State, index: int, step: str) -> State:
         actor = self.actors[index]
         if step == self.programs[index][0]:
-            state = replace(state, begun=state.begun | {actor})
+            state = replace(state, begun_stops=state.begun_stops | {actor})
         if step == "shut":
             return self._shut(state, latch=actor == "emergency")
         if step == "drop":
             return replace(state, queue=())
         if step == "look":
             drivers = (state.worker_driver, state.session_driver)
-            if self.flaw == "a stop reaches one driver alone":
+            if self.flaw == "a stop reaches only one driver":
                 drivers = (state.session_driver, state.session_driver)
-            return replace(state, seen=_with(state.seen, index, drivers))
+            return replace(state, drivers_to_halt=_with(state.drivers_to_halt, index, drivers))
         if step == "halt":
-            driver, *left = state.seen[index]
-            state = replace(state, seen=_with(state.seen, index, tuple(left)))
+            driver, *remaining = state.drivers_to_halt[index]
+            state = replace(
+                state, drivers_to_halt=_with(state.drivers_to_halt, index, tuple(remaining))
+            )
             return _halted(state, driver)
-        return replace(state, returned=state.returned | {actor})
-
-    # --- the worker -------------------------------------------------------------------------------
+        return replace(state, returned_stops=state.returned_stops | {actor})
 
     def _plan(self, state: State) -> tuple[str, ...]:
-        """Return what the worker does next: what it has begun, or what waits for it."""
+        """Return the worker's next steps: the rest of its current job, or a pending one."""
         if state.worker:
             return state.worker
         if state.connection_request is not None:
             return ("take connection",)
-        return ("take", "hand over", "write") if state.queue else ("fail", *LET_GO)
+        return ("take", "hand over", "write") if state.queue else ("fail", *DISCONNECT_STEPS)
 
     def _work(self, state: State) -> State:
-        step, *left = self._plan(state)
-        state = replace(state, worker=tuple(left))
+        step, *remaining = self._plan(state)
+        state = replace(state, worker=tuple(remaining))
         if step == "take connection":
             return self._take_connection(state)
         if step == "take":
@@ -275,57 +286,63 @@ class Model:
             return self._reconnected(state)
         if step == "shut":
             return self._shut(state)
-        return self._connect(state, step, left)
+        return self._connect(state, step, remaining)
 
-    def _connect(self, state: State, step: str, left: list[str]) -> State:
+    def _connect(self, state: State, step: str, remaining: list[str]) -> State:
         if step == "drop":
-            return replace(state, queue=(), hand=None)
+            return replace(state, queue=(), current_request=None)
         if step == "halt own":
             return _halted(state, state.worker_driver)
         if step == "close":
             return replace(state, open=None, moving=None, connected=False)
         if step == "exchange":
-            return replace(state, worker_driver=left[0], worker=tuple(left[1:]))
+            return replace(state, worker_driver=remaining[0], worker=tuple(remaining[1:]))
         if step == "open":
             return replace(state, open=state.worker_driver, opening=state.opening + 1, lost=False)
         return replace(state, connected=True) if step == "connected" else state
 
     def _take_connection(self, state: State) -> State:
-        wanted, steps = state.connection_request, ()
-        if wanted != state.worker_driver:
-            steps = LET_GO
-        if wanted not in (state.worker_driver, "nothing"):
-            steps = (*steps, "exchange", str(wanted), *CONNECT)
-        elif wanted == state.worker_driver and not state.connected:
-            steps = CONNECT
+        requested, steps = state.connection_request, ()
+        if requested != state.worker_driver:
+            steps = DISCONNECT_STEPS
+        if requested not in (state.worker_driver, "nothing"):
+            steps = (*steps, "exchange", str(requested), *CONNECT_STEPS)
+        elif requested == state.worker_driver and not state.connected:
+            steps = CONNECT_STEPS
         return replace(state, connection_request=None, worker=steps)
 
     def _take(self, state: State) -> State:
-        if not state.queue:  # a stop has dropped it meanwhile
+        # A stop has dropped the queue in the meantime.
+        if not state.queue:
             return replace(state, worker=())
         request, *queue = state.queue
         if self.flaw == "the permit is stamped when it is taken":
             request = replace(request, permit=state.counts)
-        return replace(state, hand=request, queue=tuple(queue))
+        return replace(state, current_request=request, queue=tuple(queue))
 
     def _hand_over(self, state: State, *, writes: bool) -> State:
-        request = state.hand
+        request = state.current_request
         if request is None or not self._passes(state, request, writes=writes):
-            return replace(state, hand=None, worker=())
-        return self._written(replace(state, hand=None), request) if writes else state
+            return replace(state, current_request=None, worker=())
+        return self._written(replace(state, current_request=None), request) if writes else state
 
     def _written(self, state: State, request: Request) -> State:
-        wrong = None
-        if not state.returned <= request.stops:
-            wrong = "something is written after the return of a stop that it was asked before"
+        violation = None
+        if not state.returned_stops <= request.stops:
+            violation = "a request from before a stop is written after the stop has returned"
         elif state.latched:
-            wrong = "something is written while a stop is latched"
+            violation = "a request is written while a stop is latched"
         elif request.opening != state.opening or state.open is None:
-            wrong = "something is written that was asked of an earlier connection"
+            violation = "a request to an earlier connection is written"
         elif request.kind == "speed" and state.lease_over:
-            wrong = "a speed is written whose lease has run out"
+            violation = "a speed is written after its lease has run out"
         moving = state.moving if request.kind == "clear" else request
-        return replace(state, moving=moving, moved=state.moved | {request.kind}, wrong=wrong)
+        return replace(
+            state,
+            moving=moving,
+            executed_kinds=state.executed_kinds | {request.kind},
+            violation=violation,
+        )
 
 
 def _with(values, index, value):

@@ -1,12 +1,12 @@
-"""What a state takes over from the device, without a session."""
+"""The state that is taken from a device's status, without a session."""
 
 import pytest
 
-from rotemina.app.motion.device_report import with_status
+from rotemina.app.motion.device.device_report import with_status
 from rotemina.app.motion.state import SessionState
-from rotemina.drivers.samples import DeviceState, DeviceStatus
-from rotemina.drivers.simulator.driver import Simulator
-from rotemina.sim.robot.file import load_robot
+from rotemina.drivers.contract import DeviceState, DeviceStatus
+from rotemina.drivers.simulator import Simulator
+from rotemina.sim.robot_files import load_robot
 
 
 @pytest.fixture(scope="module")

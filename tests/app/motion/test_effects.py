@@ -1,95 +1,95 @@
-"""Effects of a simulated machine, switched through the session."""
+"""Effects of a simulated machine, set through the session."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from rotemina.app.motion.mailbox import RefusedError
+from rotemina.app.errors import RequestRefusedError
 from rotemina.app.motion.state import CommandRefused
-from rotemina.drivers.driver import Driver
+from rotemina.drivers.contract import Driver
 from rotemina.sim.effects import attachment
-from rotemina.sim.effects.errors import EffectError
-from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.errors import EffectError
+from rotemina.sim.robot import AxisEffect
 
-WIDE = AxisEffect(axis="thx", id="hysteresis", parameters={"width": 2e-4})
+WIDE_HYSTERESIS = AxisEffect(axis="thx", id="hysteresis", parameters={"width": 2e-4})
 
 
-def test_an_effect_parts_the_reading_from_the_model(stepped):
-    stepped.session.service.set_effects([WIDE])
-    stepped.step()
-    assert stepped.session.service.effects == (WIDE,)
-    stepped.session.go_to({"thx": 9e-4})
-    stepped.until_idle()
-    stepped.session.go_to({"thx": 6e-4})
-    stepped.until_idle()
-    stepped.step(0.5)
-    state = stepped.session.snapshot()
+def test_an_effect_separates_reading_and_model(harness):
+    harness.session.service.set_effects([WIDE_HYSTERESIS])
+    harness.step()
+    assert harness.session.service.effects == (WIDE_HYSTERESIS,)
+    harness.session.go_to({"thx": 9e-4})
+    harness.step_until_idle()
+    harness.session.go_to({"thx": 6e-4})
+    harness.step_until_idle()
+    harness.step(0.5)
+    state = harness.session.snapshot()
     assert abs(state.measured["thx"] - state.model["thx"]) > 2e-5
-    stepped.session.service.set_effects([])
-    stepped.step(0.01, times=100)
-    state = stepped.session.snapshot()
+    harness.session.service.set_effects([])
+    harness.step(0.01, times=100)
+    state = harness.session.snapshot()
     assert abs(state.measured["thx"] - state.model["thx"]) < 3e-6
 
 
-def test_a_bad_effect_is_refused_at_once(stepped):
+def test_a_bad_effect_is_refused_at_once(harness):
     with pytest.raises(EffectError, match="width = 1"):
-        stepped.session.service.set_effects(
+        harness.session.service.set_effects(
             [AxisEffect(axis="thx", id="hysteresis", parameters={"width": 1.0})]
         )
-    assert stepped.session.service.effects == ()
+    assert harness.session.service.effects == ()
 
 
-def test_effects_need_a_connection(make_stepped):
-    with pytest.raises(RefusedError, match="connect"):
-        make_stepped(connect=False).session.service.set_effects([WIDE])
+def test_effects_need_a_connection(make_harness):
+    with pytest.raises(RequestRefusedError, match="connect"):
+        make_harness(connect=False).session.service.set_effects([WIDE_HYSTERESIS])
 
 
-def test_effects_are_set_while_the_machine_moves_and_plays_on(stepped):
-    stepped.session.go_to({"x": 0.03})
-    stepped.step(0.05)
-    stepped.session.service.set_effects([WIDE])
-    state = stepped.until_idle()
-    assert stepped.told(CommandRefused) == []
+def test_effects_can_be_set_during_a_move_which_continues(harness):
+    harness.session.go_to({"x": 0.03})
+    harness.step(0.05)
+    harness.session.service.set_effects([WIDE_HYSTERESIS])
+    state = harness.step_until_idle()
+    assert harness.list_events(CommandRefused) == []
     np.testing.assert_allclose(state.measured["x"], 0.03, atol=1e-6)
 
 
-def test_a_stop_that_comes_while_effects_are_put_in_place_halts_the_machine(stepped, monkeypatch):
-    start = stepped.session.snapshot().measured["x"]
-    stepped.session.go_to({"x": start + 5e-3})
-    stepped.step(0.05)
-    put = stepped.driver._set_effects
+def test_a_stop_while_effects_are_being_set_halts_the_machine(harness, monkeypatch):
+    start = harness.session.snapshot().measured["x"]
+    harness.session.go_to({"x": start + 5e-3})
+    harness.step(0.05)
+    set_effects = harness.driver._set_effects
 
-    def put_slowly(effects, permit):
-        stepped.session.stop()
-        put(effects, permit)
+    def set_effects_after_stop(effects, permit):
+        harness.session.stop()
+        set_effects(effects, permit)
 
-    monkeypatch.setattr(stepped.driver, "_set_effects", put_slowly)
-    stepped.session.service.set_effects([WIDE])
-    state = stepped.until_idle()
-    assert stepped.session.service.effects == ()  # asked for before the stop
+    monkeypatch.setattr(harness.driver, "_set_effects", set_effects_after_stop)
+    harness.session.service.set_effects([WIDE_HYSTERESIS])
+    state = harness.step_until_idle()
+    assert harness.session.service.effects == ()  # requested before the stop
     assert 0.0 < state.measured["x"] - start < 4e-3
 
 
-def test_an_effect_whose_code_fails_is_refused_and_the_machine_goes_on(stepped, monkeypatch):
-    whole = attachment.effect_named("hysteresis")
-    broken = replace(whole.formulations[0], prepare=lambda values, _facts: 1.0 / 0.0)
+def test_an_effect_whose_code_fails_is_refused_and_the_machine_continues(harness, monkeypatch):
+    hysteresis = attachment.load_effect("hysteresis")
+    broken = replace(hysteresis.formulations[0], prepare=lambda values, _facts: 1.0 / 0.0)
     monkeypatch.setattr(
-        attachment, "effect_named", lambda _: replace(whole, formulations=(broken,))
+        attachment, "load_effect", lambda _: replace(hysteresis, formulations=(broken,))
     )
-    stepped.session.service.set_effects([WIDE])
-    stepped.step()
-    (refused,) = stepped.told(CommandRefused)
-    assert "axis.thx.effect hysteresis" in refused.message
-    assert "ZeroDivisionError" in refused.message
-    assert stepped.session.service.effects == ()
-    assert stepped.session.snapshot().locked is None
+    harness.session.service.set_effects([WIDE_HYSTERESIS])
+    harness.step()
+    (refusal,) = harness.list_events(CommandRefused)
+    assert "axis.thx.effect hysteresis" in refusal.message
+    assert "ZeroDivisionError" in refusal.message
+    assert harness.session.service.effects == ()
+    assert harness.session.snapshot().lock_reason is None
 
 
-def test_a_real_machine_has_effects_of_its_own(stepped, monkeypatch):
+def test_effects_of_a_real_machine_cannot_be_set(harness, monkeypatch):
     hooks = {name: lambda *_: None for name in Driver.__abstractmethods__}
-    board = type("Board", (Driver,), {"name": "board", **hooks})(stepped.session.robot)
-    monkeypatch.setattr(stepped.session._link, "driver", board)
-    assert stepped.session.service.effects is None
-    with pytest.raises(RefusedError, match="simulator"):
-        stepped.session.service.set_effects([WIDE])
+    board = type("Board", (Driver,), {"name": "board", **hooks})(harness.session.robot)
+    monkeypatch.setattr(harness.session._link, "driver", board)
+    assert harness.session.service.effects is None
+    with pytest.raises(RequestRefusedError, match="simulator"):
+        harness.session.service.set_effects([WIDE_HYSTERESIS])

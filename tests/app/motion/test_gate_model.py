@@ -1,4 +1,4 @@
-"""Every interleaving of requests, stops and connections; and the session goes the model's ways."""
+"""Every interleaving of requests, stops and connections, in the model and in the session."""
 
 import sys
 import threading
@@ -9,33 +9,33 @@ from pathlib import Path
 
 import pytest
 
-from rotemina.app.motion import mailbox
-from rotemina.app.motion.executor import Executor
-from rotemina.drivers.errors import DriverError
+from rotemina.app.motion.device import mailbox
+from rotemina.app.motion.device.executor import CommandExecutor
+from rotemina.drivers.contract import DriverError
 from rotemina.sim.errors import InputError
 
-sys.path.insert(0, str(Path(__file__).parent))  # no test module: the model
+sys.path.insert(0, str(Path(__file__).parent))  # for the model
 
 from gate_model import FLAWS, Model
 
 OTHERS = ("stop", "emergency", "release", "disconnect", "reconnect", "use", "lose", "wait")
 EVENTS = OTHERS[:-1]
-WAYS = {  # actors among whom each flaw shows
+ACTORS_BY_FLAW = {  # actors that reveal each flaw
     "the permit is drawn after the check": ("move", "stop"),
     "the permit is stamped when it is taken": ("move", "stop"),
-    "the gate is asked before the write alone": ("move", "stop"),
-    "the gate is shut after the drivers were told": ("move", "stop"),
-    "a latch is not looked at": ("clear", "emergency"),
-    "a stop reaches one driver alone": ("move", "stop", "use"),
+    "the gate is checked only before the write": ("move", "stop"),
+    "the gate is shut after the drivers were halted": ("move", "stop"),
+    "a latch is not checked": ("clear", "emergency"),
+    "a stop reaches only one driver": ("move", "stop", "use"),
     "a connection is not counted": ("move", "use"),
-    "a lease is looked at before the write alone": ("speed", "wait"),
+    "a lease is checked only before the write": ("speed", "wait"),
 }
 REST, TARGET = 0.0275, 0.05
 
 
 @pytest.mark.parametrize("request_name", ["move", "speed", "clear"])
 @pytest.mark.parametrize("other", OTHERS)
-def test_nothing_passes_that_must_not_beside_one_other(request_name, other):
+def test_no_violation_with_one_other_actor(request_name, other):
     walk = Model(request_name, other).walk()
     assert walk.states > 10
     assert not walk.faults
@@ -44,155 +44,161 @@ def test_nothing_passes_that_must_not_beside_one_other(request_name, other):
 @pytest.mark.parametrize(
     "others", [("stop", "use"), ("emergency", "release"), ("lose", "reconnect")]
 )
-def test_nothing_passes_that_must_not_beside_two_others(others):
+def test_no_violation_with_two_other_actors(others):
     assert not Model("move", *others).walk().faults
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("request_name", ["move", "speed", "clear"])
 @pytest.mark.parametrize("others", list(combinations(OTHERS, 2)))
-def test_nothing_passes_that_must_not_beside_any_two_others(request_name, others):
+def test_no_violation_with_any_two_other_actors(request_name, others):
     assert not Model(request_name, *others).walk().faults
 
 
 @pytest.mark.parametrize("flaw", sorted(FLAWS))
 def test_the_walk_finds_each_flaw(flaw):
-    assert Model(*WAYS[flaw], flaw=flaw).walk().faults
+    assert Model(*ACTORS_BY_FLAW[flaw], flaw=flaw).walk().faults
 
 
-# --- the same ways on the session -----------------------------------------------------------------
+# The same sequences on the session
 
-PLACES = ("draw", "check", "pass", "queue", "take", "hand over", "write", "end")
+STEPS = ("draw", "check", "pass", "queue", "take", "hand over", "write", "end")
 
 
-def modelled(plan):
-    """Go a way in which others act whole, each right before a step; return whether it moved."""
+def run_model(plan):
+    """Run a plan, in which each event happens completely before a step of the request.
+
+    Return whether the request was executed, and whether the machine moves.
+    """
     actors = ("move", *dict.fromkeys(event for _, event in plan if event != "turn"))
     model = Model(*actors)
-    state = model.beginning
+    state = model.initial_state
 
     def act(actor):
         nonlocal state
-        while actor in model.able(state):
+        while actor in model.find_ready_actors(state):
             state = model.step(state, actor)
 
-    for place in PLACES:
-        for event in [event for at, event in plan if at == place]:
+    for step in STEPS:
+        for event in [event for event_step, event in plan if event_step == step]:
             act("worker" if event == "turn" else event)
-        mover = "move" if place in PLACES[:4] else "worker"
-        if place != "end" and mover in model.able(state) and model.next_step(state, mover) == place:
+        mover = "move" if step in STEPS[:4] else "worker"
+        if (
+            step != "end"
+            and mover in model.find_ready_actors(state)
+            and model.next_step(state, mover) == step
+        ):
             state = model.step(state, mover)
     act("worker")
-    assert state.wrong is None
-    return "move" in state.moved, state.moving is not None
+    assert state.violation is None
+    return "move" in state.executed_kinds, state.moving is not None
 
 
-class Way:
-    """A session in virtual time, in which others act at the places of a request's way."""
+class InterceptedRequest:
+    """A session in virtual time, with events before the steps of a request."""
 
-    def __init__(self, stepped, plan, monkeypatch):
-        self.stepped, self.session = stepped, stepped.session
+    def __init__(self, harness, plan, monkeypatch):
+        self.harness, self.session = harness, harness.session
         self.plan = defaultdict(list)
-        for place, event in plan:
-            self.plan[place].append(event)
-        self.written = False
-        self.session._admission.lock = (
-            threading.RLock()
-        )  # the others act on the thread of the request
-        self._hook(monkeypatch)
+        for step, event in plan:
+            self.plan[step].append(event)
+        self.has_written = False
+        # The events happen on the thread of the request.
+        self.session._admission.lock = threading.RLock()
+        self._intercept(monkeypatch)
 
-    def _hook(self, monkeypatch):
+    def _intercept(self, monkeypatch):
         session = self.session
-        before = [
-            (session._admission, "drawn", "draw"),
-            (session._admission, "refuse_if_locked", "check"),
+        interceptions = [
+            (session._admission, "resolve_permit", "draw"),
+            (session._admission, "refuse_if_motion_blocked", "check"),
             (session._link.mailbox, "post", "pass"),
-            (session._link.mailbox, "take", "take"),
-            (Executor, "_hand_over", "hand over"),
-            (type(self.stepped.driver), "_move_to", "write"),
+            (session._link.mailbox, "take_command", "take"),
+            (CommandExecutor, "_dispatch", "hand over"),
+            (type(self.harness.driver), "_move_to", "write"),
         ]
-        for owner, name, place in before:
-            monkeypatch.setattr(owner, name, self._after(place, getattr(owner, name)))
-        compare = mailbox.refuse_overtaken
+        for owner, name, step in interceptions:
+            monkeypatch.setattr(owner, name, self._intercept_before(step, getattr(owner, name)))
+        compare = mailbox.refuse_invalidated_permit
 
-        def compared(permit):
+        def refuse_and_intercept(permit):
             compare(permit)
-            self.arrive("queue")
+            self.run_events("queue")
 
-        monkeypatch.setattr(mailbox, "refuse_overtaken", compared)
-        monkeypatch.setattr(Executor, "_halt_if_overtaken", lambda *_: None)
+        monkeypatch.setattr(mailbox, "refuse_invalidated_permit", refuse_and_intercept)
+        monkeypatch.setattr(CommandExecutor, "_halt_if_overtaken", lambda *_: None)
 
-    def _after(self, place, inner):
-        def hooked(*given, **named):
-            if place != "take" or len(self.session._link.mailbox):
-                self.arrive(place)
-            found = inner(*given, **named)
-            self.written |= place == "write"
-            return found
+    def _intercept_before(self, step, function):
+        def intercepted(*args, **kwargs):
+            if step != "take" or len(self.session._link.mailbox):
+                self.run_events(step)
+            result = function(*args, **kwargs)
+            self.has_written |= step == "write"
+            return result
 
-        return hooked
+        return intercepted
 
-    def arrive(self, place):
-        events, self.plan[place] = self.plan[place], []
+    def run_events(self, step):
+        events, self.plan[step] = self.plan[step], []
         for event in events:
             with suppress(InputError):
-                self.do(event)
+                self.run_event(event)
 
-    def do(self, event):
-        session, driver = self.session, self.stepped.driver
+    def run_event(self, event):
+        session, driver = self.session, self.harness.driver
         if event == "emergency":
             session.emergency_stop()
         elif event == "turn":
             session.run_once()
         elif event == "use":
-            new = type(driver)(session.robot, clock=self.stepped.clock)
-            session.use(new)
+            new = type(driver)(session.robot, clock=self.harness.clock)
+            session.use_driver(new)
         elif event == "lose":
-            self.lose(session._link.worker.driver)
+            self.lose_link(session._link.worker.driver)
         else:
             getattr(session, event)()
 
-    def lose(self, driver):
-        def silent():
+    def lose_link(self, driver):
+        def fail_to_read():
             raise DriverError("the link is lost")
 
-        driver.before["read"] = silent
+        driver.before["read"] = fail_to_read
         driver.before["open"] = lambda: driver.before.pop("read", None)
 
-    def gone(self):
-        """Go the way; return whether something was written, and whether it moves."""
+    def run(self):
+        """Run the request; return whether something was written, and whether the machine moves."""
         with suppress(InputError):
             self.session.go_to({"x": TARGET})
         self.session.run_once()
-        for place in PLACES:  # which the request has not come to
-            self.arrive(place)
+        for step in STEPS:  # the steps that the request did not reach
+            self.run_events(step)
         self.session.run_once()
-        self.stepped.step(0.05, 10)
+        self.harness.step(0.05, 10)
         driver = self.session._link.worker.driver
-        return self.written, driver.true_positions[0] > REST + 1e-3
+        return self.has_written, driver.true_positions[0] > REST + 1e-3
 
 
-def ways_beside_one():
-    for place, event in product(PLACES, EVENTS):
-        yield ((place, event),)
-        if place in PLACES[:4]:
-            yield ((place, event), (place, "turn"))
+def make_plans_with_one_event():
+    for step, event in product(STEPS, EVENTS):
+        yield ((step, event),)
+        if step in STEPS[:4]:
+            yield ((step, event), (step, "turn"))
 
 
-@pytest.mark.parametrize("plan", list(ways_beside_one()), ids=str)
-def test_the_session_goes_the_ways_of_the_model(stepped, monkeypatch, plan):
-    assert Way(stepped, plan, monkeypatch).gone() == modelled(plan)
+@pytest.mark.parametrize("plan", list(make_plans_with_one_event()), ids=str)
+def test_the_session_behaves_like_the_model(harness, monkeypatch, plan):
+    assert InterceptedRequest(harness, plan, monkeypatch).run() == run_model(plan)
 
 
-def ways_beside_two():
+def make_plans_with_two_events():
     for (first, second), event, other in product(
-        combinations_with_replacement(PLACES, 2), EVENTS, ("release", "reconnect", "stop")
+        combinations_with_replacement(STEPS, 2), EVENTS, ("release", "reconnect", "stop")
     ):
         if event != other:
             yield ((first, event), (second, other))
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("plan", list(ways_beside_two()), ids=str)
-def test_the_session_goes_the_ways_of_the_model_beside_two(stepped, monkeypatch, plan):
-    assert Way(stepped, plan, monkeypatch).gone() == modelled(plan)
+@pytest.mark.parametrize("plan", list(make_plans_with_two_events()), ids=str)
+def test_the_session_behaves_like_the_model_with_two_events(harness, monkeypatch, plan):
+    assert InterceptedRequest(harness, plan, monkeypatch).run() == run_model(plan)

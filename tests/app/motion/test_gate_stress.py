@@ -1,6 +1,6 @@
-"""Real threads at the window between a request's check and its act: the machine holds after a stop.
+"""Stops from real threads between the check and the execution of a request: the machine holds.
 
-200 of each kind, a tenth on boards; `make soak` asks ROTEMINA_STRESS times.
+There are 200 stops of each kind, and a tenth of it on boards; `make soak` sets ROTEMINA_STRESS.
 """
 
 import os
@@ -11,23 +11,23 @@ from contextlib import contextmanager, suppress
 import numpy as np
 import pytest
 
-from rotemina.app.motion.operation import Operation
-from rotemina.app.motion.penetration.parameters import PenetrationParameters
+from rotemina.app.motion.penetration import PenetrationParameters
 from rotemina.app.motion.session import MotionSession
-from rotemina.app.motion.state import Connection, Phase
-from rotemina.drivers.mc68hc11.driver import MC68HC11
-from rotemina.drivers.samples import DeviceState
-from rotemina.drivers.simulator.driver import Simulator
+from rotemina.app.motion.state import ConnectionState, SessionPhase
+from rotemina.app.operation import OperatorControl
+from rotemina.drivers.contract import DeviceState
+from rotemina.drivers.mc68hc11.driver import MC68HC11Driver
+from rotemina.drivers.simulator import Simulator
 from rotemina.sim.errors import InputError
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.file import load_robot
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot_files import load_robot
 
 pytestmark = pytest.mark.slow
 ROBOT = load_robot("rotemina")
 TIMES = int(os.environ.get("ROTEMINA_STRESS", "200"))
-ON_BOARDS = 0.1  # as often: their line is in real time
-# Of the stop, after the request: about twice what it takes from there to the device.
-LATEST_S = {
+BOARD_SHARE = 0.1  # of the number on the simulator, because their line is in real time
+# Of the stop after the request: about twice the time that the request takes to the device.
+MAX_DELAY_S = {
     "go_to": 2e-3,
     "jog": 2e-3,
     "velocity": 2e-3,
@@ -35,58 +35,58 @@ LATEST_S = {
     "recentre": 100e-3,
     "penetrate": 20e-3,
 }
-BRAKING_S = 0.1  # of any axis from any speed
-HOLDS_S = 0.03  # watched after each stop, on a machine at rest
-REST_S = 30.0
+BRAKING_S = 0.1  # for any axis from any speed
+HOLD_S = 0.03  # observation time after each stop, on a machine at rest
+MAX_WAIT_S = 30.0
 TIME_S = np.arange(101) / 100.0
 BOW = 1e-3 * np.sin(np.pi * TIME_S) ** 2
 
 
-class Stress:
+class StressedSession:
     """A session with its thread, and requests of every kind."""
 
     def __init__(self, session, folder):
         self.session = session
-        self.operation = Operation(session, folder, folder, told=lambda _: None)
-        self.begun = 0
+        self.operation = OperatorControl(session, folder, folder, notify=lambda _: None)
+        self.begun_motions = 0
         session.start()
-        self.wait(lambda: session.snapshot().phase is Phase.READY)
+        self.wait_until(lambda: session.snapshot().phase is SessionPhase.READY)
 
-    def wait(self, condition, limit_s=REST_S):
+    def wait_until(self, condition, limit_s=MAX_WAIT_S):
         end_s = time.monotonic() + limit_s
         pause = threading.Event()
         while not condition():
             assert time.monotonic() < end_s, self.session.snapshot()
             pause.wait(1e-3)
 
-    def rests(self):
+    def is_at_rest(self):
         state = self.session.snapshot()
         return self.session.at_rest and not state.stopping and state.silent_s == 0.0
 
-    def lost(self):
-        return self.session.snapshot().connection is not Connection.CONNECTED
+    def is_lost(self):
+        return self.session.snapshot().connection is not ConnectionState.CONNECTED
 
-    def seen_since(self, host_time_s):
-        return self.session.snapshot().sample_host_time_s > host_time_s and self.rests()
+    def has_rested_since(self, host_time_s):
+        return self.session.snapshot().sample_host_time_s > host_time_s and self.is_at_rest()
 
-    def ready(self):
+    def recover(self):
         """Recover as an operator would; the boards may have starved on a busy computer."""
         session = self.session
 
-        def able():
+        def can_move():
             state = session.snapshot()
             with suppress(InputError):
-                if state.connection is Connection.FAILED:
+                if state.connection is ConnectionState.FAILED:
                     session.reconnect()
                 elif state.fault is not None:
                     session.service.clear_fault()
-                elif state.locked and "confirm" in state.locked:
+                elif state.lock_reason and "confirm" in state.lock_reason:
                     session.confirm_position()
-            return state.locked is None and self.rests()
+            return state.lock_reason is None and self.is_at_rest()
 
-        self.wait(able)
+        self.wait_until(can_move)
 
-    # --- requests, each turned back before an end of the range ------------------------------------
+    # Requests, each reversed before an end of the range
 
     def go_to(self):
         x = self.session.snapshot().command["x"]
@@ -108,70 +108,70 @@ class Stress:
         self.operation.recentre()
 
     def penetrate(self):
-        """Press the button, and step on as its loop does."""
+        """Press the button, and step as the loop does."""
         penetration = self.operation.penetration
-        penetration.press(time.monotonic())
+        penetration.press_button(time.monotonic())
         for _ in range(3):
             penetration.step(time.monotonic())
 
     def prepare(self, kind):
         penetration = self.operation.penetration
         if kind == "penetrate":
-            penetration.step(time.monotonic())  # it hears of the stop before, and holds
+            penetration.step(time.monotonic())  # it processes the previous stop, and holds
             penetration.disarm()
-            self.bring(63e-6)  # room for the way of a penetration, downwards
-            self.wait(self.rests)
+            self.bring_near(63e-6)  # room for a penetration downwards
+            self.wait_until(self.is_at_rest)
             penetration.arm(PenetrationParameters(), time.monotonic())
         elif kind == "recentre":
-            self.bring(20e-6)
+            self.bring_near(20e-6)
 
-    def bring(self, zn, near=5e-7):
+    def bring_near(self, zn, near=5e-7):
         """Bring the nano axis near a position, m."""
         if abs(self.session.snapshot().command["zn"] - zn) > near:
             self.session.go_to({"zn": zn})
-            self.wait(lambda: abs(self.session.snapshot().command["zn"] - zn) <= near)
-            self.ready()
+            self.wait_until(lambda: abs(self.session.snapshot().command["zn"] - zn) <= near)
+            self.recover()
 
-    # --- the attack -------------------------------------------------------------------------------
+    # The stop
 
-    def attack(self, kind, delay_s):
-        """Ask on one thread and stop from another; when it rests it holds until the release."""
-        self.ready()
+    def stop_during_request(self, kind, delay_s):
+        """Send a request on one thread and stop from another; then the machine must hold."""
+        self.recover()
         self.prepare(kind)
-        together = threading.Barrier(2)
+        start = threading.Barrier(2)
 
-        def ask():
-            together.wait()
+        def send_request():
+            start.wait()
             with suppress(InputError):
                 getattr(self, kind)()
 
-        asking = threading.Thread(target=ask)
-        asking.start()
-        together.wait()
-        at_s = time.monotonic() + delay_s
-        while time.monotonic() < at_s:
+        request_thread = threading.Thread(target=send_request)
+        request_thread.start()
+        start.wait()
+        stop_s = time.monotonic() + delay_s
+        while time.monotonic() < stop_s:
             pass
         before = self.session.snapshot()
         self.session.emergency_stop()
-        self.holds(asking)
-        moved = dict(self.session.snapshot().command) != dict(before.command)
-        self.begun += moved or before.activity is not DeviceState.IDLE
+        self.assert_holds(request_thread)
+        has_moved = dict(self.session.snapshot().command) != dict(before.command)
+        self.begun_motions += has_moved or before.activity is not DeviceState.IDLE
         self.session.release()
 
-    def holds(self, asking):
-        asking.join()
-        # What had begun before the stop brakes: a state of before would say that it rests.
-        braked_s = self.session.stop_asked_s + BRAKING_S
-        self.wait(lambda: self.lost() or self.seen_since(braked_s))
-        if self.lost():  # a starved line; the boards hold by themselves
+    def assert_holds(self, request_thread):
+        request_thread.join()
+        # A motion from before the stop still brakes, and an older state would show it at rest.
+        braked_s = self.session.stop_requested_s + BRAKING_S
+        self.wait_until(lambda: self.is_lost() or self.has_rested_since(braked_s))
+        if self.is_lost():  # the line was starved; the boards hold by themselves
             return
         before = dict(self.session.snapshot().command)
-        end_s = time.monotonic() + HOLDS_S
-        self.wait(lambda: time.monotonic() > end_s)
-        planning = self.operation._planning
+        end_s = time.monotonic() + HOLD_S
+        self.wait_until(lambda: time.monotonic() > end_s)
+        planning = self.operation._planning_thread
         if planning is not None:
             planning.join()
-        assert self.lost() or dict(self.session.snapshot().command) == before
+        assert self.is_lost() or dict(self.session.snapshot().command) == before
 
 
 @pytest.fixture
@@ -188,7 +188,7 @@ def boards(board_process):
     @contextmanager
     def boards():
         with board_process("rotemina") as ((port, second), _):
-            yield MC68HC11(ROBOT, {"port": port, "second_port": second})
+            yield MC68HC11Driver(ROBOT, {"port": port, "second_port": second})
 
     return boards
 
@@ -197,13 +197,13 @@ def boards(board_process):
 @pytest.mark.parametrize("kind", ["go_to", "jog", "velocity", "play", "recentre", "penetrate"])
 def test_the_machine_holds_wherever_a_stop_meets_a_request(request, tmp_path, machine, kind):
     rng = np.random.default_rng(1)
-    times = TIMES if machine == "simulator" else max(round(ON_BOARDS * TIMES), 1)
+    times = TIMES if machine == "simulator" else max(round(BOARD_SHARE * TIMES), 1)
     with request.getfixturevalue(machine)() as driver:
-        stress = Stress(MotionSession(driver), tmp_path)
+        stress = StressedSession(MotionSession(driver), tmp_path)
         try:
             for _ in range(times):
-                stress.attack(kind, rng.uniform(0.0, LATEST_S[kind]))
+                stress.stop_during_request(kind, rng.uniform(0.0, MAX_DELAY_S[kind]))
         finally:
             stress.operation.close()
             stress.session.close()
-    print(f"{kind} on {machine}: {times} stops, {stress.begun} of a motion that had begun")
+    print(f"{kind} on {machine}: {times} stops, {stress.begun_motions} of them during a motion")

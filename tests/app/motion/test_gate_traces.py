@@ -1,7 +1,7 @@
-"""The model's own traces, step by step, on the real session: its threads take their steps in turn.
+"""Traces of the gate model, step by step on the real session.
 
-A trace of the model is an order in which actors and worker take their steps. Here every actor is a
-thread that waits before each of these steps, in the session's own code. Time is virtual.
+A trace is an order in which actors and worker take their steps. Here every actor is a thread that
+waits before each of these steps in the code of the session. Time is virtual.
 """
 
 import sys
@@ -13,50 +13,47 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rotemina.app.motion import mailbox
-from rotemina.app.motion.admission import Admission
-from rotemina.app.motion.executor import Executor
-from rotemina.app.motion.mailbox import Mailbox
-from rotemina.app.motion.recent_history import LiveHistory
-from rotemina.app.motion.worker import Worker
-from rotemina.drivers.errors import DriverError
-from rotemina.drivers.gate import Gate
+from rotemina.app.motion.device import LiveHistory, SessionWorker, mailbox
+from rotemina.app.motion.device.executor import CommandExecutor
+from rotemina.app.motion.device.mailbox import Mailbox
+from rotemina.app.motion.session.admission import RequestAdmission
+from rotemina.drivers.contract import DriverError, Gate
 from rotemina.sim.errors import InputError
 
-sys.path.insert(0, str(Path(__file__).parent))  # no test modules: the model, and the threads
+sys.path.insert(0, str(Path(__file__).parent))  # for the model and the threads
 
 from gate_model import PROGRAMS, Model
 from lockstep import DONE, Lock, Lockstep
 
 OTHERS = ("stop", "emergency", "release", "disconnect", "reconnect", "use", "lose", "wait")
-WHOLE = ("release", "reconnect", "lose", "wait")  # actors of one step
+SINGLE_STEP_ACTORS = ("release", "reconnect", "lose", "wait")  # actors of one step
 REST, TARGET, SPEED, LEASE_S = 0.0275, 0.05, 5e-3, 0.15
-LEAST_SHARE = 0.7  # of steps: a driver is told once where the model tells it twice, and so on
-MOST_TRACES = 8  # of three actors: a share of them, by a fixed seed
+MIN_STEP_SHARE = 0.7  # of the steps; for example, the session halts a driver once, the model twice
+MAX_TRACES = 8  # of three actors, chosen with a fixed seed
 
 
-class Traced:
-    """A session whose actors go the way of one trace."""
+class TracedSession:
+    """A session whose actors follow one trace."""
 
-    def __init__(self, stepped, monkeypatch, request_, others):
-        self.stepped, self.session, self.request = stepped, stepped.session, request_
+    def __init__(self, harness, monkeypatch, request_, others):
+        self.harness, self.session, self.request = harness, harness.session, request_
         self.steps = Lockstep()
-        self.first = stepped.driver
-        self.other = self._made_other()
-        self.begun, self.returned, self.before = set(), set(), None
-        self.written, self.wrong = False, []
+        self.first_driver = harness.driver
+        self.other_driver = self._make_other_driver()
+        self.begun_stops, self.returned_stops, self.stops_before_request = set(), set(), None
+        self.has_written, self.violations = False, []
         self.session._admission.lock = Lock(self.steps)
         self.session._link.worker.ownership._lock = Lock(self.steps)
-        monkeypatch.setattr(Executor, "_halt_if_overtaken", lambda *_: None)
-        self._hook(monkeypatch)
+        monkeypatch.setattr(CommandExecutor, "_halt_if_overtaken", lambda *_: None)
+        self._install_hooks(monkeypatch)
         for actor in (request_, *others):
             self.steps.start(actor, lambda actor=actor: self._act(actor))
         self.steps.start("worker", self._work)
 
-    # --- the actors -------------------------------------------------------------------------------
+    # The actors
 
     def _act(self, actor):
-        if actor in WHOLE:
+        if actor in SINGLE_STEP_ACTORS:
             self.steps.arrive(PROGRAMS[actor][0])
         with suppress(InputError):
             self._do(actor)
@@ -70,11 +67,11 @@ class Traced:
         elif actor == "emergency":
             session.emergency_stop()
         elif actor == "wait":
-            self.stepped.clock.advance(2.0 * LEASE_S)
+            self.harness.clock.advance(2.0 * LEASE_S)
         elif actor == "lose":
             self._lose(session._link.worker.driver)
         elif actor == "use":
-            session.use(self.other)
+            session.use_driver(self.other_driver)
         else:
             getattr(session, actor)()
 
@@ -86,17 +83,17 @@ class Traced:
             self.session.run_once()
 
     def _lose(self, driver):
-        def silent():
+        def fail_to_read():
             raise DriverError("the link is lost")
 
-        driver.before["read"] = silent
+        driver.before["read"] = fail_to_read
         driver.before["open"] = lambda: driver.before.pop("read", None)
 
-    def _made_other(self):
-        arrive, kind = self.steps.arrive, type(self.first)
+    def _make_other_driver(self):
+        arrive, kind = self.steps.arrive, type(self.first_driver)
 
-        class Other(kind):
-            """Another machine, which is put behind the session's gate at the exchange."""
+        class OtherMachine(kind):
+            """Another machine, which gets the gate of the session at the exchange."""
 
             @property
             def gate(self):
@@ -108,183 +105,188 @@ class Traced:
                     arrive("exchange")
                 self._gate = gate
 
-        return Other(self.session.robot, clock=self.stepped.clock)
+        return OtherMachine(self.session.robot, clock=self.harness.clock)
 
-    # --- where the session takes the model's steps ------------------------------------------------
+    # The calls in which the session takes the steps of the model
 
-    def _hook(self, monkeypatch):
+    def _install_hooks(self, monkeypatch):
         self._set = monkeypatch.setattr
-        self._hook_those_who_ask()
+        self._hook_requests()
         self._hook_stops()
-        self._hook_the_worker()
+        self._hook_worker()
 
-    def _before(self, kind, name, step, when=lambda: True):
-        """Have a step taken before a call, where that is one: ``step`` names it, or returns it."""
-        inner = getattr(kind, name)
+    def _add_step(self, kind, name, step, when=lambda: True):
+        """Take a step before a call; ``step`` is its name or returns it, or None."""
+        function = getattr(kind, name)
 
-        def hooked(*given, **named):
+        def step_and_call(*args, **kwargs):
             label = step() if callable(step) else step
             if label and when():
                 self.steps.arrive(label)
                 self._note(label)
-            return inner(*given, **named)
+            return function(*args, **kwargs)
 
-        self._set(kind, name, hooked)
+        self._set(kind, name, step_and_call)
 
-    def _asks(self):
+    def _is_requester(self):
         return self.steps.actor == self.request
 
-    def _works(self):
+    def _is_worker(self):
         return self.steps.actor == "worker"
 
-    def _hook_those_who_ask(self):
-        self._before(Gate, "permit", "draw", self._asks)
-        self._before(Admission, "refuse_if_locked", "check", self._asks)
-        self._before(mailbox, "refuse_overtaken", "pass", self._asks)
-        compare = mailbox.refuse_overtaken
+    def _hook_requests(self):
+        self._add_step(Gate, "permit", "draw", self._is_requester)
+        self._add_step(RequestAdmission, "refuse_if_motion_blocked", "check", self._is_requester)
+        self._add_step(mailbox, "refuse_invalidated_permit", "pass", self._is_requester)
+        refuse = mailbox.refuse_invalidated_permit
 
-        def compared(permit):
-            compare(permit)
-            if self._asks():
+        def refuse_and_step(permit):
+            refuse(permit)
+            if self._is_requester():
                 self.steps.arrive("queue")
 
-        self._set(mailbox, "refuse_overtaken", compared)
+        self._set(mailbox, "refuse_invalidated_permit", refuse_and_step)
         names = {"disconnect": "connection nothing", "use": "connection own"}
-        self._before(Mailbox, "request_connection", lambda: names.get(self.steps.actor))
+        self._add_step(Mailbox, "request_connection", lambda: names.get(self.steps.actor))
 
     def _hook_stops(self):
-        self._before(Gate, "stop", "shut")
+        self._add_step(Gate, "stop", "shut")
         clear = Mailbox.clear
 
-        def cleared(own):
+        def clear_with_steps(queue):
             self.steps.arrive("drop")
-            clear(own)
-            if not self._works():
+            clear(queue)
+            if not self._is_worker():
                 self.steps.arrive("look")
 
-        self._set(Mailbox, "clear", cleared)
-        driver = type(self.first)
-        self._before(driver, "halt", lambda: "halt own" if self._works() else "halt")
-        self._before(Worker, "stopped", "return")
+        self._set(Mailbox, "clear", clear_with_steps)
+        driver = type(self.first_driver)
+        self._add_step(driver, "halt", lambda: "halt own" if self._is_worker() else "halt")
+        self._add_step(SessionWorker, "note_stop", "return")
 
-    def _hook_the_worker(self):
-        box, driver = self.session._link.mailbox, type(self.first)
-        self._before(
+    def _hook_worker(self):
+        box, driver = self.session._link.mailbox, type(self.first_driver)
+        self._add_step(
             Mailbox,
             "take_connection_request",
             "take connection",
-            lambda: self._works() and box._connection_request,
+            lambda: self._is_worker() and box._connection_request,
         )
-        self._before(Mailbox, "take", "take", lambda: self._works() and len(box) > 0)
-        self._before(Gate, "reconnected", "reconnected")
-        self._before(Worker, "_use", "exchange")
-        self._before(driver, "open", "open")
-        self._before(driver, "close", "close")
-        self._before(LiveHistory, "clear", "connected")
-        self._before(Executor, "_hand_over", "hand over")
+        self._add_step(Mailbox, "take_command", "take", lambda: self._is_worker() and len(box) > 0)
+        self._add_step(Gate, "start_connection", "reconnected")
+        self._add_step(SessionWorker, "_use_driver", "exchange")
+        self._add_step(driver, "open", "open")
+        self._add_step(driver, "close", "close")
+        self._add_step(LiveHistory, "clear", "connected")
+        self._add_step(CommandExecutor, "_dispatch", "hand over")
         for name in ("_move_to", "_move_velocity"):
-            inner = getattr(driver, name)
+            function = getattr(driver, name)
 
-            def write(*given, inner=inner):
+            def write(*args, function=function):
                 self.steps.arrive("write")
-                inner(*given)
-                self._wrote()
+                function(*args)
+                self._check_write()
 
             self._set(driver, name, write)
 
     def _note(self, step):
         actor = self.steps.actor
         if actor == self.request and step == "draw":
-            self.before = frozenset(self.begun)
+            self.stops_before_request = frozenset(self.begun_stops)
         elif actor not in ("worker", None) and step == "shut":
-            self.begun.add(actor)
+            self.begun_stops.add(actor)
         elif step == "return":
-            self.returned.add(actor)
+            self.returned_stops.add(actor)
 
-    def _wrote(self):
-        self.written = True
-        if not self.returned <= self.before:
-            self.wrong.append(f"written after the return of {self.returned - self.before}")
-        if self.session._link.gate.latched is not None:
-            self.wrong.append("written while a stop is latched")
+    def _check_write(self):
+        self.has_written = True
+        if not self.returned_stops <= self.stops_before_request:
+            self.violations.append(
+                f"written after the return of {self.returned_stops - self.stops_before_request}"
+            )
+        if self.session._link.gate.latch_reason is not None:
+            self.violations.append("written while a stop is latched")
 
-    # --- the trace --------------------------------------------------------------------------------
+    # The trace
 
     def go(self, model, trace):
-        """Go a trace, then everything to its end; return how many of its steps were gone."""
-        state, gone = model.beginning, 0
+        """Follow a trace, then run to the end; return the number of steps taken."""
+        state, steps_taken = model.initial_state, 0
         for actor in trace:
             step = model.next_step(state, actor)
             state = model.step(state, actor)
             if actor == "worker":
-                self.steps.go("worker", "cycle")  # where it has just ended one
-            gone += self.steps.go(actor, step)
-        self.steps.let_go()
+                self.steps.go("worker", "cycle")  # if it has just ended a cycle
+            steps_taken += self.steps.go(actor, step)
+        self.steps.run_freely()
         for _ in range(3):
             self.session.run_once()
-        return gone
+        return steps_taken
 
-    def moves(self):
-        """Tell whether the machine that is connected goes anywhere from now on."""
+    def is_moving(self):
+        """Return whether the connected machine moves from now on."""
         driver = self.session._link.worker.driver
         before = np.array(driver.true_positions)
         for _ in range(20):
-            self.stepped.clock.advance(0.02)
+            self.harness.clock.advance(0.02)
             self.session.run_once()
         return abs(driver.true_positions[0] - before[0]) > 1e-4
 
 
-def goes(make_stepped, request_, others, traces):
-    """Let sessions go traces; return the share of steps that they took as the model does."""
-    model, gone, steps, written = Model(request_, *others), 0, 0, 0
+def run_traces(make_harness, request_, others, traces):
+    """Follow traces on sessions; return the share of steps taken and the number of writes."""
+    model, steps_taken, step_count, written_count = Model(request_, *others), 0, 0, 0
     for trace in traces:
         with pytest.MonkeyPatch.context() as monkeypatch:
-            traced = Traced(make_stepped(), monkeypatch, request_, others)
-            gone += traced.go(model, trace)
-            steps += len(trace)
-            written += traced.written
-            assert traced.wrong == [], trace
-            # Each stop that was asked for after the request halts what that began.
-            if traced.before is not None and not traced.returned <= traced.before:
-                assert not traced.moves(), trace
-            assert set(traced.steps.at.values()) == {DONE}
-    return gone / steps, written
+            traced_session = TracedSession(make_harness(), monkeypatch, request_, others)
+            steps_taken += traced_session.go(model, trace)
+            step_count += len(trace)
+            written_count += traced_session.has_written
+            assert traced_session.violations == [], trace
+            # A stop after the request halts the motion of the request.
+            if (
+                traced_session.stops_before_request is not None
+                and not traced_session.returned_stops <= traced_session.stops_before_request
+            ):
+                assert not traced_session.is_moving(), trace
+            assert set(traced_session.steps.at.values()) == {DONE}
+    return steps_taken / step_count, written_count
 
 
 @pytest.mark.parametrize("other", OTHERS)
-def test_every_trace_beside_one_other_on_the_session(make_stepped, other):
+def test_every_trace_with_one_other_actor_on_the_session(make_harness, other):
     traces = Model("move", other).walk().traces
-    share, written = goes(make_stepped, "move", (other,), traces)
-    assert share > LEAST_SHARE, "the session goes other ways than the model"
+    share, written = run_traces(make_harness, "move", (other,), traces)
+    assert share > MIN_STEP_SHARE, "the session differs from the model"
     assert 0 < written < len(traces) or other in ("release", "reconnect", "wait")
 
 
-def test_the_traces_find_a_session_that_stamps_its_permits_late(make_stepped, monkeypatch):
-    take = Mailbox.take
+def test_the_traces_find_a_session_that_stamps_its_permits_late(make_harness, monkeypatch):
+    take_command = Mailbox.take_command
 
-    def stamped(own):
-        posted = take(own)
-        if posted is None:
+    def take_with_new_permit(queue):
+        command = take_command(queue)
+        if command is None:
             return None
-        permit = posted.permit
-        return posted._replace(permit=replace(permit, epoch=permit.gate.epoch))
+        permit = command.permit
+        return command._replace(permit=replace(permit, epoch=permit.gate.epoch))
 
-    monkeypatch.setattr(Mailbox, "take", stamped)
+    monkeypatch.setattr(Mailbox, "take_command", take_with_new_permit)
     with pytest.raises(AssertionError, match="written after the return"):
-        goes(make_stepped, "move", ("stop",), Model("move", "stop").walk().traces)
+        run_traces(make_harness, "move", ("stop",), Model("move", "stop").walk().traces)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("other", OTHERS)
-def test_every_trace_of_a_speed_beside_one_other_on_the_session(make_stepped, other):
-    goes(make_stepped, "speed", (other,), Model("speed", other).walk().traces)
+def test_every_trace_of_a_speed_with_one_other_actor_on_the_session(make_harness, other):
+    run_traces(make_harness, "speed", (other,), Model("speed", other).walk().traces)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("request_", ["move", "speed"])
 @pytest.mark.parametrize("others", list(combinations(OTHERS, 2)))
-def test_traces_beside_any_two_others_on_the_session(make_stepped, request_, others):
+def test_traces_with_any_two_other_actors_on_the_session(make_harness, request_, others):
     traces = Model(request_, *others).walk().traces
     rng = np.random.default_rng(len(traces))
-    chosen = rng.choice(len(traces), min(MOST_TRACES, len(traces)), replace=False)
-    goes(make_stepped, request_, others, [traces[k] for k in chosen])
+    indices = rng.choice(len(traces), min(MAX_TRACES, len(traces)), replace=False)
+    run_traces(make_harness, request_, others, [traces[index] for index in indices])

@@ -1,4 +1,4 @@
-"""A program that is killed while the machine moves: the boards halt it by their own watchdog."""
+"""A program that is killed while the machine moves: the watchdog of the boards halts it."""
 
 import re
 import subprocess
@@ -8,29 +8,28 @@ import time
 
 import pytest
 
-from rotemina.drivers.errors import ConnectionLostError, DriverTimeoutError
-from rotemina.drivers.mc68hc11.driver import MC68HC11
-from rotemina.drivers.samples import DeviceState
-from rotemina.sim.robot.file import load_robot
+from rotemina.drivers.contract import ConnectionLostError, DeviceState, DriverTimeoutError
+from rotemina.drivers.mc68hc11.driver import MC68HC11Driver
+from rotemina.sim.robot_files import load_robot
 
 pytestmark = pytest.mark.slow  # in real time
 ROBOT = load_robot("rotemina")
 WATCHDOG_S = 0.5
-LATE_S = 0.3  # of a busy computer, and of the boards' own looks at their watchdog
-LONG_S = 60.0
+TOLERANCE_S = 0.3  # for a busy computer and the polling of the watchdog
+MAX_WAIT_S = 60.0
 TRIES = 4
-EARLY_S = 0.02  # of the clocks' agreement
+CLOCK_TOLERANCE_S = 0.02
 PROGRAM = """
 import sys, time
 import numpy as np
 from rotemina.app.motion.session import MotionSession
-from rotemina.drivers.mc68hc11.driver import MC68HC11
-from rotemina.drivers.profile import Profile, ProfileSegment
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.file import load_robot
+from rotemina.drivers.mc68hc11.driver import MC68HC11Driver
+from rotemina.drivers.abilities import MotionProfile, ProfileSegment
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot_files import load_robot
 
 ports = dict(zip(("port", "second_port"), sys.argv[2:]))
-session = MotionSession(MC68HC11(load_robot("rotemina"), ports))
+session = MotionSession(MC68HC11Driver(load_robot("rotemina"), ports))
 session.start()
 
 def wait(condition):
@@ -39,7 +38,7 @@ def wait(condition):
             sys.exit(1)
         time.sleep(1e-3)
 
-wait(lambda: session.snapshot().locked is None and session.at_rest)
+wait(lambda: session.snapshot().lock_reason is None and session.at_rest)
 begin = dict(session.snapshot().command)
 time_s = np.arange(1001) / 100.0
 axis, request = {
@@ -49,7 +48,7 @@ axis, request = {
     "profile": ("zn", lambda: session.profiles.trigger()),
 }[sys.argv[1]]
 if sys.argv[1] == "profile":
-    session.profiles.upload(Profile("zn", (ProfileSegment(3.0, 0.0, -30e-6, 20e-6),)))
+    session.profiles.upload(MotionProfile("zn", (ProfileSegment(3.0, 0.0, -30e-6, 20e-6),)))
     wait(lambda: session.at_rest)
 request()
 wait(lambda: abs(session.snapshot().command[axis] - begin[axis]) > 1e-6)
@@ -58,8 +57,8 @@ time.sleep(600)
 """
 
 
-class Boards:
-    """The process of the boards, and what it notes."""
+class BoardProcess:
+    """The process of the boards, and its output."""
 
     def __init__(self):
         self.process = subprocess.Popen(
@@ -68,84 +67,84 @@ class Boards:
             stdout=subprocess.PIPE,
             text=True,
         )
-        self.notes, self._came = [], threading.Condition()
+        self.notes, self._changed = [], threading.Condition()
         self._reader = threading.Thread(target=self._read)
         self._reader.start()
-        self.ports = [self.until(f"listening on (.*): board {n}").group(1) for n in (1, 2)]
-        self.began_s = float(self.until(r"0\.0000 s is (.*) s of").group(1))
+        self.ports = [self.wait_for_note(f"listening on (.*): board {n}").group(1) for n in (1, 2)]
+        self.began_s = float(self.wait_for_note(r"0\.0000 s is (.*) s of").group(1))
 
     def _read(self):
         for line in self.process.stdout:
-            with self._came:
+            with self._changed:
                 self.notes.append(line)
-                self._came.notify_all()
+                self._changed.notify_all()
 
-    def until(self, pattern):
-        def found():
-            return next(filter(None, (re.match(pattern, one) for one in self.notes)), None)
+    def wait_for_note(self, pattern):
+        def find_note():
+            return next(filter(None, (re.match(pattern, note) for note in self.notes)), None)
 
-        with self._came:
-            assert self._came.wait_for(found, LONG_S), self.notes
-        return found()
+        with self._changed:
+            assert self._changed.wait_for(find_note, MAX_WAIT_S), self.notes
+        return find_note()
 
     def end(self):
         self.process.terminate()
-        self.process.wait(LONG_S)
+        self.process.wait(MAX_WAIT_S)
         self._reader.join()
         self.process.stdout.close()
 
 
-def at_rest(ports):
-    """Connect once more, and return the command where the machine stands, seen for a while."""
-    driver = MC68HC11(ROBOT, dict(zip(("port", "second_port"), ports, strict=True)))
+def read_position_at_rest(ports):
+    """Connect again, check that the machine stays at rest, and return its command."""
+    driver = MC68HC11Driver(ROBOT, dict(zip(("port", "second_port"), ports, strict=True)))
     driver.open()
-    seen, end_s = [], time.monotonic() + 0.5
+    commands, end_s = [], time.monotonic() + 0.5
     while time.monotonic() < end_s or driver.status().state is DeviceState.MOVING:
-        seen += driver.read().command.tolist()
+        commands += driver.read().command.tolist()
         time.sleep(driver.service_period_s)
-        assert time.monotonic() < end_s + LONG_S
+        assert time.monotonic() < end_s + MAX_WAIT_S
     driver.close()
-    assert seen[0] == seen[-1]
-    return dict(zip(driver.axes, seen[-1], strict=True))
+    assert commands[0] == commands[-1]
+    return dict(zip(driver.axes, commands[-1], strict=True))
 
 
-def killed(what, boards):
-    """Kill a program in mid-motion; return the axis that moved, and when.
+def kill_during_motion(motion, boards):
+    """Kill a program during a motion; return the axis and the time, s.
 
-    None where the computer let program or boards wait for longer than they do for one another.
+    Return None if the program had already ended because the computer was too busy.
     """
-    command = [sys.executable, "-c", PROGRAM, what, *boards.ports]
+    command = [sys.executable, "-c", PROGRAM, motion, *boards.ports]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as program:
         axis = program.stdout.readline().strip()
         time.sleep(0.2)
-        starved = program.poll() is not None
+        has_ended_early = program.poll() is not None
         killed_s = time.monotonic()
         program.kill()
-    return None if starved else (axis, killed_s)
+    return None if has_ended_early else (axis, killed_s)
 
 
-@pytest.mark.parametrize("what", ["positional", "playback", "profile"])
-def test_the_boards_halt_what_a_killed_program_began(what):
+@pytest.mark.parametrize("motion", ["positional", "playback", "profile"])
+def test_the_boards_halt_the_motion_of_a_killed_program(motion):
     for _ in range(TRIES):
-        boards = Boards()
+        boards = BoardProcess()
         try:
-            found = killed(what, boards)
-            if found is None:
+            killed_motion = kill_during_motion(motion, boards)
+            if killed_motion is None:
                 continue
-            axis, killed_s = found
+            axis, killed_s = killed_motion
             board = 1 if axis == "x" else 2
             pattern = rf"([0-9.]+) s: board {board}: fault (WATCHDOG|LATE_SETPOINT)"
-            fault = boards.until(pattern)
+            fault = boards.wait_for_note(pattern)
             after_s = boards.began_s + float(fault.group(1)) - killed_s
-            if after_s < -EARLY_S:
-                continue  # the boards had starved before
-            print(f"{what}: {fault.group(2)} {1e3 * after_s:.0f} ms after the program's end")
-            assert after_s < WATCHDOG_S + LATE_S
+            if after_s < -CLOCK_TOLERANCE_S:
+                continue  # the boards had starved before the kill
+            print(f"{motion}: {fault.group(2)} {1e3 * after_s:.0f} ms after the program's end")
+            assert after_s < WATCHDOG_S + TOLERANCE_S
             try:
-                end = at_rest(boards.ports)
+                end = read_position_at_rest(boards.ports)
             except (ConnectionLostError, DriverTimeoutError):
                 continue
-            # On the way from the middle of the range, and not at its end.
+            # The axis is on its way from the middle of the range, and not at its end.
             assert 0.0275 < end["x"] < 0.04 if axis == "x" else 22.6e-6 < end["zn"] < 32.5e-6, end
             return
         finally:

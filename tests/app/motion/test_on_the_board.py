@@ -1,4 +1,4 @@
-"""The whole way: a trajectory on virtual boards at true baud, recorded, and diagnosed."""
+"""End to end: a trajectory on virtual boards at the real baud rate, recorded and diagnosed."""
 
 import threading
 import time
@@ -8,64 +8,69 @@ from importlib.resources import files
 import numpy as np
 import pytest
 
-from rotemina.app.motion.mailbox import RefusedError
+from rotemina.app.errors import RequestRefusedError
 from rotemina.app.motion.session import MotionSession
-from rotemina.app.motion.state import CommandRefused, Faulted, Phase, PlaybackFinished
-from rotemina.drivers.mc68hc11.driver import MC68HC11
-from rotemina.drivers.samples import DeviceState
-from rotemina.sim.gap.diagnosis_pipeline import diagnose
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.file import load_robot
+from rotemina.app.motion.state import (
+    CommandRefused,
+    FaultRaised,
+    PlaybackFinished,
+    SessionPhase,
+)
+from rotemina.drivers.contract import DeviceState
+from rotemina.drivers.mc68hc11.driver import MC68HC11Driver
+from rotemina.sim.gap.pipeline import diagnose
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot_files import load_robot
 
 pytestmark = pytest.mark.slow
 ROBOT = load_robot("rotemina")
 CONNECTING_S, PLAYING_S = 20.0, 30.0
 DURATION_S = 8.0
 PERIOD_S = 5e-3
-STILL = (DeviceState.IDLE, DeviceState.FAULT, DeviceState.CLOSED)
-HOLES = "samples are missing"
+STANDSTILL_STATES = (DeviceState.IDLE, DeviceState.FAULT, DeviceState.CLOSED)
+GAP_MESSAGE = "samples are missing"
 MISBEHAVING_S = 25.0
 
 
-class Told:
-    """The events of a session, and a way to wait for them."""
+class EventLog:
+    """The events of a session, and methods that wait for them."""
 
     def __init__(self, session, events):
         self.session = session
         self.events = events
-        self._came = threading.Condition()
+        self._changed = threading.Condition()
         session.subscribe(self._note)
 
     def _note(self, event):
-        with self._came:
+        with self._changed:
             self.events.append(event)
-            self._came.notify_all()
+            self._changed.notify_all()
 
-    def until(self, condition, limit_s):
-        with self._came:
+    def wait_until(self, condition, limit_s):
+        with self._changed:
             end_s = time.monotonic() + limit_s
             while not condition():
-                left_s = end_s - time.monotonic()
-                assert left_s > 0.0, (self.session.snapshot(), self.events)
-                self._came.wait(min(left_s, 0.05))
+                remaining_s = end_s - time.monotonic()
+                assert remaining_s > 0.0, (self.session.snapshot(), self.events)
+                self._changed.wait(min(remaining_s, 0.05))
 
-    def wait(self, limit_s):
-        """Wait for the next event, or so long."""
-        with self._came:
-            self._came.wait(limit_s)
+    def wait_for_event(self, limit_s):
+        """Wait for the next event, at most for ``limit_s``."""
+        with self._changed:
+            self._changed.wait(limit_s)
 
-    def of(self, kind):
+    def list_events(self, kind):
         return [event for event in self.events if isinstance(event, kind)]
 
 
-def gentle(time_s):
-    """Rise and fall at the ends."""
+def make_window(time_s):
+    """Return a window that rises and falls in one second at the ends."""
     return np.minimum(1.0, time_s) * np.minimum(1.0, time_s[-1] - time_s)
 
 
-def excitations(period_s):
+def make_excitations(period_s):
     time_s = np.arange(round(DURATION_S / period_s)) * period_s
-    window = gentle(time_s)
+    window = make_window(time_s)
     sweep = window * np.sin(2 * np.pi * (0.3 * time_s + 0.25 * time_s**2))
     swing = window * np.sin(2 * np.pi * 1.1 * time_s)
     units = {"x": "m", "zn": "m"}
@@ -75,101 +80,113 @@ def excitations(period_s):
 
 
 @pytest.fixture
-def record(board_process, patiently):
-    """Play both excitations on boards with a robot behind them; return the records."""
-    return lambda robot: patiently(lambda events: played(board_process(robot), events))
+def record_excitations(board_process, retry_when_starved):
+    """Return a function that plays both excitations on the boards of a robot."""
+    return lambda robot: retry_when_starved(
+        lambda events: play_excitations(board_process(robot), events)
+    )
 
 
-def played(boards, events):
+def play_excitations(boards, events):
     with boards as ((port, second), _):
-        session = MotionSession(MC68HC11(ROBOT, {"port": port, "second_port": second}))
-        told = Told(session, events)
+        session = MotionSession(MC68HC11Driver(ROBOT, {"port": port, "second_port": second}))
+        event_log = EventLog(session, events)
         session.start()
         try:
-            told.until(lambda: session.snapshot().phase is Phase.READY, CONNECTING_S)
-            for number, trajectory in enumerate(excitations(session.setpoint_period_s)):
+            event_log.wait_until(
+                lambda: session.snapshot().phase is SessionPhase.READY, CONNECTING_S
+            )
+            for number, trajectory in enumerate(make_excitations(session.setpoint_period_s)):
                 session.play(trajectory)
-                told.until(lambda n=number: len(told.of(PlaybackFinished)) > n, PLAYING_S)
-                # What was cut off still brakes; why it was is told when it stands.
-                told.until(lambda: session.snapshot().activity in STILL, PLAYING_S)
-                assert told.of(PlaybackFinished)[number].completed
+                event_log.wait_until(
+                    lambda n=number: len(event_log.list_events(PlaybackFinished)) > n, PLAYING_S
+                )
+                # An interrupted playback still brakes; its reason is reported at standstill.
+                event_log.wait_until(
+                    lambda: session.snapshot().activity in STANDSTILL_STATES, PLAYING_S
+                )
+                assert event_log.list_events(PlaybackFinished)[number].completed
             link = session.snapshot().link
         finally:
             session.close()
-    assert not told.of(Faulted)
-    assert not told.of(CommandRefused)
+    assert not event_log.list_events(FaultRaised)
+    assert not event_log.list_events(CommandRefused)
     assert link.rejected == 0
-    records = [one.record for one in told.of(PlaybackFinished)]
-    for one in records:
-        np.testing.assert_allclose(np.diff(one.time_s), PERIOD_S, rtol=1e-6, err_msg=HOLES)
+    records = [record.record for record in event_log.list_events(PlaybackFinished)]
+    for record in records:
+        np.testing.assert_allclose(np.diff(record.time_s), PERIOD_S, rtol=1e-6, err_msg=GAP_MESSAGE)
     return records
 
 
-def effects_file(folder, axis, effect):
+def write_effect_file(folder, axis, effect):
     path = folder / f"{effect}.toml"
     text = files("rotemina.resources.robots").joinpath("rotemina.toml").read_text("utf-8")
     path.write_text(f'{text}\n[[axis.{axis}.effect]]\nid = "{effect}"\n', "utf-8")
     return path
 
 
-def test_what_the_nominal_machine_played_shows_no_gap(record):
-    records = record("rotemina")
-    for one, asked in zip(records, excitations(PERIOD_S), strict=True):
+def test_a_record_of_the_nominal_machine_shows_no_gap(record_excitations):
+    records = record_excitations("rotemina")
+    for record, trajectory in zip(records, make_excitations(PERIOD_S), strict=True):
         for axis, step in (("x", 1e-7), ("zn", 1e-9)):
-            wanted = asked.signal(axis, Tap.CMD)
-            assert np.abs(one.signal(axis, Tap.CMD) - wanted).max() <= 0.5001 * step
+            command = trajectory.signal(axis, Tap.CMD)
+            assert np.abs(record.signal(axis, Tap.CMD) - command).max() <= 0.5001 * step
     diagnosis = diagnose(ROBOT, records)
     assert diagnosis.verdict.value == "none"
     assert not diagnosis.causes
 
 
 @pytest.mark.parametrize(("axis", "effect"), [("zn", "hysteresis"), ("x", "backlash")])
-def test_a_machine_with_one_effect_is_diagnosed_as_that_effect(tmp_path, record, axis, effect):
-    records = record(effects_file(tmp_path, axis, effect))
+def test_the_effect_of_a_machine_is_diagnosed(tmp_path, record_excitations, axis, effect):
+    records = record_excitations(write_effect_file(tmp_path, axis, effect))
     diagnosis = diagnose(ROBOT, records)
     assert diagnosis.verdict.value == "explained"
-    assert [(one.axis, one.effect) for one in diagnosis.causes] == [(axis, effect)]
+    assert [(cause.axis, cause.effect) for cause in diagnosis.causes] == [(axis, effect)]
     assert diagnosis.causes[0].closed >= 0.95
 
 
 def recover(session):
-    """Do the next thing that an operator would do to be able to move again."""
+    """Do the next step of an operator who wants to move again."""
     state = session.snapshot()
-    if state.phase is Phase.DISCONNECTED:
+    if state.phase is SessionPhase.DISCONNECTED:
         session.reconnect()
     elif state.fault is not None:
         session.service.clear_fault()
     elif state.unhomed:
         session.home()
-    elif state.locked and "confirm" in state.locked:
+    elif state.lock_reason and "confirm" in state.lock_reason:
         session.confirm_position()
 
 
-def test_the_worker_outlives_a_line_that_misbehaves(board_process):
+def test_the_worker_survives_a_faulty_line(board_process):
     rng = np.random.default_rng(0)
     faults = ("silence 0.2 s", "silence 1 s", "reset 1", "brown-out 2", "garbage 20", "space 0.1 s")
     with board_process("rotemina", "--mishaps", "2") as ((port, second), commands):
-        session = MotionSession(MC68HC11(ROBOT, {"port": port, "second_port": second}))
-        told = Told(session, [])
+        session = MotionSession(MC68HC11Driver(ROBOT, {"port": port, "second_port": second}))
+        event_log = EventLog(session, [])
         session.start()
-        asked = 0
+        request_count = 0
         try:
-            told.until(lambda: session.snapshot().phase is Phase.READY, CONNECTING_S)
+            event_log.wait_until(
+                lambda: session.snapshot().phase is SessionPhase.READY, CONNECTING_S
+            )
             end_s = time.monotonic() + MISBEHAVING_S
             while time.monotonic() < end_s:
-                with suppress(RefusedError):
+                with suppress(RequestRefusedError):
                     recover(session)
                     session.go_to({"zn": float(rng.uniform(5e-6, 60e-6))})
-                    asked += 1
+                    request_count += 1
                 if rng.uniform() < 0.05:
                     commands.write(f"{faults[rng.integers(len(faults))]}\n")
                     commands.flush()
                 until_s = min(time.monotonic() + 0.1, end_s)
                 while time.monotonic() < until_s:
-                    told.wait(until_s - time.monotonic())
+                    event_log.wait_for_event(until_s - time.monotonic())
             session.stop()
         finally:
-            ended = session.close()
-    assert ended
-    assert asked > 20
-    assert not [event for event in told.of(Faulted) if "unexpected" in event.message]
+            has_closed = session.close()
+    assert has_closed
+    assert request_count > 20
+    assert not [
+        event for event in event_log.list_events(FaultRaised) if "unexpected" in event.message
+    ]

@@ -1,29 +1,29 @@
-"""The ring buffer, and the model that runs along."""
+"""The ring buffer, and the live model."""
 
 import numpy as np
 import pytest
 
-from rotemina.app.motion.live_model import LiveModel
-from rotemina.app.motion.recent_history import LiveHistory
-from rotemina.drivers.samples import Samples
-from rotemina.sim.plant.response import nominal_response
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.file import load_robot
+from rotemina.app.motion.device import LiveHistory
+from rotemina.app.motion.model.live_model import LiveModel
+from rotemina.drivers.contract import DeviceSamples
+from rotemina.sim.plant import simulate_nominal_response
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot_files import load_robot
 
 ROBOT = load_robot("rotemina")
 
 
-def samples(first, count, axes=2):
+def make_samples(first, count, axes=2):
     number = np.arange(first, first + count, dtype=float)
     table = np.tile(number[:, None], (1, axes))
-    return Samples(number * 0.01, table, table + 0.5, table, np.full(count, -1))
+    return DeviceSamples(number * 0.01, table, table + 0.5, table, np.full(count, -1))
 
 
-def appended(history, *sizes):
+def append_portions(history, *sizes):
     first = 0
     for size in sizes:
-        part = samples(first, size)
-        history.append(part, part.command + 0.25)
+        portion = make_samples(first, size)
+        history.append(portion, portion.command + 0.25)
         first += size
     return first
 
@@ -31,7 +31,7 @@ def appended(history, *sizes):
 @pytest.mark.parametrize("sizes", [(1,), (7, 3), (10,), (9, 4), (4, 4, 4, 4), (25,), (3, 27, 5)])
 def test_the_tail_is_the_latest_in_order(sizes):
     history = LiveHistory(("a", "b"), seconds=0.1, rate_hz=100.0)
-    total = appended(history, *sizes)
+    total = append_portions(history, *sizes)
     window = history.tail()
     number = np.arange(max(0, total - 10), total)
     np.testing.assert_array_equal(window.device_time_s, number * 0.01)
@@ -42,32 +42,32 @@ def test_the_tail_is_the_latest_in_order(sizes):
     assert not window.measured.flags.writeable
 
 
-def test_a_tail_may_be_cut_by_length():
+def test_a_tail_can_be_limited_by_length():
     history = LiveHistory(("a", "b"), seconds=1.0, rate_hz=100.0)
-    appended(history, 60, 60)
+    append_portions(history, 60, 60)
     np.testing.assert_allclose(history.tail(0.05).device_time_s, np.arange(114, 120) * 0.01)
     assert len(history.tail(0.015)) == 2
     assert len(history.tail(100.0)) == 100
 
 
-def test_a_window_does_not_change_under_its_reader():
+def test_a_window_does_not_change_while_it_is_read():
     history = LiveHistory(("a", "b"), seconds=0.1, rate_hz=100.0)
-    appended(history, 10)
+    append_portions(history, 10)
     window = history.tail()
-    before = window.command.copy()
-    appended(history, 10)
-    np.testing.assert_array_equal(window.command, before)
+    command = window.command.copy()
+    append_portions(history, 10)
+    np.testing.assert_array_equal(window.command, command)
 
 
-def test_a_new_connection_starts_anew():
+def test_a_new_connection_starts_a_new_history():
     history = LiveHistory(("a", "b"))
-    appended(history, 10)
+    append_portions(history, 10)
     history.clear()
     assert len(history.tail()) == 0
     assert len(history.tail(1.0)) == 0
 
 
-def test_the_live_model_is_the_nominal_response_however_it_is_cut():
+def test_the_live_model_equals_the_nominal_response_for_any_portions():
     rng = np.random.default_rng(4)
     time_s = np.cumsum(rng.uniform(1e-3, 3e-3, 400))
     low, high = np.array([axis.range for axis in ROBOT.axes.values()]).T
@@ -80,22 +80,22 @@ def test_the_live_model_is_the_nominal_response_however_it_is_cut():
     )
     model = LiveModel(ROBOT)
     parts = []
-    for cut in np.split(np.arange(400), [1, 2, 60, 61, 200]):
-        parts.append(model.answer(50.0 + time_s[cut], command[cut]))
-    followed = np.concatenate(parts)
-    response = nominal_response(ROBOT, record)
+    for section in np.split(np.arange(400), [1, 2, 60, 61, 200]):
+        parts.append(model.predict(50.0 + time_s[section], command[section]))
+    live_output = np.concatenate(parts)
+    response = simulate_nominal_response(ROBOT, record)
     for column, (name, axis) in enumerate(ROBOT.axes.items()):
         modelled = response.signal(name, Tap.MEAS)
-        # What is left is device time, whose rounding the live model evens out to 10 ps.
-        np.testing.assert_allclose(followed[:, column], modelled, rtol=0, atol=3e-8 * axis.span)
+        # The difference comes from device time, whose rounding the live model smooths to 10 ps.
+        np.testing.assert_allclose(live_output[:, column], modelled, rtol=0, atol=3e-8 * axis.span)
 
 
-def test_every_motion_shows_model_and_measurement(stepped):
-    stepped.session.jog("x", 1e-3)
-    stepped.until_idle()
-    stepped.step(0.5)
-    window = stepped.session.history.tail()
+def test_every_motion_shows_model_and_measurement(harness):
+    harness.session.jog("x", 1e-3)
+    harness.step_until_idle()
+    harness.step(0.5)
+    window = harness.session.history.tail()
     assert window.axes == tuple(ROBOT.axes)
-    moved = np.ptp(window.model[:, 0])
-    assert moved == pytest.approx(1e-3, rel=0.01)
+    travel = np.ptp(window.model[:, 0])
+    assert travel == pytest.approx(1e-3, rel=0.01)
     assert np.abs(window.model[:, 0] - window.measured[:, 0]).max() < 2e-7

@@ -1,14 +1,14 @@
-"""Saved positions: the file comes back as it was written, or not at all; the way there is safe."""
+"""Saved positions: a file is read completely or not at all, and the path to them is safe."""
 
 import numpy as np
 import pytest
 
-from rotemina.app.motion.mailbox import RefusedError
-from rotemina.app.motion.saved_positions import SavedPositionError, SavedPositions
-from rotemina.app.motion.undo import safe_path
-from rotemina.drivers.simulator.driver import Simulator
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
+from rotemina.app.errors import RequestRefusedError, SavedPositionError
+from rotemina.app.motion.session import SavedPositions
+from rotemina.app.motion.session.undo import plan_safe_path
+from rotemina.drivers.simulator import Simulator
+from rotemina.sim.errors import OutOfLimitsError
+from rotemina.sim.robot_files import load_robot
 
 ROBOT = load_robot("rotemina")
 MIDDLE = {name: sum(axis.range) / 2 for name, axis in ROBOT.axes.items()}
@@ -20,21 +20,21 @@ def positions(tmp_path):
     return SavedPositions(tmp_path, ROBOT)
 
 
-def test_what_was_kept_is_read_by_the_next_start(tmp_path, positions):
-    positions.keep("above the dish", ABOVE)
-    positions.keep("µ-Küvette „A“", MIDDLE)
-    again = SavedPositions(tmp_path, ROBOT)
-    again.read()
-    assert again.kept == {"above the dish": ABOVE, "µ-Küvette „A“": MIDDLE}
-    again.delete("above the dish")
+def test_saved_positions_are_read_at_the_next_start(tmp_path, positions):
+    positions.save("above the dish", ABOVE)
+    positions.save("µ-Küvette „A“", MIDDLE)
+    reloaded = SavedPositions(tmp_path, ROBOT)
+    reloaded.read()
+    assert reloaded.positions == {"above the dish": ABOVE, "µ-Küvette „A“": MIDDLE}
+    reloaded.delete("above the dish")
     positions.read()
-    assert list(positions.kept) == ["µ-Küvette „A“"]
+    assert list(positions.positions) == ["µ-Küvette „A“"]
     with pytest.raises(SavedPositionError, match="no position 'above the dish'"):
         positions.delete("above the dish")
 
 
 @pytest.mark.parametrize(
-    ("name", "place", "wrong"),
+    ("name", "position", "message"),
     [
         ("", MIDDLE, "is not a valid name"),
         (" a", MIDDLE, "is not a valid name"),
@@ -46,14 +46,14 @@ def test_what_was_kept_is_read_by_the_next_start(tmp_path, positions):
         ("a", {**MIDDLE, "zn": float("nan")}, "zn"),
     ],
 )
-def test_what_is_no_position_of_the_robot_is_not_kept(positions, name, place, wrong):
-    with pytest.raises(SavedPositionError, match=wrong):
-        positions.keep(name, place)
+def test_an_invalid_position_is_not_saved(positions, name, position, message):
+    with pytest.raises(SavedPositionError, match=message):
+        positions.save(name, position)
     assert not positions.path.exists()
 
 
 @pytest.mark.parametrize(
-    ("change", "wrong"),
+    ("change", "message"),
     [
         (lambda text: text.replace("0.01\n", "0.06\n"), "position 'b': .*x"),
         (lambda text: text.replace("0.01\n", '"0.01"\n'), r"positions\.b\.x.*number"),
@@ -63,68 +63,70 @@ def test_what_is_no_position_of_the_robot_is_not_kept(positions, name, place, wr
         (lambda text: text[:-5] + "[", "not valid TOML"),
     ],
 )
-def test_a_bad_file_is_used_in_no_part_and_never_written_over(positions, change, wrong):
-    positions.keep("a", MIDDLE)
-    positions.keep("b", ABOVE)
-    spoilt = change(positions.path.read_text("utf-8").replace(f'"{ROBOT.name}"', '"rotemina"'))
-    spoilt = spoilt if '"other"' in spoilt else spoilt.replace('"rotemina"', f'"{ROBOT.name}"')
-    positions.path.write_text(spoilt, "utf-8")
-    for request in (positions.read, lambda: positions.keep("c", MIDDLE)):
-        with pytest.raises(SavedPositionError, match=wrong) as told:
+def test_a_bad_file_is_neither_used_nor_overwritten(positions, change, message):
+    positions.save("a", MIDDLE)
+    positions.save("b", ABOVE)
+    bad_text = change(positions.path.read_text("utf-8").replace(f'"{ROBOT.name}"', '"rotemina"'))
+    bad_text = (
+        bad_text if '"other"' in bad_text else bad_text.replace('"rotemina"', f'"{ROBOT.name}"')
+    )
+    positions.path.write_text(bad_text, "utf-8")
+    for request in (positions.read, lambda: positions.save("c", MIDDLE)):
+        with pytest.raises(SavedPositionError, match=message) as error:
             request()
-        assert str(positions.path) in str(told.value)
-    assert not positions.kept
-    assert positions.path.read_text("utf-8") == spoilt
+        assert str(positions.path) in str(error.value)
+    assert not positions.positions
+    assert positions.path.read_text("utf-8") == bad_text
 
 
-def test_the_way_lifts_crosses_and_comes_down():
-    lift, across, down = safe_path(ROBOT, MIDDLE, ABOVE)
+def test_the_safe_path_lifts_crosses_and_lowers():
+    lift, across, down = plan_safe_path(ROBOT, MIDDLE, ABOVE)
     assert lift == {"z": pytest.approx(max(MIDDLE["z"], ABOVE["z"]) + 1e-3)}
-    assert across == {axis: at for axis, at in ABOVE.items() if axis != "z"}
+    assert across == {axis: position for axis, position in ABOVE.items() if axis != "z"}
     assert down == {"z": ABOVE["z"]}
-    assert safe_path(ROBOT, MIDDLE, {**MIDDLE, "z": 0.05}) == ({"z": 0.05},)
+    assert plan_safe_path(ROBOT, MIDDLE, {**MIDDLE, "z": 0.05}) == ({"z": 0.05},)
     highest = ROBOT.axes["z"].range[1]
-    assert safe_path(ROBOT, MIDDLE, {**ABOVE, "z": highest})[0] == {"z": highest}
+    assert plan_safe_path(ROBOT, MIDDLE, {**ABOVE, "z": highest})[0] == {"z": highest}
 
 
-def test_a_session_goes_there_safely_and_can_come_back(make_stepped):
-    stepped = make_stepped(driver=Simulator)
-    stepped.step()
-    begin = stepped.session.snapshot().command
-    goal = {**begin, "x": begin["x"] + 1e-3, "z": begin["z"] - 2e-4}
-    stepped.session.go_safely(goal)
-    stepped.step()
-    with pytest.raises(RefusedError, match="before going there"):
-        stepped.session.go_safely(goal)
-    assert stepped.until_idle().command == pytest.approx(goal, abs=1e-12)
-    window = stepped.session.history.tail()
+def test_a_session_moves_on_the_safe_path_and_can_undo(make_harness):
+    harness = make_harness(driver=Simulator)
+    harness.step()
+    begin = harness.session.snapshot().command
+    target = {**begin, "x": begin["x"] + 1e-3, "z": begin["z"] - 2e-4}
+    harness.session.go_safely(target)
+    harness.step()
+    with pytest.raises(RequestRefusedError, match="before going there"):
+        harness.session.go_safely(target)
+    assert harness.step_until_idle().command == pytest.approx(target, abs=1e-12)
+    window = harness.session.history.tail()
     x, z = window.command[:, 0], window.command[:, 2]
-    across = (x > begin["x"] + 1e-6) & (x < goal["x"] - 1e-6)
-    assert across.any()
-    assert z[across].min() >= begin["z"] + 0.99e-3
-    stepped.session.undo()
-    assert stepped.until_idle().command == pytest.approx(begin, abs=1e-12)
+    is_crossing = (x > begin["x"] + 1e-6) & (x < target["x"] - 1e-6)
+    assert is_crossing.any()
+    assert z[is_crossing].min() >= begin["z"] + 0.99e-3
+    harness.session.undo()
+    assert harness.step_until_idle().command == pytest.approx(begin, abs=1e-12)
 
 
-def test_a_place_out_of_range_moves_nothing(make_stepped):
-    stepped = make_stepped(driver=Simulator)
-    stepped.step()
-    begin = stepped.session.snapshot().command
+def test_a_position_out_of_range_moves_nothing(make_harness):
+    harness = make_harness(driver=Simulator)
+    harness.step()
+    begin = harness.session.snapshot().command
     with pytest.raises(OutOfLimitsError, match="y"):
-        stepped.session.go_safely({**begin, "x": 0.03, "y": 0.9})
-    assert stepped.step(0.1, 5).command == begin
+        harness.session.go_safely({**begin, "x": 0.03, "y": 0.9})
+    assert harness.step(0.1, 5).command == begin
 
 
-def test_the_last_leg_down_is_slow_close_above_the_floor(make_stepped):
-    """Also where it ends higher than it began: the tip was lifted between the two."""
-    stepped = make_stepped(driver=Simulator)
-    stepped.step()
-    stepped.session.bounds.teach_floor(clearance=1e-4)
-    begin = stepped.session.snapshot().command
-    stepped.session.go_safely({**begin, "x": begin["x"] + 1e-3, "z": begin["z"] + 1e-4})
-    stepped.until_idle()
-    window = stepped.session.history.tail()
+def test_the_last_leg_down_is_slow_near_the_floor(make_harness):
+    """This also holds if the end is higher than the start, because the tip is lifted between."""
+    harness = make_harness(driver=Simulator)
+    harness.step()
+    harness.session.bounds.teach_floor(clearance=1e-4)
+    begin = harness.session.snapshot().command
+    harness.session.go_safely({**begin, "x": begin["x"] + 1e-3, "z": begin["z"] + 1e-4})
+    harness.step_until_idle()
+    window = harness.session.history.tail()
     speed = np.diff(window.command[:, 2]) / np.diff(window.device_time_s)
-    close = window.command[1:, 2] < begin["z"] + 3.5e-4
-    assert speed[close].min() < -1e-4  # it came down
-    assert speed[close].min() > -0.55e-3
+    is_near_floor = window.command[1:, 2] < begin["z"] + 3.5e-4
+    assert speed[is_near_floor].min() < -1e-4  # it came down
+    assert speed[is_near_floor].min() > -0.55e-3

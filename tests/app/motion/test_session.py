@@ -1,4 +1,4 @@
-"""The session, stepped by hand: what it accepts, refuses, tells and survives."""
+"""The session, stepped by the test: requests, refusals, events and failures."""
 
 import threading
 from datetime import datetime, timedelta
@@ -6,152 +6,151 @@ from datetime import datetime, timedelta
 import numpy as np
 import pytest
 
-from rotemina.app.motion.mailbox import RefusedError
-from rotemina.app.motion.model_in_use import fingerprint
-from rotemina.app.motion.ownership import OPERATOR
-from rotemina.app.motion.run_labels import RunLabels
+from rotemina.app.errors import RequestRefusedError
+from rotemina.app.motion.device import OPERATOR
+from rotemina.app.motion.model import compute_fingerprint
 from rotemina.app.motion.state import (
     CommandRefused,
-    Connection,
-    Faulted,
-    Phase,
+    ConnectionState,
+    FaultRaised,
     PlaybackFinished,
+    RunLabels,
+    SessionPhase,
     StateChanged,
-    Stopped,
+    StopRequest,
+    StopRequested,
 )
-from rotemina.app.motion.stop import StopRequest
-from rotemina.drivers.driver import Driver
-from rotemina.drivers.errors import (
+from rotemina.drivers.contract import (
     ConnectionLostError,
     DeviceResetError,
+    DeviceSamples,
+    DeviceState,
+    DeviceStatus,
+    Driver,
     DriverTimeoutError,
     StateError,
 )
-from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
-from rotemina.sim.errors import InputError
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.trajectory import checked_trajectory as checked_module
-from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
-from rotemina.sim.trajectory.checked_trajectory import check
-from rotemina.sim.trajectory.dry_run import dry_run
-from rotemina.sim.trajectory.trajectory_excesses import TrajectoryError
+from rotemina.sim.errors import InputError, OutOfLimitsError, TrajectoryError
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot_files import load_robot
+from rotemina.sim.trajectory import checked_trajectory as checked_module, dry_run
+from rotemina.sim.trajectory.checked_trajectory import check_and_seal
 
 NOON = datetime(2026, 1, 2, 12)
 
 
-def there_and_back(axis="x", start=0.02, distance=1e-3, unit="m", **metadata):
+def make_swing(axis="x", start=0.02, distance=1e-3, unit="m", **metadata):
     time_s = 2.0 + np.arange(501) / 1000.0
     command = start + 0.5 * distance * (1 - np.cos(4 * np.pi * (time_s - 2.0)))
     return Record.from_signals(time_s, {(axis, Tap.CMD): command}, {axis: unit}, metadata)
 
 
-def raising(error):
+def make_failure(error):
     def hook():
         raise error
 
     return hook
 
 
-def test_before_connecting_motion_is_locked(make_stepped):
-    made = make_stepped(connect=False)
-    state = made.session.snapshot()
-    assert state.connection is Connection.DISCONNECTED
+def test_before_connecting_motion_is_locked(make_harness):
+    harness = make_harness(connect=False)
+    state = harness.session.snapshot()
+    assert state.connection is ConnectionState.DISCONNECTED
     assert state.age_s is None
-    with pytest.raises(RefusedError, match="not connected"):
-        made.session.go_to({"x": 0.03})
-    made.session.stop()
+    with pytest.raises(RequestRefusedError, match="not connected"):
+        harness.session.go_to({"x": 0.03})
+    harness.session.stop()
 
 
-def test_connecting_knows_the_position(stepped):
-    state = stepped.session.snapshot()
-    assert state.connection is Connection.CONNECTED
+def test_after_connecting_the_position_is_known(harness):
+    state = harness.session.snapshot()
+    assert state.connection is ConnectionState.CONNECTED
     assert state.activity is DeviceState.IDLE
     assert state.position_known
-    assert state.locked is None
+    assert state.lock_reason is None
     assert state.command["x"] == 0.0275
     assert state.measured["x"] == pytest.approx(0.0275, abs=2e-7)
-    told = [event.state.connection for event in stepped.told(StateChanged)]
-    assert told == [Connection.CONNECTING, Connection.CONNECTED]
+    connections = [event.state.connection for event in harness.list_events(StateChanged)]
+    assert connections == [ConnectionState.CONNECTING, ConnectionState.CONNECTED]
 
 
-def test_go_to_arrives(stepped):
-    stepped.session.go_to({"x": 0.03, "thx": 1e-3})
-    assert stepped.step().activity is DeviceState.MOVING
-    state = stepped.until_idle()
+def test_go_to_arrives(harness):
+    harness.session.go_to({"x": 0.03, "thx": 1e-3})
+    assert harness.step().activity is DeviceState.MOVING
+    state = harness.step_until_idle()
     assert state.command["x"] == 0.03
     assert state.command["thx"] == 1e-3
 
 
-def test_jogs_add_up_from_the_last_target(stepped):
+def test_jogs_add_up_from_the_last_target(harness):
     for _ in range(3):
-        stepped.session.jog("x", 1e-4)
-        stepped.step()
-    state = stepped.until_idle()
+        harness.session.jog("x", 1e-4)
+        harness.step()
+    state = harness.step_until_idle()
     assert state.command["x"] == pytest.approx(0.0278, abs=1e-15)
 
 
-def test_after_a_stop_jogs_count_from_where_it_stands(stepped):
-    stepped.session.go_to({"x": 0.05})
-    stepped.step(0.1, 5)
-    stepped.session.stop()
-    stood = stepped.until_idle().command["x"]
-    stepped.session.jog("x", 1e-3)
-    assert stepped.until_idle().command["x"] == stood + 1e-3
+def test_after_a_stop_jogs_count_from_the_rest_position(harness):
+    harness.session.go_to({"x": 0.05})
+    harness.step(0.1, 5)
+    harness.session.stop()
+    rest_x = harness.step_until_idle().command["x"]
+    harness.session.jog("x", 1e-3)
+    assert harness.step_until_idle().command["x"] == rest_x + 1e-3
 
 
 @pytest.mark.parametrize(
-    ("request_", "words"),
+    ("request_", "message"),
     [
         (lambda s: s.go_to({"x": 0.03, "y": 0.06}), "axis y"),
         (lambda s: s.jog("x", 0.03), "axis x"),
         (lambda s: s.jog("elbow", 0.0), "elbow"),
         (lambda s: s.go_to({"x": float("nan")}), "finite"),
-        (lambda s: s.play(there_and_back(distance=0.02)), "speed"),
+        (lambda s: s.play(make_swing(distance=0.02)), "speed"),
     ],
 )
-def test_limits_are_refused_at_once_with_the_reason(stepped, request_, words):
-    with pytest.raises(OutOfLimitsError, match=words):
-        request_(stepped.session)
-    before = stepped.session.snapshot().command
-    assert stepped.step(0.1).command == before
+def test_motion_beyond_a_limit_is_refused_at_once_with_the_reason(harness, request_, message):
+    with pytest.raises(OutOfLimitsError, match=message):
+        request_(harness.session)
+    command = harness.session.snapshot().command
+    assert harness.step(0.1).command == command
 
 
-def test_a_refused_jog_leaves_the_target_alone(stepped):
+def test_a_refused_jog_does_not_change_the_target(harness):
     with pytest.raises(InputError):
-        stepped.session.jog("x", 1.0)
-    stepped.session.jog("x", 1e-4)
-    assert stepped.until_idle().command["x"] == 0.0275 + 1e-4
+        harness.session.jog("x", 1.0)
+    harness.session.jog("x", 1e-4)
+    assert harness.step_until_idle().command["x"] == 0.0275 + 1e-4
 
 
-def test_a_full_queue_refuses(make_stepped):
-    made = make_stepped(queue_size=3)
+def test_a_full_queue_refuses_requests(make_harness):
+    harness = make_harness(queue_size=3)
     for _ in range(3):
-        made.session.jog("x", 1e-5)
-    with pytest.raises(RefusedError, match="3 commands are already waiting"):
-        made.session.jog("x", 1e-5)
-    assert made.session.snapshot().queued == 3
-    made.until_idle()
-    assert made.session.snapshot().command["x"] == pytest.approx(0.0275 + 3e-5, abs=1e-15)
+        harness.session.jog("x", 1e-5)
+    with pytest.raises(RequestRefusedError, match="3 commands are already waiting"):
+        harness.session.jog("x", 1e-5)
+    assert harness.session.snapshot().queued == 3
+    harness.step_until_idle()
+    assert harness.session.snapshot().command["x"] == pytest.approx(0.0275 + 3e-5, abs=1e-15)
 
 
-def test_a_playback_gives_its_record(stepped):
-    trajectory = there_and_back(trajectory="there and back", history="unknown")
-    stepped.session.labels = RunLabels("series 3", "A. Müller")
-    before = datetime.now().astimezone()
-    stepped.session.play(trajectory)
-    assert stepped.step().activity is DeviceState.PLAYING
-    stepped.until_idle()
-    (finished,) = stepped.told(PlaybackFinished)
+def test_a_playback_returns_its_record(harness):
+    trajectory = make_swing(trajectory="there and back", history="unknown")
+    harness.session.labels = RunLabels("series 3", "A. Müller")
+    start = datetime.now().astimezone()
+    harness.session.play(trajectory)
+    assert harness.step().activity is DeviceState.PLAYING
+    harness.step_until_idle()
+    (finished,) = harness.list_events(PlaybackFinished)
     assert finished.completed
     record = finished.record
     np.testing.assert_allclose(record.time_s, trajectory.time_s - 2.0, rtol=0, atol=1e-9)
     np.testing.assert_array_equal(record.signal("x", Tap.CMD), trajectory.signal("x", Tap.CMD))
     assert [str(column) for column in record.columns] == ["x.cmd", "x.meas"]
-    said = dict(record.metadata)
-    began = datetime.fromisoformat(said.pop("began"))
-    assert timedelta(milliseconds=-1) <= began - before < timedelta(minutes=5)
-    assert said == {
+    metadata = dict(record.metadata)
+    began = datetime.fromisoformat(metadata.pop("began"))
+    assert timedelta(milliseconds=-1) <= began - start < timedelta(minutes=5)
+    assert metadata == {
         "mode": "open_loop",
         "history": "unknown",
         "robot": "RoTeMiNa",
@@ -159,148 +158,148 @@ def test_a_playback_gives_its_record(stepped):
         "trajectory": "there and back",
         "trajectory_rows": "501",
         "trajectory_duration_s": "0.5",
-        "trajectory_digest": check(stepped.session.robot, trajectory, 1e-3).digest,
-        "model": stepped.session.model.id,
-        "robot_sha256": fingerprint(stepped.session.robot),
+        "trajectory_digest": check_and_seal(harness.session.robot, trajectory, 1e-3).digest,
+        "model": harness.session.model.id,
+        "robot_sha256": compute_fingerprint(harness.session.robot),
         "machine_kind": "simulated",
         "run": "series 3",
         "operator": "A. Müller",
     }
-    assert stepped.session.snapshot().progress == 1.0
+    assert harness.session.snapshot().progress == 1.0
 
 
-def test_a_piezo_and_a_controlled_axis_record_their_voltage(stepped, make_stepped):
-    stepped.session.play(there_and_back("zn", 20e-6, 1e-6))
-    stepped.until_idle()
-    record = stepped.told(PlaybackFinished)[0].record
+def test_a_piezo_and_a_controlled_axis_record_their_voltage(harness, make_harness):
+    harness.session.play(make_swing("zn", 20e-6, 1e-6))
+    harness.step_until_idle()
+    record = harness.list_events(PlaybackFinished)[0].record
     np.testing.assert_allclose(record.signal("zn", Tap.U), record.signal("zn", Tap.CMD) / 5e-7)
-    emps = make_stepped("emps")
-    emps.session.play(there_and_back("q", 0.1, 0.01))
-    emps.until_idle()
-    record = emps.told(PlaybackFinished)[0].record
+    emps = make_harness("emps")
+    emps.session.play(make_swing("q", 0.1, 0.01))
+    emps.step_until_idle()
+    record = emps.list_events(PlaybackFinished)[0].record
     assert record.closed_loop
     assert np.ptp(record.signal("q", Tap.U)) > 0.1
 
 
-def test_while_playing_nothing_else_moves(stepped):
-    stepped.session.play(there_and_back())
+def test_while_playing_nothing_else_moves(harness):
+    harness.session.play(make_swing())
     for _ in range(2):
         for request in (
-            lambda: stepped.session.jog("y", 1e-4),
-            lambda: stepped.session.go_to({"y": 0.01}),
-            lambda: stepped.session.play(there_and_back()),
+            lambda: harness.session.jog("y", 1e-4),
+            lambda: harness.session.go_to({"y": 0.01}),
+            lambda: harness.session.play(make_swing()),
         ):
-            with pytest.raises(RefusedError, match="playing"):
+            with pytest.raises(RequestRefusedError, match="playing"):
                 request()
-        stepped.step()
-    stepped.until_idle()
-    assert stepped.told(PlaybackFinished)[0].completed
+        harness.step()
+    harness.step_until_idle()
+    assert harness.list_events(PlaybackFinished)[0].completed
 
 
-def test_a_moving_machine_does_not_begin_to_play(stepped):
-    stepped.session.go_to({"x": 0.03})
-    with pytest.raises(RefusedError, match="still moving"):
-        stepped.session.play(there_and_back())
-    stepped.step()
-    with pytest.raises(RefusedError, match="still moving"):
-        stepped.session.play(there_and_back())
+def test_a_moving_machine_does_not_begin_to_play(harness):
+    harness.session.go_to({"x": 0.03})
+    with pytest.raises(RequestRefusedError, match="still moving"):
+        harness.session.play(make_swing())
+    harness.step()
+    with pytest.raises(RequestRefusedError, match="still moving"):
+        harness.session.play(make_swing())
 
 
-def test_stop_ends_a_playback_and_gives_what_was_played(stepped):
-    stepped.session.play(there_and_back(start=0.0275))
-    stepped.step(0.01, 70)
-    stepped.session.stop()
-    state = stepped.until_idle()
-    (finished,) = stepped.told(PlaybackFinished)
+def test_stop_ends_a_playback_and_returns_the_played_part(harness):
+    harness.session.play(make_swing(start=0.0275))
+    harness.step(0.01, 70)
+    harness.session.stop()
+    state = harness.step_until_idle()
+    (finished,) = harness.list_events(PlaybackFinished)
     assert not finished.completed
     assert 0 < len(finished.record.time_s) < 501
     assert finished.record.time_s[0] == 0.0
     assert state.command["x"] != 0.0275
-    assert state.locked is None
+    assert state.lock_reason is None
 
 
-def test_stop_on_the_way_to_the_first_row_gives_no_record(stepped):
-    stepped.session.play(there_and_back())
-    stepped.step(0.01, 3)
-    stepped.session.stop()
-    stepped.until_idle()
-    (finished,) = stepped.told(PlaybackFinished)
-    assert (finished.record, finished.completed, finished.answers) == (None, False, None)
+def test_stop_before_the_first_row_returns_no_record(harness):
+    harness.session.play(make_swing())
+    harness.step(0.01, 3)
+    harness.session.stop()
+    harness.step_until_idle()
+    (finished,) = harness.list_events(PlaybackFinished)
+    assert (finished.record, finished.completed, finished.model_outputs) == (None, False, None)
 
 
-def test_stop_drops_what_is_queued_and_is_measured(stepped):
-    stepped.session.go_to({"x": 0.05})
-    stepped.step(0.1, 5)
-    stepped.session.go_to({"x": 0.01})
-    stepped.session.stop()
-    assert stepped.session.snapshot().stop_latency_s is None  # not confirmed yet
-    stepped.step()
-    assert stepped.session.snapshot().standstill_s is None
-    state = stepped.until_idle()
+def test_stop_drops_queued_requests_and_is_measured(harness):
+    harness.session.go_to({"x": 0.05})
+    harness.step(0.1, 5)
+    harness.session.go_to({"x": 0.01})
+    harness.session.stop()
+    assert harness.session.snapshot().stop_latency_s is None  # not confirmed yet
+    harness.step()
+    assert harness.session.snapshot().standstill_s is None
+    state = harness.step_until_idle()
     assert state.queued == 0
     assert state.command["x"] > 0.03
-    assert state.stop_latency_s == pytest.approx(0.02)  # with the next exchange
+    assert state.stop_latency_s == pytest.approx(0.02)  # at the next exchange
     assert 0.05 <= state.standstill_s <= 0.1
 
 
-def test_a_command_on_its_way_does_not_undo_a_stop(stepped):
-    """A stop from another thread falls into the very moment in which a move is handed over."""
-    stepped.driver.before["move_to"] = stepped.session.stop
-    stepped.session.go_to({"x": 0.05})
-    stepped.step()
-    state = stepped.until_idle()
-    assert state.command["x"] == 0.0275  # nothing of it reached the machine
+def test_a_stop_overtakes_a_command_that_is_being_handed_over(harness):
+    """A stop from another thread comes while a move is handed over to the driver."""
+    harness.driver.before["move_to"] = harness.session.stop
+    harness.session.go_to({"x": 0.05})
+    harness.step()
+    state = harness.step_until_idle()
+    assert state.command["x"] == 0.0275  # the move did not reach the machine
 
 
-def test_stop_neither_waits_nor_raises(stepped):
-    stepped.driver.before["stop"] = raising(ConnectionLostError("cable pulled"))
-    stepped.session.stop()
-    state = stepped.step()
-    assert state.connection is Connection.FAILED
+def test_a_failing_stop_neither_waits_nor_raises(harness):
+    harness.driver.before["stop"] = make_failure(ConnectionLostError("cable pulled"))
+    harness.session.stop()
+    state = harness.step()
+    assert state.connection is ConnectionState.FAILED
     assert "cable pulled" in state.fault
 
 
-def test_a_stop_that_succeeds_does_not_hide_one_that_failed(stepped):
-    stepped.driver.before["stop"] = raising(ConnectionLostError("cable pulled"))
-    stepped.session.stop()
-    stepped.driver.before.clear()
-    stepped.session.stop()
-    state = stepped.step()
-    assert state.connection is Connection.FAILED
+def test_a_successful_stop_does_not_hide_a_failed_one(harness):
+    harness.driver.before["stop"] = make_failure(ConnectionLostError("cable pulled"))
+    harness.session.stop()
+    harness.driver.before.clear()
+    harness.session.stop()
+    state = harness.step()
+    assert state.connection is ConnectionState.FAILED
     assert "cable pulled" in state.fault
 
 
-def test_what_was_checked_is_not_checked_again(stepped, monkeypatch):
-    checked = dry_run(stepped.session.robot, there_and_back()).require()
+def test_a_checked_trajectory_is_not_checked_again(harness, monkeypatch):
+    checked = dry_run(harness.session.robot, make_swing()).require()
 
-    def again(*_, **__):
+    def fail_check(*_, **__):
         raise AssertionError("checked again")
 
-    monkeypatch.setattr("rotemina.sim.trajectory.checked_trajectory.check_trajectory", again)
-    stepped.session.play(checked)
-    stepped.until_idle()
-    assert stepped.told(PlaybackFinished)[0].completed
+    monkeypatch.setattr("rotemina.sim.trajectory.checked_trajectory.check_trajectory", fail_check)
+    harness.session.play(checked)
+    harness.step_until_idle()
+    assert harness.list_events(PlaybackFinished)[0].completed
     with pytest.raises(AssertionError, match="checked again"):
-        stepped.session.play(there_and_back())
+        harness.session.play(make_swing())
 
 
-def test_a_record_is_checked_once(stepped, monkeypatch):
+def test_an_unchecked_trajectory_is_checked_once(harness, monkeypatch):
     calls = []
-    checking = checked_module.check_trajectory
+    check = checked_module.check_trajectory
     monkeypatch.setattr(
         checked_module,
         "check_trajectory",
-        lambda *args, **more: calls.append(args) or checking(*args, **more),
+        lambda *args, **kwargs: calls.append(args) or check(*args, **kwargs),
     )
-    stepped.session.play(there_and_back())
-    stepped.until_idle()
-    assert stepped.told(PlaybackFinished)[0].completed
+    harness.session.play(make_swing())
+    harness.step_until_idle()
+    assert harness.list_events(PlaybackFinished)[0].completed
     assert len(calls) == 1
 
 
-def test_a_session_tells_the_set_point_period_of_its_device(make_stepped):
-    assert make_stepped(settings={"sample_rate_hz": 500.0}).session.setpoint_period_s == 2e-3
-    assert make_stepped("picma", driver=Faulty).session.setpoint_period_s == 1e-3
+def test_a_session_has_the_set_point_period_of_its_device(make_harness):
+    assert make_harness(settings={"sample_rate_hz": 500.0}).session.setpoint_period_s == 2e-3
+    assert make_harness("picma", driver=FaultyDriver).session.setpoint_period_s == 1e-3
 
 
 @pytest.mark.parametrize("hook", ["read", "move_to"])
@@ -308,109 +307,109 @@ def test_a_session_tells_the_set_point_period_of_its_device(make_stepped):
     "error",
     [ConnectionLostError("cable pulled"), DriverTimeoutError("no answer"), RuntimeError("bug")],
 )
-def test_a_failing_driver_locks_motion_until_reconnected(stepped, hook, error):
-    stepped.session.go_to({"x": 0.03})
-    stepped.driver.before[hook] = raising(error)
-    state = stepped.step()
-    assert state.connection is Connection.FAILED
+def test_a_failing_driver_locks_motion_until_reconnected(harness, hook, error):
+    harness.session.go_to({"x": 0.03})
+    harness.driver.before[hook] = make_failure(error)
+    state = harness.step()
+    assert state.connection is ConnectionState.FAILED
     assert state.activity is DeviceState.CLOSED
     assert not state.position_known
     assert str(error) in state.fault
     assert "x" in state.measured
-    (fault,) = stepped.told(Faulted)
+    (fault,) = harness.list_events(FaultRaised)
     assert str(error) in fault.message
-    assert stepped.driver.status().state is DeviceState.CLOSED
-    stepped.driver.before.clear()
-    assert stepped.step(0.1, 10).connection is Connection.FAILED
-    for request in (lambda: stepped.session.jog("x", 1e-4), stepped.session.service.clear_fault):
-        with pytest.raises(RefusedError, match="reconnect"):
+    assert harness.driver.status().state is DeviceState.CLOSED
+    harness.driver.before.clear()
+    assert harness.step(0.1, 10).connection is ConnectionState.FAILED
+    for request in (lambda: harness.session.jog("x", 1e-4), harness.session.service.clear_fault):
+        with pytest.raises(RequestRefusedError, match="reconnect"):
             request()
-    stepped.session.reconnect()
-    state = stepped.step()
-    assert state.connection is Connection.CONNECTED
+    harness.session.reconnect()
+    state = harness.step()
+    assert state.connection is ConnectionState.CONNECTED
     assert state.fault is None
-    with pytest.raises(RefusedError, match="home, or confirm it"):
-        stepped.session.jog("x", 1e-4)
-    stepped.session.confirm_position()
-    stepped.step()
-    stepped.session.jog("x", 1e-4)
-    stepped.until_idle()
-    with pytest.raises(RefusedError, match="is connected"):
-        stepped.session.reconnect()
+    with pytest.raises(RequestRefusedError, match="home, or confirm it"):
+        harness.session.jog("x", 1e-4)
+    harness.session.confirm_position()
+    harness.step()
+    harness.session.jog("x", 1e-4)
+    harness.step_until_idle()
+    with pytest.raises(RequestRefusedError, match="is connected"):
+        harness.session.reconnect()
 
 
-def test_a_failure_ends_a_playback_with_what_was_recorded(stepped):
-    stepped.session.play(there_and_back())
-    stepped.step(0.05, 30)
-    stepped.driver.before["read"] = raising(ConnectionLostError("cable pulled"))
-    stepped.step()
-    (finished,) = stepped.told(PlaybackFinished)
+def test_a_failure_ends_a_playback_with_a_partial_record(harness):
+    harness.session.play(make_swing())
+    harness.step(0.05, 30)
+    harness.driver.before["read"] = make_failure(ConnectionLostError("cable pulled"))
+    harness.step()
+    (finished,) = harness.list_events(PlaybackFinished)
     assert not finished.completed
     assert len(finished.record.time_s) > 100
 
 
-def test_a_device_that_cannot_be_reached_fails_and_may_be_tried_again(make_stepped):
-    made = make_stepped(connect=False)
-    made.driver.before["open"] = raising(ConnectionLostError("no such port"))
-    made.connect()
-    assert made.session.snapshot().connection is Connection.FAILED
-    made.driver.before.clear()
-    made.session.reconnect()
-    assert made.step().connection is Connection.CONNECTED
+def test_an_unreachable_device_fails_and_can_be_reconnected(make_harness):
+    harness = make_harness(connect=False)
+    harness.driver.before["open"] = make_failure(ConnectionLostError("no such port"))
+    harness.connect()
+    assert harness.session.snapshot().connection is ConnectionState.FAILED
+    harness.driver.before.clear()
+    harness.session.reconnect()
+    assert harness.step().connection is ConnectionState.CONNECTED
 
 
-def test_a_refusal_of_the_device_is_told_and_changes_nothing(stepped):
-    stepped.driver.before["move_to"] = raising(StateError("door open"))
-    stepped.session.go_to({"x": 0.03})
-    state = stepped.step()
-    assert [event.message for event in stepped.told(CommandRefused)] == ["door open"]
-    assert state.connection is Connection.CONNECTED
-    assert state.locked is None
-    stepped.driver.before.clear()
-    stepped.session.jog("x", 1e-4)
-    assert stepped.until_idle().command["x"] == 0.0275 + 1e-4
+def test_a_refusal_of_the_device_is_reported_and_changes_nothing(harness):
+    harness.driver.before["move_to"] = make_failure(StateError("door open"))
+    harness.session.go_to({"x": 0.03})
+    state = harness.step()
+    assert [event.message for event in harness.list_events(CommandRefused)] == ["door open"]
+    assert state.connection is ConnectionState.CONNECTED
+    assert state.lock_reason is None
+    harness.driver.before.clear()
+    harness.session.jog("x", 1e-4)
+    assert harness.step_until_idle().command["x"] == 0.0275 + 1e-4
 
 
-def test_a_refusal_of_one_axis_leaves_the_targets_of_all_alone(stepped):
-    stepped.session.go_to({"x": 0.05, "y": 0.03})
-    stepped.step(0.1, 2)
-    stepped.driver.before["move_to"] = raising(StateError("door open"))
-    stepped.session.go_to({"x": 0.04})
-    stepped.step()
-    assert len(stepped.told(CommandRefused)) == 1
-    stepped.driver.before.clear()
-    stepped.session.jog("x", 1e-3)
-    stepped.session.jog("y", 1e-3)
-    state = stepped.until_idle()
+def test_a_refusal_of_one_axis_keeps_the_targets_of_all_axes(harness):
+    harness.session.go_to({"x": 0.05, "y": 0.03})
+    harness.step(0.1, 2)
+    harness.driver.before["move_to"] = make_failure(StateError("door open"))
+    harness.session.go_to({"x": 0.04})
+    harness.step()
+    assert len(harness.list_events(CommandRefused)) == 1
+    harness.driver.before.clear()
+    harness.session.jog("x", 1e-3)
+    harness.session.jog("y", 1e-3)
+    state = harness.step_until_idle()
     assert state.command["x"] == pytest.approx(0.051, abs=1e-15)
     assert state.command["y"] == pytest.approx(0.031, abs=1e-15)
 
 
-def test_a_jog_from_within_a_command_counts_from_that_command(stepped):
-    """Another thread jogs in the very moment in which a move is handed over."""
+def test_a_jog_during_a_hand_over_counts_from_the_new_target(harness):
+    """Another thread jogs while a move is handed over to the driver."""
 
     def jog_once():
-        stepped.driver.before.clear()
-        stepped.session.jog("x", 1e-3)
+        harness.driver.before.clear()
+        harness.session.jog("x", 1e-3)
 
-    stepped.driver.before["move_to"] = jog_once
-    stepped.session.go_to({"x": 0.03})
-    assert stepped.until_idle().command["x"] == pytest.approx(0.031, abs=1e-15)
+    harness.driver.before["move_to"] = jog_once
+    harness.session.go_to({"x": 0.03})
+    assert harness.step_until_idle().command["x"] == pytest.approx(0.031, abs=1e-15)
 
 
-def test_a_silent_device_locks_motion(stepped):
-    stepped.clock.advance(3.0)
-    state = stepped.session.snapshot()
+def test_a_silent_device_locks_motion(harness):
+    harness.clock.advance(3.0)
+    state = harness.session.snapshot()
     assert state.age_s == pytest.approx(3.0)
-    assert "nothing for 3.0 s" in state.locked
-    with pytest.raises(RefusedError, match="locked"):
-        stepped.session.jog("x", 1e-4)
-    stepped.session.run_once()
-    assert stepped.session.snapshot().locked is None
+    assert "nothing for 3.0 s" in state.lock_reason
+    with pytest.raises(RequestRefusedError, match="locked"):
+        harness.session.jog("x", 1e-4)
+    harness.session.run_once()
+    assert harness.session.snapshot().lock_reason is None
 
 
-class Faulty(Driver):
-    """A device with one axis that reports a fault, or does not know where it is."""
+class FaultyDriver(Driver):
+    """A one-axis device that can report a fault or an unknown position."""
 
     name = "faulty"
 
@@ -439,221 +438,226 @@ class Faulty(Driver):
     def _read(self):
         self._ticks += 1
         zero = np.zeros((1, len(self.axes)))
-        return Samples(np.array([self._ticks * 0.01]), zero, zero, zero, np.array([-1]))
+        return DeviceSamples(np.array([self._ticks * 0.01]), zero, zero, zero, np.array([-1]))
 
 
-def test_a_device_fault_locks_until_it_is_cleared(make_stepped):
-    made = make_stepped("picma", driver=Faulty)
-    made.driver.answer = DeviceStatus(DeviceState.FAULT, fault="over-temperature")
-    state = made.step(times=3)
-    assert state.connection is Connection.CONNECTED
-    assert "over-temperature" in state.locked
-    assert [event.message for event in made.told(Faulted)] == ["over-temperature"]
-    with pytest.raises(RefusedError, match="over-temperature"):
-        made.session.jog("p", 1e-6)
-    made.driver.answer = DeviceStatus(DeviceState.IDLE)
-    assert "over-temperature" in made.step().locked
-    made.driver.answer = DeviceStatus(DeviceState.FAULT, fault="over-temperature")
-    made.session.service.clear_fault()
-    assert made.step().locked is None
+def test_a_device_fault_locks_until_it_is_cleared(make_harness):
+    harness = make_harness("picma", driver=FaultyDriver)
+    harness.driver.answer = DeviceStatus(DeviceState.FAULT, fault="over-temperature")
+    state = harness.step(times=3)
+    assert state.connection is ConnectionState.CONNECTED
+    assert "over-temperature" in state.lock_reason
+    assert [event.message for event in harness.list_events(FaultRaised)] == ["over-temperature"]
+    with pytest.raises(RequestRefusedError, match="over-temperature"):
+        harness.session.jog("p", 1e-6)
+    harness.driver.answer = DeviceStatus(DeviceState.IDLE)
+    assert "over-temperature" in harness.step().lock_reason
+    harness.driver.answer = DeviceStatus(DeviceState.FAULT, fault="over-temperature")
+    harness.session.service.clear_fault()
+    assert harness.step().lock_reason is None
 
 
-def test_an_unknown_position_locks_motion(make_stepped):
-    made = make_stepped("picma", driver=Faulty)
-    made.driver.answer = DeviceStatus(DeviceState.IDLE, position_known=False)
-    assert not made.step().position_known
-    with pytest.raises(RefusedError, match="position is not known"):
-        made.session.go_to({"p": 1e-6})
+def test_an_unknown_position_locks_motion(make_harness):
+    harness = make_harness("picma", driver=FaultyDriver)
+    harness.driver.answer = DeviceStatus(DeviceState.IDLE, position_known=False)
+    assert not harness.step().position_known
+    with pytest.raises(RequestRefusedError, match="position is not known"):
+        harness.session.go_to({"p": 1e-6})
 
 
-def test_a_driver_that_cannot_play_is_not_asked_to(make_stepped):
-    made = make_stepped("picma", driver=Faulty)
-    with pytest.raises(RefusedError, match="cannot play"):
-        made.session.play(there_and_back("p", 1e-6, 1e-7))
+def test_playing_is_refused_if_the_driver_cannot_play(make_harness):
+    harness = make_harness("picma", driver=FaultyDriver)
+    with pytest.raises(RequestRefusedError, match="cannot play"):
+        harness.session.play(make_swing("p", 1e-6, 1e-7))
 
 
-def test_a_trajectory_for_another_robot_is_refused(stepped):
+def test_a_trajectory_for_another_robot_is_refused(harness):
     with pytest.raises(TrajectoryError, match="elbow"):
-        stepped.session.play(there_and_back("elbow"))
+        harness.session.play(make_swing("elbow"))
 
 
-def test_a_subscriber_that_fails_is_logged_and_the_rest_goes_on(stepped, caplog):
-    stepped.session.subscribe(lambda event: 1 / 0)
-    later = []
-    end = stepped.session.subscribe(later.append)
-    stepped.session.jog("x", 1e-4)
-    stepped.step()
+def test_a_failing_subscriber_is_logged_and_the_others_are_called(harness, caplog):
+    harness.session.subscribe(lambda event: 1 / 0)
+    events = []
+    unsubscribe = harness.session.subscribe(events.append)
+    harness.session.jog("x", 1e-4)
+    harness.step()
     assert "ZeroDivisionError" in caplog.text
-    assert len(later) == 1
-    end()
-    end()
-    stepped.until_idle()
-    assert len(later) == 1
+    assert len(events) == 1
+    unsubscribe()
+    unsubscribe()
+    harness.step_until_idle()
+    assert len(events) == 1
 
 
-def test_a_subscriber_may_answer_the_end_of_a_playback_with_the_next(stepped):
+def test_a_subscriber_may_start_the_next_playback(harness):
     runs = []
 
     def play_again(event):
         if isinstance(event, PlaybackFinished):
             runs.append(event.completed)
             if len(runs) < 2:
-                stepped.session.play(there_and_back())
+                harness.session.play(make_swing())
 
-    stepped.session.subscribe(play_again)
-    stepped.session.play(there_and_back())
+    harness.session.subscribe(play_again)
+    harness.session.play(make_swing())
     for _ in range(400):
-        stepped.step(0.02)
+        harness.step(0.02)
     assert runs == [True, True]
 
 
-def test_closing_ends_a_playback_and_may_be_repeated(stepped):
-    stepped.session.play(there_and_back())
-    stepped.step(0.05, 30)
-    assert stepped.session.close()
-    assert stepped.session.close()
-    assert not stepped.told(PlaybackFinished)[0].completed
-    assert stepped.session.snapshot().connection is Connection.DISCONNECTED
-    assert stepped.driver.status().state is DeviceState.CLOSED
+def test_closing_ends_a_playback_and_can_be_repeated(harness):
+    harness.session.play(make_swing())
+    harness.step(0.05, 30)
+    assert harness.session.close()
+    assert harness.session.close()
+    assert not harness.list_events(PlaybackFinished)[0].completed
+    assert harness.session.snapshot().connection is ConnectionState.DISCONNECTED
+    assert harness.driver.status().state is DeviceState.CLOSED
 
 
-def test_a_session_on_its_own_thread(make_stepped):
-    """The one test with a real thread and clock; every wait is for an event."""
+def test_a_session_runs_on_its_own_thread(make_harness):
+    """The only test with a real thread and clock; every wait is for an event."""
     from rotemina.app.motion.session import MotionSession
-    from rotemina.drivers.simulator.driver import Simulator
+    from rotemina.drivers.simulator import Simulator
 
     session = MotionSession(Simulator(load_robot("rotemina"), {"settle_s": 0.01}))
-    seen = {"connected": threading.Event(), "moving": threading.Event(), "idle": threading.Event()}
-    finished, workers = [], set()
-    ended = threading.Event()
+    has_been = {
+        "connected": threading.Event(),
+        "moving": threading.Event(),
+        "idle": threading.Event(),
+    }
+    finished, thread_names = [], set()
+    playback_ended = threading.Event()
 
-    def watch(event):
-        workers.add(threading.current_thread().name)
+    def note_event(event):
+        thread_names.add(threading.current_thread().name)
         if isinstance(event, StateChanged):
-            if event.state.locked is None:
-                seen["connected"].set()
-            if event.state.activity.value in seen:
-                seen[event.state.activity.value].set()
+            if event.state.lock_reason is None:
+                has_been["connected"].set()
+            if event.state.activity.value in has_been:
+                has_been[event.state.activity.value].set()
         if isinstance(event, PlaybackFinished):
             finished.append(event)
-            ended.set()
+            playback_ended.set()
 
-    session.subscribe(watch)
+    session.subscribe(note_event)
     session.start()
-    with pytest.raises(RefusedError, match="already been started"):
+    with pytest.raises(RequestRefusedError, match="already been started"):
         session.start()
     try:
-        assert seen["connected"].wait(20)
+        assert has_been["connected"].wait(20)
         session.go_to({"x": 0.05})
-        assert seen["moving"].wait(20)
-        seen["idle"].clear()
+        assert has_been["moving"].wait(20)
+        has_been["idle"].clear()
         session.stop()
-        assert seen["idle"].wait(20)
+        assert has_been["idle"].wait(20)
         state = session.snapshot()
         assert state.command["x"] < 0.05
         assert 0.0 <= state.stop_latency_s <= state.standstill_s
-        session.play(there_and_back(start=state.command["x"], distance=1e-4))
-        assert ended.wait(20)
+        session.play(make_swing(start=state.command["x"], distance=1e-4))
+        assert playback_ended.wait(20)
         assert finished[0].completed
     finally:
         assert session.close()
-    assert workers == {"motion session"}
+    assert thread_names == {"motion session"}
     assert len(session.history.tail(0.2)) > 100
     assert "motion session" not in {thread.name for thread in threading.enumerate()}
 
 
-def test_a_stop_says_who_asked_for_it_why_and_when(make_stepped):
-    stepped = make_stepped(local_time=lambda: NOON)
-    session = stepped.session
+def test_a_stop_has_its_origin_reason_and_time(make_harness):
+    harness = make_harness(local_time=lambda: NOON)
+    session = harness.session
     assert session.snapshot().stop is None
     session.stop(by=OPERATOR)
     assert session.snapshot().stop == StopRequest("operator", "", NOON)
     session.stop("the window does not respond")
     session.emergency_stop(by=OPERATOR)
-    stepped.step()
-    assert [str(event.request) for event in stepped.told(Stopped)] == [
+    harness.step()
+    assert [str(event.request) for event in harness.list_events(StopRequested)] == [
         "Stopped by the operator at 12:00:00",
         "Stopped by the program at 12:00:00: the window does not respond",
         "Stopped by the operator at 12:00:00: stop and lock",
     ]
 
 
-def test_a_stop_is_told_of_also_where_the_device_fails(stepped):
-    stepped.driver.before["read"] = raising(ConnectionLostError("cable pulled"))
-    stepped.step()
-    stepped.session.stop(by=OPERATOR)
-    stepped.step()
-    assert len(stepped.told(Stopped)) == 1
+def test_a_stop_is_reported_even_if_the_device_has_failed(harness):
+    harness.driver.before["read"] = make_failure(ConnectionLostError("cable pulled"))
+    harness.step()
+    harness.session.stop(by=OPERATOR)
+    harness.step()
+    assert len(harness.list_events(StopRequested)) == 1
 
 
-def test_numbers_that_are_none_are_refused_and_the_connection_lives(stepped):
-    for at, speeds in (("0.03", {}), (0.03, {"x": "0.01"}), (0.03, {"q": 1.0})):
+def test_invalid_numbers_are_refused_and_the_connection_stays(harness):
+    for target, speeds in (("0.03", {}), (0.03, {"x": "0.01"}), (0.03, {"q": 1.0})):
         with pytest.raises(OutOfLimitsError):
-            stepped.session.go_to({"x": at}, speeds=speeds)
-    stepped.step()
-    assert stepped.session.snapshot().connection is Connection.CONNECTED
+            harness.session.go_to({"x": target}, speeds=speeds)
+    harness.step()
+    assert harness.session.snapshot().connection is ConnectionState.CONNECTED
 
 
-def test_a_stop_is_the_last_event_only_until_anything_moves_or_is_accepted(stepped):
-    session = stepped.session
-    stepped.step()
+def test_the_state_is_halted_only_until_the_next_motion_or_request(harness):
+    session = harness.session
+    harness.step()
     assert not session.snapshot().halted
     for operate in (
         lambda: session.jog("x", 1e-4),
         session.release,
         session.dismiss_stop,
-        lambda: stepped.driver.move_to({"x": 0.03}, permit=session.permit()),  # by its own buttons
+        # By the buttons of the device.
+        lambda: harness.driver.move_to({"x": 0.03}, permit=session.permit()),
     ):
         session.go_to({"x": 0.02}, speeds={"x": 1e-3})
-        stepped.step()
+        harness.step()
         session.stop()
         assert session.snapshot().halted
-        stepped.until_idle()
-        stepped.step(0.02, 5)
+        harness.step_until_idle()
+        harness.step(0.02, 5)
         assert session.snapshot().halted
         operate()
-        stepped.step()
+        harness.step()
         assert not session.snapshot().halted
-        stepped.until_idle()
+        harness.step_until_idle()
         assert not session.snapshot().halted
 
 
-def test_a_stop_that_overtakes_a_request_stays_the_last_event(stepped):
-    session = stepped.session
-    stepped.step()
+def test_a_refused_request_does_not_end_the_halted_state(harness):
+    session = harness.session
+    harness.step()
     permit = session.permit()
     session.stop()
-    with pytest.raises(RefusedError):
+    with pytest.raises(RequestRefusedError):
         session.go_to({"x": 0.02}, permit=permit)
-    stepped.step()
+    harness.step()
     assert session.snapshot().halted
 
 
-def test_a_lost_link_is_told_from_a_device_that_failed(make_stepped):
-    for error, lost in (
+def test_a_lost_link_is_distinguished_from_a_failed_device(make_harness):
+    for error, is_link_lost in (
         (ConnectionError("unplugged"), True),
         (DeviceResetError("the board began again"), False),
         (ValueError("a bug"), False),
     ):
-        stepped = make_stepped()
+        harness = make_harness()
 
         def fail(error=error):
             raise error
 
-        stepped.driver.before["read"] = fail
-        assert stepped.step().link_lost is lost
-    never = make_stepped(connect=False)
+        harness.driver.before["read"] = fail
+        assert harness.step().link_lost is is_link_lost
+    never_connected = make_harness(connect=False)
 
     def refuse():
         raise ConnectionError("no such port")
 
-    never.driver.before["open"] = refuse
-    assert never.connect().step().link_lost is False
+    never_connected.driver.before["open"] = refuse
+    assert never_connected.connect().step().link_lost is False
 
 
-def test_the_silence_of_a_device_that_sends_nothing_more_is_measured(stepped):
-    stepped.step()
-    stepped.clock.advance(3.0)  # and the worker hangs in the driver
-    state = stepped.session.snapshot()
+def test_the_silence_of_a_device_is_measured(harness):
+    harness.step()
+    harness.clock.advance(3.0)  # while the worker hangs in the driver
+    state = harness.session.snapshot()
     assert state.silent_s == pytest.approx(3.0, abs=0.1)
-    assert state.phase is Phase.SHORT_LOSS
+    assert state.phase is SessionPhase.SHORT_LOSS

@@ -1,64 +1,72 @@
-"""Packages of others, as an installation leaves them: modules and their entry points."""
+"""Third-party packages as they are after an installation: modules with entry points."""
 
 from importlib.metadata import entry_points
 from textwrap import dedent
 
 import pytest
 
-from rotemina.app.plugin_kit.plugin_kinds import Kind
-from rotemina.drivers import registry
-from rotemina.sim import plugin_points
-from rotemina.sim.effects import registry as effects
-from rotemina.sim.plugin_import import import_fault
+from rotemina.app.plugin_kit import PluginKind
+from rotemina.drivers.contract import registry
+from rotemina.sim.effects import registry as effect_registry
+from rotemina.sim.plugin_points import find_import_fault, loading as plugin_points
+
+# Tests of a plugin, which run in the environment where it is installed.
+collect_ignore = ["last_release"]
 
 
 @pytest.fixture
-def kept_in(tmp_path):
-    """Where it is remembered which imports were tried."""
+def import_cache(tmp_path):
+    """File with the results of trial imports."""
     return tmp_path / "cache" / "plugin_imports.json"
 
 
 @pytest.fixture
-def install(tmp_path, monkeypatch, kept_in):
-    """Install a package: the text of its module, and the names that each kind of plugin has.
+def install(tmp_path, monkeypatch, import_cache):
+    """Function that installs a package with one module and its entry points.
 
-    Of our own panels one alone is there, or each test would import them all.
+    Only one of the program's panels is available. Otherwise each test would import all of them.
     """
 
-    def some(group):
-        ours = entry_points(group=group)
-        own_panel = group == Kind.PANEL.group
-        return [one for one in ours if not own_panel or one.name in ("plots", "others")]
+    def find_reduced_entry_points(group):
+        points = entry_points(group=group)
+        is_panel_group = group == PluginKind.PANEL.group
+        return [
+            point for point in points if not is_panel_group or point.name in ("plots", "others")
+        ]
 
-    monkeypatch.setattr(registry, "entry_points", some)
+    monkeypatch.setattr(registry, "entry_points", find_reduced_entry_points)
 
-    def tried(point):
-        return import_fault(point, limit_s=1.0, kept_in=kept_in)
+    def find_fault_quickly(point):
+        return find_import_fault(point, limit_s=1.0, cache_file=import_cache)
 
-    monkeypatch.setattr(plugin_points, "import_fault", tried)
+    monkeypatch.setattr(plugin_points, "find_import_fault", find_fault_quickly)
     site = tmp_path / "site"
     site.mkdir()
     monkeypatch.syspath_prepend(str(site))
 
     def install(module, text, version="1.0", **plugins):
         (site / f"{module}.py").write_text(dedent(text), "utf-8")
-        about = site / f"{module}-{version}.dist-info"
-        about.mkdir()
-        (about / "METADATA").write_text(
+        metadata_folder = site / f"{module}-{version}.dist-info"
+        metadata_folder.mkdir()
+        (metadata_folder / "METADATA").write_text(
             f"Metadata-Version: 2.1\nName: {module}\nVersion: {version}\n"
         )
         lines = []
         for kind, points in plugins.items():
-            lines += [f"[{Kind(kind).group}]", *(f"{n} = {v}" for n, v in points.items())]
-        (about / "entry_points.txt").write_text("\n".join(lines) + "\n")
-        monkeypatch.syspath_prepend(str(site))  # forgets what was looked up before
-        forget()
+            lines += [
+                f"[{PluginKind(kind).group}]",
+                *(f"{name} = {target}" for name, target in points.items()),
+            ]
+        (metadata_folder / "entry_points.txt").write_text("\n".join(lines) + "\n")
+        # This call also clears the caches of the import system.
+        monkeypatch.syspath_prepend(str(site))
+        clear_caches()
         return site / f"{module}.py"
 
-    def forget():
-        effects._points.cache_clear()
-        effects.effect_named.cache_clear()
+    def clear_caches():
+        effect_registry._find_entry_points.cache_clear()
+        effect_registry.load_effect.cache_clear()
 
     yield install
     monkeypatch.undo()
-    forget()
+    clear_caches()

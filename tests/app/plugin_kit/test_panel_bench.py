@@ -1,25 +1,24 @@
-"""The bench hands a panel a record, and plays a trajectory for it."""
+"""The panel bench passes a record to a panel and plays a trajectory for it."""
 
 import numpy as np
 import pytest
 from PySide6.QtWidgets import QLabel
 
-from rotemina.app.motion.state import Phase
+from rotemina.app.motion.state import SessionPhase
 from rotemina.app.panel import Panel
-from rotemina.app.plugin_kit.panel_bench import panel_bench
-from rotemina.sim.errors import InputError
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
+from rotemina.app.plugin_kit import open_panel_bench
+from rotemina.sim.errors import InputError, OutOfLimitsError
+from rotemina.sim.records import Record, Tap
 
 pytestmark = pytest.mark.usefixtures("qapp")
 
 
-class Listener(Panel):
+class ListeningPanel(Panel):
     title = "Listener"
 
     def __init__(self, workbench):
         super().__init__(workbench)
-        self.text, self.plans, self.moved = QLabel(), [], set()
+        self.text, self.plans, self.positions_nm = QLabel(), [], set()
         workbench.plan_changed.connect(self.take_plan)
         workbench.run_changed.connect(self.take_run)
         workbench.shown.connect(self.take_state)
@@ -31,36 +30,36 @@ class Listener(Panel):
         self.text.setText(f"{run.name}: {len(run.record.time_s)} rows")
 
     def take_state(self, state):
-        self.moved.add(round(1e9 * state.command["zn"]))
+        self.positions_nm.add(round(1e9 * state.command["zn"]))
 
 
-def swing(height=5e-6, signals=(Tap.CMD,)):
+def make_swing(height=5e-6, signals=(Tap.CMD,)):
     time_s = np.arange(251) / 500.0
-    path = 3e-5 + height * np.sin(np.pi * time_s / time_s[-1]) ** 4
-    return Record.from_signals(time_s, {("zn", tap): path for tap in signals}, {"zn": "m"})
+    position = 3e-5 + height * np.sin(np.pi * time_s / time_s[-1]) ** 4
+    return Record.from_signals(time_s, {("zn", tap): position for tap in signals}, {"zn": "m"})
 
 
-def test_a_trajectory_is_planned_played_and_compared():
-    with panel_bench(Listener) as bench:
-        run = bench.play(swing(), "swing")
+def test_trajectory_is_planned_played_and_compared():
+    with open_panel_bench(ListeningPanel) as bench:
+        run = bench.play(make_swing(), "swing")
         assert bench.panel.plans == ["swing"]
         assert bench.panel.text.text() == f"swing: {len(run.record.time_s)} rows"
         assert run.gaps["zn", Tap.MEAS].rms < 1e-7
-        assert len(bench.panel.moved) > 5  # the panel followed it
-        assert bench.play(swing(), "again") is not run
+        assert len(bench.panel.positions_nm) > 5  # the panel followed the motion
+        assert bench.play(make_swing(), "again") is not run
         with pytest.raises(InputError, match="zn"):
-            bench.play(swing(1.0))
+            bench.play(make_swing(1.0))
 
 
-def test_a_record_is_handed_over_with_its_gap():
-    with panel_bench(Listener) as bench:
-        run = bench.hand_record(swing(signals=(Tap.CMD, Tap.MEAS)), "tuesday")
+def test_record_is_passed_with_its_gap():
+    with open_panel_bench(ListeningPanel) as bench:
+        run = bench.hand_record(make_swing(signals=(Tap.CMD, Tap.MEAS)), "tuesday")
         assert bench.workbench.run is run
         assert bench.panel.text.text() == "tuesday: 251 rows"
 
 
-def test_a_panel_hears_of_a_stop_and_moves_axes_together():
-    with panel_bench(Panel) as bench:
+def test_panel_is_notified_of_a_stop_and_moves_axes_together():
+    with open_panel_bench(Panel) as bench:
         session, stops = bench.workbench.session, []
         bench.workbench.stopped.connect(lambda: stops.append(session.snapshot().stop.why))
         before = session.snapshot().command
@@ -71,7 +70,8 @@ def test_a_panel_hears_of_a_stop_and_moves_axes_together():
         session.stop()
         session.move_by({"x": 1e-4, "zn": 1e-6}, owner="test")
         bench.advance(0.02)
-        assert session.snapshot().phase is Phase.MOVING  # what rests when it is stopped has stopped
+        # Axes that are already at rest count as stopped at once.
+        assert session.snapshot().phase is SessionPhase.MOVING
         bench.advance(3.0)
         after = session.snapshot().command
         assert {axis: after[axis] - before[axis] for axis in after} == pytest.approx(

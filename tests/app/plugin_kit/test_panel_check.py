@@ -1,4 +1,4 @@
-"""The check of panels finds what a panel lets escape into Qt."""
+"""The panel check detects errors of a panel that would escape into Qt."""
 
 import sys
 
@@ -8,8 +8,7 @@ from PySide6.QtGui import QPainter
 from PySide6.QtWidgets import QLabel, QPushButton, QVBoxLayout
 
 from rotemina.app.panel import Panel
-from rotemina.app.plugin_kit.panel_bench import panel_bench
-from rotemina.app.plugin_kit.panel_check import check_panel
+from rotemina.app.plugin_kit import check_panel, open_panel_bench
 
 pytestmark = pytest.mark.usefixtures("qapp")
 
@@ -27,40 +26,40 @@ class GoodPanel(Panel):
         self.text.setText(f"{state.measured['x']:g}")
 
 
-class BadPainter(GoodPanel):
+class FailingPainterPanel(GoodPanel):
     def paintEvent(self, event):  # noqa: N802 (Qt's name)
         raise ValueError("no colour")
 
 
-class Untidy(GoodPanel):
+class WrongPainterPanel(GoodPanel):
     def paintEvent(self, event):  # noqa: N802 (Qt's name)
         QPainter(self).drawLine(0, 0, 1, 1)
-        QPainter().setOpacity(0.5)  # on nothing: Qt complains
+        QPainter().setOpacity(0.5)  # without a paint device, so Qt warns
 
 
-class BadListener(GoodPanel):
+class FailingListenerPanel(GoodPanel):
     def show_state(self, state):
         raise KeyError("thy")
 
 
-class Clinging(GoodPanel):
+class UndisconnectedPanel(GoodPanel):
     def __init__(self, workbench):
         super().__init__(workbench)
         text = self.text
         workbench.shown.connect(lambda _: text.setText("still here"))
 
 
-class BadTimer(GoodPanel):
+class FailingTimerPanel(GoodPanel):
     def __init__(self, workbench):
         super().__init__(workbench)
         QTimer.singleShot(0, self, lambda: 1 / 0)
 
 
-class Nameless(GoodPanel):
+class UntitledPanel(GoodPanel):
     title = " "
 
 
-class EnabledLate(GoodPanel):
+class LateEnabledPanel(GoodPanel):
     def __init__(self, workbench):
         super().__init__(workbench)
         self.move = QPushButton("Move")
@@ -68,57 +67,57 @@ class EnabledLate(GoodPanel):
         workbench.refreshed.connect(self.enable)
 
     def enable(self, state):
-        self.move.setEnabled(state.locked is None)
+        self.move.setEnabled(state.lock_reason is None)
 
 
-class EnabledAtOnce(EnabledLate):
+class ImmediatelyEnabledPanel(LateEnabledPanel):
     def __init__(self, workbench):
         super().__init__(workbench)
         workbench.refreshed.disconnect(self.enable)
         self.follow(self.enable)
 
 
-class Unmade(GoodPanel):
+class ExitingPanel(GoodPanel):
     def __init__(self, workbench):
         raise SystemExit(3)
 
 
-def failures(kind):
-    return {one.name: one.note for one in check_panel(kind) if one.verdict == "failed"}
+def find_failures(panel):
+    return {result.name: result.note for result in check_panel(panel) if result.verdict == "failed"}
 
 
-def test_a_good_panel_passes():
-    assert failures(GoodPanel) == {}
-    assert failures(EnabledAtOnce) == {}
+def test_good_panels_pass():
+    assert find_failures(GoodPanel) == {}
+    assert find_failures(ImmediatelyEnabledPanel) == {}
 
 
 @pytest.mark.parametrize(
-    ("kind", "name", "said"),
+    ("panel", "name", "message"),
     [
-        (BadPainter, "painted", "no colour"),
-        (Untidy, "painted", "QPainter"),
-        (BadListener, "informed", "KeyError: 'thy'"),
-        (Clinging, "closed", "already deleted"),
-        (BadTimer, "painted", "ZeroDivisionError"),
+        (FailingPainterPanel, "painted", "no colour"),
+        (WrongPainterPanel, "painted", "QPainter"),
+        (FailingListenerPanel, "informed", "KeyError: 'thy'"),
+        (UndisconnectedPanel, "closed", "already deleted"),
+        (FailingTimerPanel, "painted", "ZeroDivisionError"),
         (
-            EnabledLate,
+            LateEnabledPanel,
             "enabled-at-once",
             "the machine was locked, the first refresh changed 'Move'",
         ),
-        (Nameless, "described", "the title ' '"),
-        (Unmade, "described", "it raised SystemExit: 3"),
+        (UntitledPanel, "described", "the title ' '"),
+        (ExitingPanel, "described", "it raised SystemExit: 3"),
     ],
 )
-def test_a_bad_panel_is_found(kind, name, said):
+def test_bad_panel_is_detected(panel, name, message):
     hook = sys.excepthook
-    assert said in failures(kind)[name]
+    assert message in find_failures(panel)[name]
     assert sys.excepthook is hook
 
 
-def test_the_bench_tells_where_the_machine_is():
-    with panel_bench(GoodPanel, "fsm") as bench:
+def test_bench_shows_the_position_of_the_machine():
+    with open_panel_bench(GoodPanel, "fsm") as bench:
         assert set(bench.workbench.robot.axes) != {"x"}
-    with panel_bench(GoodPanel) as bench:
+    with open_panel_bench(GoodPanel) as bench:
         bench.workbench.session.jog("x", 1e-4)
         before = bench.text_of("x")
         bench.advance(1.0)

@@ -1,4 +1,4 @@
-"""The real window opens and stays, whatever the panels of others do, and names each of them."""
+"""The real window opens and stays open despite faulty third-party panels, and reports them."""
 
 import json
 import os
@@ -17,11 +17,11 @@ PANELS = {
     "raises": "raise RuntimeError('no licence')",
     "paints": """
         from PySide6.QtGui import QPainter
-        from rotemina.app.panel import Area, Panel
+        from rotemina.app.panel import PanelArea, Panel
 
         class Any(Panel):
             title = "Paints badly"
-            area = Area.LEFT
+            area = PanelArea.LEFT
 
             def paintEvent(self, event):
                 self.painter = QPainter(self)
@@ -55,11 +55,11 @@ PANELS = {
                 self.timer.start()
     """,
     "paints_an_end": """
-        from rotemina.app.panel import Area, Panel
+        from rotemina.app.panel import PanelArea, Panel
 
         class Any(Panel):
             title = "Paints an end"
-            area = Area.LEFT
+            area = PanelArea.LEFT
 
             def paintEvent(self, event):
                 quit()
@@ -95,7 +95,7 @@ PANELS = {
             title = "Good"
     """,
 }
-WINDOW = """
+WINDOW_SCRIPT = """
 import json, sys
 from functools import partial
 from pathlib import Path
@@ -104,61 +104,65 @@ from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QApplication
 
 from rotemina.app.motion.session import MotionSession
-from rotemina.app.settings import Settings
-from rotemina.app.shell.main_window import MainWindow
-from rotemina.app.shell.application import make_application
-from rotemina.app.shell.window_run import run
-from rotemina.drivers.simulator.driver import Simulator
-from rotemina.sim import plugin_import, plugin_points
-from rotemina.sim.robot.file import load_robot
+from rotemina.app.settings import UserSettings
+from rotemina.app.shell.window import MainWindow
+from rotemina.app.shell.startup.application import make_application
+from rotemina.app.shell.startup.window_run import run
+from rotemina.app.workbench import NoticePoster
+from rotemina.drivers.simulator import Simulator
+from rotemina.sim.plugin_points import trial_import as plugin_import
+from rotemina.sim.plugin_points import loading as plugin_points
+from rotemina.sim.robot_files import load_robot
 
-plugin_points.import_fault = partial(plugin_import.import_fault, limit_s=25.0)
-told, tries = [], 0
+plugin_points.find_import_fault = partial(plugin_import.find_import_fault, limit_s=25.0)
+messages, tries = [], 0
 
 
-def look():
+def check_panels():
     global tries
-    (window,) = [one for one in QApplication.topLevelWidgets() if isinstance(one, MainWindow)]
+    (window,) = [w for w in QApplication.topLevelWidgets() if isinstance(w, MainWindow)]
     bad = ("paints", "ticks", "leaves", "paints_an_end", "interrupts", "threads")
-    named = [name for name in bad if name in window.panels]
-    said = "".join(told)
-    silent = [name for name in bad if f"Panel '{name}' is left out" not in said]
+    present = [name for name in bad if name in window.panels]
+    text = "".join(messages)
+    unreported = [name for name in bad if f"Panel '{name}' is left out" not in text]
     tries += 1
-    if (named or silent) and tries < 400:
-        if named:
-            window.bring_up(named[tries % len(named)])  # tabs are behind the controls
-        QTimer.singleShot(50, look)
+    if (present or unreported) and tries < 400:
+        if present:
+            window.bring_up(present[tries % len(present)])  # tabs are behind the controls
+        QTimer.singleShot(50, check_panels)
         return
-    answer = {"panels": list(window.panels), "told": told, "visible": window.isVisible()}
+    answer = {"panels": list(window.panels), "messages": messages, "visible": window.isVisible()}
     Path("answer.json").write_text(json.dumps(answer))
     window.close()
 
 
 make_application()
-notify = MainWindow.__init__.__globals__["Workbench"].notify
-MainWindow.__init__.__globals__["Workbench"].notify = lambda self, level, text, **about: (
-    told.append(text), notify(self, level, text, **about)
+notify = NoticePoster.notify
+NoticePoster.notify = lambda self, level, text, **about: (
+    messages.append(text), notify(self, level, text, **about)
 )
-QTimer.singleShot(500, look)
-sys.exit(run(MotionSession(Simulator(load_robot("rotemina"))), Settings(Path("settings.json"))))
+QTimer.singleShot(500, check_panels)
+sys.exit(run(MotionSession(Simulator(load_robot("rotemina"))), UserSettings(Path("settings.json"))))
 """
 
 
 @pytest.fixture
-def place(tmp_path):
-    """Return a function that installs panels and runs a script with the window beside them."""
+def run_window(tmp_path):
+    """Function that installs panels and runs a script that opens the window with them."""
 
     def run(panels, script):
         site = tmp_path / "site"
-        about = site / "others-1.0.dist-info"
-        about.mkdir(parents=True)
-        (about / "METADATA").write_text("Metadata-Version: 2.1\nName: others\nVersion: 1.0\n")
+        metadata_folder = site / "others-1.0.dist-info"
+        metadata_folder.mkdir(parents=True)
+        (metadata_folder / "METADATA").write_text(
+            "Metadata-Version: 2.1\nName: others\nVersion: 1.0\n"
+        )
         for name, text in panels.items():
             (site / f"others_{name}.py").write_text(dedent(text))
         points = "\n".join(f"{name} = others_{name}:Any" for name in panels)
-        (about / "entry_points.txt").write_text(f"[rotemina.panels]\n{points}\n")
+        (metadata_folder / "entry_points.txt").write_text(f"[rotemina.panels]\n{points}\n")
         (tmp_path / "window.py").write_text(script)
-        folders = {f"XDG_{what}_HOME": str(tmp_path / what) for what in ("CACHE", "DATA", "CONFIG")}
+        folders = {f"XDG_{kind}_HOME": str(tmp_path / kind) for kind in ("CACHE", "DATA", "CONFIG")}
         paths = filter(None, [str(site), os.environ.get("PYTHONPATH")])
         environment = {
             **os.environ,
@@ -178,14 +182,14 @@ def place(tmp_path):
     return run
 
 
-def test_the_window_opens_and_names_what_it_leaves_out(place, tmp_path):
-    done = place(PANELS, WINDOW)
-    assert done.returncode == 0, done.stderr
+def test_window_opens_and_reports_the_panels_left_out(run_window, tmp_path):
+    process = run_window(PANELS, WINDOW_SCRIPT)
+    assert process.returncode == 0, process.stderr
     answer = json.loads((tmp_path / "answer.json").read_text())
     assert answer["visible"]
-    assert "good" in answer["panels"], answer["told"]
+    assert "good" in answer["panels"], answer["messages"]
     assert "control" in answer["panels"]
-    said = "\n".join(answer["told"])
+    messages = "\n".join(answer["messages"])
     for name, reason in {
         "hangs": "its import did not end within 25 s",
         "dies": "its import ends the whole process",
@@ -198,31 +202,33 @@ def test_the_window_opens_and_names_what_it_leaves_out(place, tmp_path):
         "threads": "is left out after 3 faults: OSError: no such device",
     }.items():
         assert name not in answer["panels"]
-        (line,) = [line for line in answer["told"] if f"Panel '{name}' is left out" in line]
-        assert reason in line, said
+        (line,) = [line for line in answer["messages"] if f"Panel '{name}' is left out" in line]
+        assert reason in line, messages
 
 
-MOVING = """
+MOTION_SCRIPT = """
 import sys
 from pathlib import Path
 
 from rotemina.app.motion.session import MotionSession
-from rotemina.app.settings import Settings
-from rotemina.app.shell.window_run import run
-from rotemina.drivers.simulator.driver import Simulator
-from rotemina.sim.robot.file import load_robot
+from rotemina.app.settings import UserSettings
+from rotemina.app.shell.startup.window_run import run
+from rotemina.app.workbench import NoticePoster
+from rotemina.drivers.simulator import Simulator
+from rotemina.sim.robot_files import load_robot
 
 
-class Told(Simulator):
+class StopRecorder(Simulator):
     def _stop(self):
         with Path("stops").open("a") as file:
             file.write("stop ")
         super()._stop()
 
 
-sys.exit(run(MotionSession(Told(load_robot("rotemina"))), Settings(Path("settings.json"))))
+session = MotionSession(StopRecorder(load_robot("rotemina")))
+sys.exit(run(session, UserSettings(Path("settings.json"))))
 """
-LEAVING = """
+LEAVING_PANEL = """
     import os, sys
     from PySide6.QtCore import QTimer
     from rotemina.app.panel import Panel
@@ -232,12 +238,12 @@ LEAVING = """
 
         def __init__(self, workbench):
             super().__init__(workbench)
-            workbench.refreshed.connect(self.look)
-            self.begun = False
+            workbench.refreshed.connect(self.start_move)
+            self.started = False
 
-        def look(self, state):
-            if state.locked is None and not self.begun:
-                self.begun = True
+        def start_move(self, state):
+            if state.lock_reason is None and not self.started:
+                self.started = True
                 open("stops", "w").close()
                 self.workbench.session.jog("x", 5e-3)
                 QTimer.singleShot(1500, self.leave)
@@ -248,16 +254,16 @@ LEAVING = """
 
 
 @pytest.mark.parametrize(
-    ("end", "stopped"),
+    ("end", "expected_stop"),
     [("raise SystemExit(3)", "stop"), ("os._exit(3)", ""), ("os.abort()", "")],
 )
-def test_what_ends_the_process_all_the_same_stops_the_machine(place, tmp_path, end, stopped):
-    """The exit path says the stop where Python still runs; else the watchdog beside it does."""
-    done = place({"leaving": LEAVING.replace("{end}", end)}, MOVING)
-    assert done.returncode != 0
-    assert (tmp_path / "stops").read_text().startswith(stopped)
+def test_machine_is_stopped_when_a_panel_ends_the_process(run_window, tmp_path, end, expected_stop):
+    """The exit path sends the stop if Python still runs. Otherwise the watchdog does."""
+    process = run_window({"leaving": LEAVING_PANEL.replace("{end}", end)}, MOTION_SCRIPT)
+    assert process.returncode != 0
+    assert (tmp_path / "stops").read_text().startswith(expected_stop)
     log = tmp_path / "DATA" / "rotemina" / "watchdog.log"
     end_s = time.monotonic() + 20.0
-    while not (log.exists() and "has ended without letting go" in log.read_text()):
-        assert time.monotonic() < end_s, "the watchdog told nothing within 20 s"
+    while not (log.exists() and "has ended without disconnecting" in log.read_text()):
+        assert time.monotonic() < end_s, "the watchdog logged nothing within 20 s"
         time.sleep(0.05)

@@ -1,4 +1,4 @@
-"""Who gets the scene: whoever has the address, from this machine, from this page; nobody else."""
+"""Only clients with the secret address, on this machine and from this page, get the scene."""
 
 import asyncio
 import json
@@ -14,19 +14,17 @@ import pytest
 from tornado.httpclient import HTTPClientError, HTTPRequest
 from tornado.websocket import websocket_connect
 
-from rotemina.app.scene import page
-from rotemina.app.scene.page import ViewerError
-from rotemina.app.scene.scene import Scene
-from rotemina.app.scene.server import ViewServer
-from rotemina.app.scene.viewers import MOST
+from rotemina.app.errors import ViewerError
+from rotemina.app.scene import SceneCommandStore, ViewServer, page
+from rotemina.app.scene.viewers import MAX_VIEWERS
 
-LONG_S = 20.0
-LINES = []  # that the present conversation has opened, each with its stream
+TIMEOUT_S = 20.0
+OPEN_WEBSOCKETS = []  # opened by the current conversation, each with its stream
 
 
 @pytest.fixture
 def scene():
-    scene = Scene()
+    scene = SceneCommandStore()
     put(scene, "/a", 1)
     put(scene, "/b", 1)
     return scene
@@ -45,80 +43,82 @@ def put(scene, path, value):
     scene.put({"type": "set_transform", "path": path, "value": value})
 
 
-def ask(server, path=None, method="GET", **headers):
-    """Send a request as it stands; return status, headers and body."""
+def send_request(server, path=None, method="GET", **headers):
+    """Send a request without changes; return status, headers and body."""
     address = urlsplit(server.url)
-    line = HTTPConnection("127.0.0.1", address.port, timeout=LONG_S)
+    connection = HTTPConnection("127.0.0.1", address.port, timeout=TIMEOUT_S)
     try:
-        given = {name.replace("_", "-"): value for name, value in headers.items()}
-        line.putrequest(method, path or address.path, skip_host="Host" in given)
-        for name, value in given.items():
-            line.putheader(name, value)
-        line.endheaders()
-        answer = line.getresponse()
-        return answer.status, answer.headers, answer.read()
+        sent_headers = {name.replace("_", "-"): value for name, value in headers.items()}
+        connection.putrequest(method, path or address.path, skip_host="Host" in sent_headers)
+        for name, value in sent_headers.items():
+            connection.putheader(name, value)
+        connection.endheaders()
+        response = connection.getresponse()
+        return response.status, response.headers, response.read()
     finally:
-        line.close()
+        connection.close()
 
 
 async def connect(server, url=None, **headers):
-    given = {"Origin": server.origin} | headers
+    sent_headers = {"Origin": server.origin} | headers
     address = url or server.url.replace("http:", "ws:") + "socket"
-    request = HTTPRequest(address, headers={k: v for k, v in given.items() if v is not None})
-    line = await asyncio.wait_for(websocket_connect(request), LONG_S)
-    LINES.append((line, line.protocol.stream))
-    return line
+    request = HTTPRequest(
+        address, headers={name: value for name, value in sent_headers.items() if value is not None}
+    )
+    websocket = await asyncio.wait_for(websocket_connect(request), TIMEOUT_S)
+    OPEN_WEBSOCKETS.append((websocket, websocket.protocol.stream))
+    return websocket
 
 
-def run(talk):
-    """Run a conversation, and close every line that it has opened."""
+def run_conversation(conversation):
+    """Run a conversation and close every websocket that it has opened."""
 
-    async def whole():
+    async def run_and_close():
         try:
-            return await talk
+            return await conversation
         finally:
-            for line, stream in LINES:
-                line.close()
-                stream.close()  # which would wait for an answer that this loop may not live to hear
-            LINES.clear()
+            for websocket, stream in OPEN_WEBSOCKETS:
+                websocket.close()
+                stream.close()  # would otherwise wait for an answer beyond the end of this loop
+            OPEN_WEBSOCKETS.clear()
             await asyncio.sleep(0)
 
-    return asyncio.run(whole())
+    return asyncio.run(run_and_close())
 
 
-async def hear(line):
-    text = await asyncio.wait_for(line.read_message(), LONG_S)
+async def receive(websocket):
+    text = await asyncio.wait_for(websocket.read_message(), TIMEOUT_S)
     return text if text is None else {c["path"]: c["value"] for c in json.loads(text)}
 
 
-def refused(server, **how):
-    """Return the status with which a socket is refused."""
+def get_refusal_status(server, **options):
+    """Return the status with which a websocket is refused, or None."""
 
     async def attempt():
         try:
-            await connect(server, **how)
+            await connect(server, **options)
         except HTTPClientError as error:
             return error.code
         return None
 
-    return run(attempt())
+    return run_conversation(attempt())
 
 
-# --- who is let in --------------------------------------------------------------------------------
+# --- access ---------------------------------------------------------------------------------------
 
 
-def test_whoever_has_the_address_gets_the_viewer(server):
+def test_client_with_the_address_gets_the_viewer(server):
     base = urlsplit(server.url).path
     for name, kind in (("", "text/html"), ("viewer.js", "text/javascript"), ("viewer.css", "text")):
-        status, headers, body = ask(server, base + name)
+        status, headers, body = send_request(server, base + name)
         assert status == 200
         assert headers["Content-Type"].startswith(kind)
         assert body
-    _, _, viewer = ask(server, base + "meshcat.js")
+    _, _, viewer = send_request(server, base + "meshcat.js")
     assert b"MeshCat" in viewer
 
 
-def test_without_the_right_secret_nothing_is_told(server):
+def test_wrong_secret_is_refused(server):
     secret = urlsplit(server.url).path.strip("/")
     assert len(secret) >= 40
     for path in (
@@ -130,40 +130,40 @@ def test_without_the_right_secret_nothing_is_told(server):
         "/static/",
         "/%C3%A9/",
     ):
-        status, _, body = ask(server, path)
+        status, _, body = send_request(server, path)
         assert (status, body) == (403, b""), path
-    wrong = f"ws{server.origin[4:]}/{secret[:-1]}x/socket"
-    assert refused(server, url=wrong) == 403
+    wrong_url = f"ws{server.origin[4:]}/{secret[:-1]}x/socket"
+    assert get_refusal_status(server, url=wrong_url) == 403
 
 
-def test_every_server_has_a_secret_of_its_own(scene):
+def test_every_server_has_a_different_secret(scene):
     assert ViewServer(scene)._secret != ViewServer(scene)._secret
 
 
 @pytest.mark.parametrize(
     "host", ["evil.example", "127.0.0.1", "localhost:{}", "127.0.0.1.nip.io:{}"]
 )
-def test_another_host_is_refused(server, host):
+def test_other_host_header_is_refused(server, host):
     host = host.format(urlsplit(server.url).port)
-    status, _, body = ask(server, Host=host)
+    status, _, body = send_request(server, Host=host)
     assert (status, body) == (421, b"")
-    assert refused(server, Host=host) == 421
+    assert get_refusal_status(server, Host=host) == 421
 
 
 @pytest.mark.parametrize("origin", ["http://evil.example", "null", "http://127.0.0.1", "", None])
-def test_another_origin_gets_no_socket(server, origin):
-    assert refused(server, Origin=origin) == 403
-    assert server.watching == 0
+def test_another_origin_gets_no_websocket(server, origin):
+    assert get_refusal_status(server, Origin=origin) == 403
+    assert server.viewer_count == 0
 
 
-def test_a_page_of_another_origin_gets_no_file(server):
-    status, _, body = ask(server, Origin="http://evil.example")
+def test_page_of_another_origin_gets_no_file(server):
+    status, _, body = send_request(server, Origin="http://evil.example")
     assert (status, body) == (403, b"")
     https = server.origin.replace("http:", "https:")
-    assert ask(server, Origin=https)[0] == 403
+    assert send_request(server, Origin=https)[0] == 403
 
 
-def test_there_are_no_other_files_and_nothing_can_be_sent(server):
+def test_only_known_files_can_be_read_and_nothing_can_be_written(server):
     base = urlsplit(server.url).path
     for path in (
         "viewer.html",
@@ -173,13 +173,13 @@ def test_there_are_no_other_files_and_nothing_can_be_sent(server):
         "main.js",
         "x/socket",
     ):
-        assert ask(server, base + path)[0] == 404, path
+        assert send_request(server, base + path)[0] == 404, path
     for method in ("POST", "PUT", "DELETE"):
-        assert ask(server, method=method, Content_Length="0")[0] == 405
+        assert send_request(server, method=method, Content_Length="0")[0] == 405
 
 
-def test_browsers_are_told_to_keep_others_out(server):
-    _, headers, _ = ask(server)
+def test_security_headers_exclude_other_pages(server):
+    _, headers, _ = send_request(server)
     policy = headers["Content-Security-Policy"]
     for part in ("default-src 'none'", "frame-ancestors 'none'", "script-src 'self'"):
         assert part in policy
@@ -192,120 +192,120 @@ def test_browsers_are_told_to_keep_others_out(server):
     assert "Access-Control-Allow-Origin" not in headers
 
 
-def test_it_listens_on_loopback_alone(server):
-    assert [each.getsockname()[0] for each in server._sockets] == ["127.0.0.1"]
+def test_server_listens_only_on_loopback(server):
+    assert [listener.getsockname()[0] for listener in server._sockets] == ["127.0.0.1"]
     assert server._sockets[0].family == socket.AF_INET
 
 
-def test_refusals_leave_no_secret_in_the_log(server, caplog):
+def test_secret_is_not_logged(server, caplog):
     caplog.set_level(0)
-    ask(server)
-    ask(server, urlsplit(server.url).path + "nothing")
-    refused(server, Origin="http://evil.example")
+    send_request(server)
+    send_request(server, urlsplit(server.url).path + "nothing")
+    get_refusal_status(server, Origin="http://evil.example")
     assert server._secret not in caplog.text
 
 
-# --- what viewers get -----------------------------------------------------------------------------
+# --- updates to viewers ---------------------------------------------------------------------------
 
 
-def test_several_viewers_see_the_same_and_one_that_comes_back_sees_everything(server, scene):
-    async def look():
+def test_all_viewers_get_changes_and_a_returning_one_gets_everything(server, scene):
+    async def converse():
         first, second = await connect(server), await connect(server)
-        assert await hear(first) == await hear(second) == {"/a": 1, "/b": 1}
-        assert server.watching == 2
+        assert await receive(first) == await receive(second) == {"/a": 1, "/b": 1}
+        assert server.viewer_count == 2
         put(scene, "/a", 2)
-        server.changed()
-        for line in (first, second):
-            await line.write_message("drawn")
-            assert await hear(line) == {"/a": 2}
+        server.send_changes()
+        for websocket in (first, second):
+            await websocket.write_message("drawn")
+            assert await receive(websocket) == {"/a": 2}
         first.close()
-        again = await connect(server)
-        assert await hear(again) == {"/a": 2, "/b": 1}
+        returned = await connect(server)
+        assert await receive(returned) == {"/a": 2, "/b": 1}
 
-    run(look())
+    run_conversation(converse())
 
 
-def test_one_that_does_not_draw_keeps_nobody_waiting_and_gets_no_backlog(server, scene):
-    async def look():
+def test_slow_viewer_blocks_no_other_and_gets_no_backlog(server, scene):
+    async def converse():
         slow, fast = await connect(server), await connect(server)
-        await hear(slow)
-        await hear(fast)
+        await receive(slow)
+        await receive(fast)
         for value in range(2, 6):
             put(scene, "/a", value)
-            server.changed()
+            server.send_changes()
             await fast.write_message("drawn")
-            assert await hear(fast) == {"/a": value}
+            assert await receive(fast) == {"/a": value}
         await slow.write_message("drawn")
-        assert await hear(slow) == {"/a": 5}
+        assert await receive(slow) == {"/a": 5}
 
-    run(look())
-
-
-@pytest.mark.parametrize("said", ["set_object", '{"type":"delete"}', b"drawn", "x" * 1000])
-def test_a_viewer_that_says_anything_else_is_let_go(server, said):
-    async def speak():
-        line = await connect(server)
-        assert await hear(line) is not None
-        await line.write_message(said, binary=isinstance(said, bytes))
-        assert await hear(line) is None
-
-    run(speak())
-    assert ask(server)[0] == 200
+    run_conversation(converse())
 
 
-def test_there_are_only_so_many_viewers(server):
-    async def crowd():
-        for _ in range(MOST):
+@pytest.mark.parametrize("message", ["set_object", '{"type":"delete"}', b"drawn", "x" * 1000])
+def test_viewer_that_sends_anything_else_is_disconnected(server, message):
+    async def converse():
+        websocket = await connect(server)
+        assert await receive(websocket) is not None
+        await websocket.write_message(message, binary=isinstance(message, bytes))
+        assert await receive(websocket) is None
+
+    run_conversation(converse())
+    assert send_request(server)[0] == 200
+
+
+def test_number_of_viewers_is_limited(server):
+    async def connect_too_many():
+        for _ in range(MAX_VIEWERS):
             await connect(server)
         with pytest.raises(HTTPClientError) as refusal:
             await connect(server)
         assert refusal.value.code == 503
 
-    run(crowd())
+    run_conversation(connect_too_many())
 
 
-# --- begin and end --------------------------------------------------------------------------------
+# --- start and end --------------------------------------------------------------------------------
 
 
-def test_closing_lets_go_of_viewers_and_of_the_port(scene):
+def test_close_disconnects_viewers_and_frees_the_port(scene):
     server = ViewServer(scene)
     server.start()
     port = urlsplit(server.url).port
 
-    async def look():
-        line = await connect(server)
-        await hear(line)
+    async def converse():
+        websocket = await connect(server)
+        await receive(websocket)
         await asyncio.to_thread(server.close)
-        assert await hear(line) is None
+        assert await receive(websocket) is None
 
-    run(look())
+    run_conversation(converse())
     with socket.socket() as probe:
         assert probe.connect_ex(("127.0.0.1", port)) != 0
-    server.changed()  # too late, and harmless
+    server.send_changes()  # has no effect after closing
     assert server.close()
 
 
-def test_one_that_was_never_started_can_be_closed(scene):
+def test_server_that_was_never_started_can_be_closed(scene):
     assert ViewServer(scene).close()
 
 
-def test_a_missing_file_is_named(monkeypatch, tmp_path):
-    page.page_files.cache_clear()
+def test_missing_page_file_is_named(monkeypatch, tmp_path):
+    page.load_page_files.cache_clear()
     monkeypatch.setattr(page.resources, "files", lambda package: tmp_path)
     with pytest.raises(ViewerError, match=rf"{tmp_path}/.*install RoTeMiNa again"):
-        page.page_files()
-    page.page_files.cache_clear()
+        page.load_page_files()
+    page.load_page_files.cache_clear()
 
 
-def test_the_viewer_is_the_one_of_the_package():
-    """Whoever has the extra 'meshcat' sees that what we carry is what that package ships."""
+def test_included_viewer_equals_the_one_of_the_package():
+    """With the extra 'meshcat', compare the included viewer with the one in that package."""
     spec = find_spec("meshcat")
     if spec is None:
         pytest.skip("needs the extra 'meshcat'")
-    shipped = Path(spec.origin).with_name("viewer") / "dist" / "main.min.js"
-    carried = resources.files("rotemina.resources.meshcat").joinpath("main.min.js")
-    assert carried.read_bytes() == shipped.read_bytes()
+    package_file = Path(spec.origin).with_name("viewer") / "dist" / "main.min.js"
+    included_file = resources.files("rotemina.resources.meshcat").joinpath("main.min.js")
+    assert included_file.read_bytes() == package_file.read_bytes()
 
 
-def test_a_request_about_the_server_as_a_whole_is_refused(server):
-    assert ask(server, "*", "OPTIONS")[0] == 403
+def test_options_request_for_the_whole_server_is_refused(server):
+    assert send_request(server, "*", "OPTIONS")[0] == 403

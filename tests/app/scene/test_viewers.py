@@ -1,13 +1,13 @@
-"""How fast viewers are told: never faster than they draw, and no backlog."""
+"""Viewers get updates no faster than they draw, and no backlog."""
 
 import pytest
 
-from rotemina.app.scene.scene import Scene
-from rotemina.app.scene.viewers import FRAME_S, Viewer
+from rotemina.app.scene import SceneCommandStore
+from rotemina.app.scene.viewers import MIN_MESSAGE_INTERVAL_S, SceneViewer
 
 
-class Line:
-    """Keeps what was sent."""
+class FakeConnection:
+    """A connection that records the commands sent."""
 
     def __init__(self):
         self.sent = []
@@ -19,82 +19,82 @@ class Line:
         pass
 
 
-class Timing:
-    """A loop whose time is set by hand."""
+class FakeEventLoop:
+    """An event loop whose time the test advances."""
 
     def __init__(self):
         self.now_s = 100.0
-        self.due = []
+        self.timers = []
 
     def time(self):
         return self.now_s
 
     def call_later(self, delay, callback):
-        self.due.append((self.now_s + delay, callback))
+        self.timers.append((self.now_s + delay, callback))
         return self
 
     def cancel(self):
-        self.due.clear()
+        self.timers.clear()
 
     def advance(self, seconds):
         self.now_s += seconds
-        ready = [callback for at, callback in self.due if at <= self.now_s]
-        self.due = [each for each in self.due if each[0] > self.now_s]
+        ready = [callback for due_s, callback in self.timers if due_s <= self.now_s]
+        self.timers = [timer for timer in self.timers if timer[0] > self.now_s]
         for callback in ready:
             callback()
 
 
 @pytest.fixture
-def place():
-    scene, line, timing = Scene(), Line(), Timing()
-    return scene, line, timing, Viewer(scene, line, timing)
+def connected_viewer():
+    scene, connection, loop = SceneCommandStore(), FakeConnection(), FakeEventLoop()
+    return scene, connection, loop, SceneViewer(scene, connection, loop)
 
 
 def put(scene, value):
     scene.put({"type": "set_transform", "path": "/a", "value": value})
 
 
-def test_a_slow_viewer_gets_the_newest_and_no_backlog(place):
-    scene, line, timing, viewer = place
+def test_slow_viewer_gets_the_newest_command_and_no_backlog(connected_viewer):
+    scene, connection, loop, viewer = connected_viewer
     for value in range(1000):
         put(scene, value)
-        timing.advance(FRAME_S)
-        viewer.tell()
-    assert line.sent == [[0]]
-    viewer.drawn()
-    assert line.sent == [[0], [999]]
+        loop.advance(MIN_MESSAGE_INTERVAL_S)
+        viewer.send_changes()
+    assert connection.sent == [[0]]
+    viewer.on_drawn()
+    assert connection.sent == [[0], [999]]
 
 
-def test_a_fast_viewer_is_told_thirty_times_a_second_at_most(place):
-    scene, line, timing, viewer = place
+def test_fast_viewer_gets_at_most_thirty_updates_per_second(connected_viewer):
+    scene, connection, loop, viewer = connected_viewer
     for value in range(1000):
         put(scene, value)
-        viewer.tell()
-        viewer.drawn()
-        timing.advance(0.001)
-    assert 29 <= len(line.sent) <= 31
-    timing.advance(FRAME_S)
-    assert line.sent[-1] == [999]
+        viewer.send_changes()
+        viewer.on_drawn()
+        loop.advance(0.001)
+    assert 29 <= len(connection.sent) <= 31
+    loop.advance(MIN_MESSAGE_INTERVAL_S)
+    assert connection.sent[-1] == [999]
 
 
-def test_nothing_is_sent_where_nothing_is_new(place):
-    scene, line, timing, viewer = place
+def test_nothing_is_sent_without_changes(connected_viewer):
+    scene, connection, loop, viewer = connected_viewer
     put(scene, 1)
-    viewer.tell()
+    viewer.send_changes()
     for _ in range(5):
-        timing.advance(1.0)
-        viewer.drawn()
-    assert line.sent == [[1]]
+        loop.advance(1.0)
+        viewer.on_drawn()
+    assert connection.sent == [[1]]
 
 
-def test_who_has_left_is_told_nothing(place):
-    scene, line, timing, viewer = place
+def test_disconnected_viewer_gets_nothing(connected_viewer):
+    scene, connection, loop, viewer = connected_viewer
     put(scene, 1)
-    viewer.tell()
-    viewer.drawn()
+    viewer.send_changes()
+    viewer.on_drawn()
     put(scene, 2)
-    viewer.tell()  # has to wait for its time
+    viewer.send_changes()  # waits for the minimum interval
     viewer.end()
-    timing.advance(1.0)
-    viewer.tell()
-    assert line.sent == [[1]]
+    loop.advance(1.0)
+    viewer.send_changes()
+    assert connection.sent == [[1]]

@@ -1,4 +1,4 @@
-"""Work away from the window's thread: its order, its answers, and that nothing of it stays."""
+"""Background jobs: order, answers and released memory."""
 
 import gc
 import threading
@@ -7,77 +7,88 @@ import weakref
 import pytest
 from PySide6.QtCore import QCoreApplication, QObject
 
-from rotemina.app.shell.background import Background
+from rotemina.app.workbench import BackgroundWorker
 from rotemina.sim.errors import InputError
 
 PANELS = ()
 
-LONG_MS = 30_000
+TIMEOUT_MS = 30_000
 
 
-class Heavy:
-    """What a record is: large."""
+class LargeObject:
+    """Stands for a large object such as a record."""
 
 
 @pytest.fixture
 def background(qtbot):
     parent = QObject()
-    made = Background(parent)
-    yield made
-    assert made.wait()
+    worker = BackgroundWorker(parent)
+    yield worker
+    assert worker.wait()
 
 
-def test_work_is_done_in_order_and_only_the_latest_of_a_kind_is_answered(qtbot, background):
-    go, order, answers = threading.Event(), [], []
+def test_jobs_run_in_order_and_only_the_latest_of_a_kind_answers(qtbot, background):
+    may_run, runs, answers = threading.Event(), [], []
 
     def work(number):
-        assert go.wait(20.0)
-        order.append((number, threading.current_thread() is threading.main_thread()))
+        assert may_run.wait(20.0)
+        runs.append((number, threading.current_thread() is threading.main_thread()))
         return number
 
     for number, kind in enumerate(("a", "a", "b")):
         background.run(kind, lambda number=number: work(number), answers.append, answers.append)
     assert background.busy
-    go.set()
-    qtbot.waitUntil(lambda: not background.busy, timeout=LONG_MS)
-    assert order == [(0, False), (1, False), (2, False)]
+    may_run.set()
+    qtbot.waitUntil(lambda: not background.busy, timeout=TIMEOUT_MS)
+    assert runs == [(0, False), (1, False), (2, False)]
     assert answers == [1, 2]
 
 
-def test_a_refusal_and_a_fault_are_told(qtbot, background, caplog):
-    told = []
+def test_refusals_and_faults_are_reported(qtbot, background, caplog):
+    messages = []
     for error in (InputError("too short"), ZeroDivisionError("by zero")):
 
         def work(error=error):
             raise error
 
-        background.run(error.args[0], work, print, told.append)
-    qtbot.waitUntil(lambda: len(told) == 2, timeout=LONG_MS)
-    assert told[0] == "too short"
-    assert "ZeroDivisionError: by zero" in told[1]
+        background.run(error.args[0], work, print, messages.append)
+    qtbot.waitUntil(lambda: len(messages) == 2, timeout=TIMEOUT_MS)
+    assert messages[0] == "too short"
+    assert "ZeroDivisionError: by zero" in messages[1]
 
 
-def test_nothing_of_what_was_done_stays(qtbot, background):
-    alive = []
+def test_an_error_without_a_text_is_a_failure_too(qtbot, background):
+    def fail():
+        raise InputError
+
+    results, messages = [], []
+    background.run("any", fail, results.append, messages.append)
+    qtbot.waitUntil(lambda: bool(results or messages), timeout=TIMEOUT_MS)
+    assert (results, messages) == ([], ["InputError"])
+
+
+def test_finished_jobs_release_their_memory(qtbot, background):
+    references = []
     for _ in range(50):
-        heavy = Heavy()
-        alive.append(weakref.ref(heavy))
-        done = []
-        background.run("any", lambda heavy=heavy: heavy, done.append, print)
-        del heavy
-        qtbot.waitUntil(lambda done=done: bool(done), timeout=LONG_MS)
-        del done
+        large_object = LargeObject()
+        references.append(weakref.ref(large_object))
+        results = []
+        background.run("any", lambda large_object=large_object: large_object, results.append, print)
+        del large_object
+        qtbot.waitUntil(lambda results=results: bool(results), timeout=TIMEOUT_MS)
+        del results
     assert background.wait()
     gc.collect()
-    assert [one for one in alive if one() is not None] == []
+    assert [reference for reference in references if reference() is not None] == []
 
 
 def test_no_answer_arrives_after_the_end(qtbot, background):
-    answers, go = [], threading.Event()
-    background.run("slow", lambda: go.wait(20.0), answers.append, answers.append)
-    go.set()
+    answers, may_run = [], threading.Event()
+    background.run("slow", lambda: may_run.wait(20.0), answers.append, answers.append)
+    may_run.set()
     assert background.end()
     QCoreApplication.processEvents()
     assert answers == []
+    assert not background._latest_numbers  # no kind of a discarded request is kept
     background.run("next", lambda: "answer", answers.append, answers.append)
-    qtbot.waitUntil(lambda: answers == ["answer"], timeout=LONG_MS)
+    qtbot.waitUntil(lambda: answers == ["answer"], timeout=TIMEOUT_MS)

@@ -1,4 +1,4 @@
-"""The tool that carries the German over to reworded English loses and invents nothing."""
+"""The translation tool lists open texts, fills in a table and reports lost translations."""
 
 import csv
 import importlib.util
@@ -15,15 +15,15 @@ ENTRY = """    <message>
 """
 
 
-def texts_file(*entries):
-    made = "".join(
+def make_ts_file(*entries):
+    messages = "".join(
         ENTRY.format(source=source, german=german, kind="" if german else ' type="unfinished"')
         for source, german in entries
     )
     return (
         '<?xml version="1.0" encoding="utf-8"?>\n<!DOCTYPE TS>\n'
         '<TS version="2.1" language="de" sourcelanguage="en">\n<context>\n'
-        f"    <name>shell</name>\n{made}</context>\n</TS>\n"
+        f"    <name>shell</name>\n{messages}</context>\n</TS>\n"
     )
 
 
@@ -37,37 +37,37 @@ def tool(tmp_path, monkeypatch):
 
 
 @pytest.fixture
-def reworded(tool, tmp_path, monkeypatch):
-    """A file whose first English text was reworded since the last commit; the German is gone."""
-    before = texts_file(("The header tells what moves", "Der Kopf"), ("Stop", "Halt"))
-    now = texts_file(("The header shows what moves", ""), ("Stop", "Halt"))
+def reworded_file(tool, tmp_path, monkeypatch):
+    """A file whose first English text was reworded since the last commit and lost its German."""
+    before = make_ts_file(("The header tells what moves", "Der Kopf"), ("Stop", "Halt"))
+    now = make_ts_file(("The header shows what moves", ""), ("Stop", "Halt"))
     (tmp_path / "shell.ts").write_text(now, "utf-8")
     commit = dict(tool.texts("shell.ts", before))
     monkeypatch.setattr(tool, "read_commit", lambda _: commit)
     return tmp_path / "shell.ts"
 
 
-def rows(text):
+def parse_rows(text):
     return list(csv.DictReader(io.StringIO(text)))
 
 
-def test_an_open_text_is_listed_with_the_german_of_its_former_wording(tool, reworded, capsys):
+def test_an_open_text_is_listed_with_its_earlier_german(tool, reworded_file, capsys):
     assert tool.main(["open"]) == 0
-    (row,) = rows(capsys.readouterr().out)
+    (row,) = parse_rows(capsys.readouterr().out)
     assert row["english"] == "The header shows what moves"
     assert row["earlier_german"] == "Der Kopf"
     assert row["german"] == ""
 
 
-def test_a_filled_table_ends_up_in_the_file_and_nothing_else_changes(tool, reworded, tmp_path):
+def test_filling_in_a_table_changes_nothing_else(tool, reworded_file, tmp_path):
     table = tmp_path / "table.csv"
     table.write_text(
         "file,context,english,german\nshell.ts,shell,The header shows what moves,Der Kopf zeigt\n",
         "utf-8",
     )
     assert tool.main(["fill", str(table)]) == 0
-    wanted = texts_file(("The header shows what moves", "Der Kopf zeigt"), ("Stop", "Halt"))
-    assert reworded.read_text("utf-8") == wanted
+    expected = make_ts_file(("The header shows what moves", "Der Kopf zeigt"), ("Stop", "Halt"))
+    assert reworded_file.read_text("utf-8") == expected
 
 
 @pytest.mark.parametrize(
@@ -77,18 +77,18 @@ def test_a_filled_table_ends_up_in_the_file_and_nothing_else_changes(tool, rewor
         "shell.ts,shell,A text that is not there,Text",
     ],
 )
-def test_a_row_that_fits_no_text_is_refused(tool, reworded, tmp_path, capsys, row):
+def test_a_row_that_matches_no_text_is_rejected(tool, reworded_file, tmp_path, capsys, row):
     table = tmp_path / "table.csv"
     table.write_text(f"file,context,english,german\n{row}\n", "utf-8")
-    before = reworded.read_text("utf-8")
+    before = reworded_file.read_text("utf-8")
     assert tool.main(["fill", str(table)]) == 1
     assert "shell.ts" in capsys.readouterr().err
-    assert reworded.read_text("utf-8") == before
+    assert reworded_file.read_text("utf-8") == before
 
 
-def test_lost_translations_are_listed(tool, reworded, capsys):
+def test_lost_translations_are_listed(tool, reworded_file, capsys):
     assert tool.main(["lost"]) == 0
-    (row,) = rows(capsys.readouterr().out)
+    (row,) = parse_rows(capsys.readouterr().out)
     assert (row["earlier_english"], row["earlier_german"]) == (
         "The header tells what moves",
         "Der Kopf",

@@ -1,10 +1,9 @@
-"""What a few letters find first."""
+"""Fuzzy matching of command names."""
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from rotemina.app.shell.fuzzy_match import score
+from rotemina.app.shell.window.fuzzy_match import score_match
 
 TEXTS = [
     "Motion: Stop and lock",
@@ -18,13 +17,13 @@ TEXTS = [
 ]
 
 
-def best(typed):
-    found = {text: score(typed, text) for text in TEXTS}
-    return max((text for text in TEXTS if found[text] is not None), key=found.get)
+def find_best_match(query):
+    scores = {text: score_match(query, text) for text in TEXTS}
+    return max((text for text in TEXTS if scores[text] is not None), key=scores.get)
 
 
 @pytest.mark.parametrize(
-    ("typed", "text"),
+    ("query", "text"),
     [
         ("light", "View: Light theme"),
         ("st", "Motion: Stop"),
@@ -36,20 +35,20 @@ def best(typed):
         ("STEP", "Trajectory: Step forward"),
     ],
 )
-def test_letters_find_what_they_are_the_start_of(typed, text):
-    assert best(typed) == text
+def test_the_best_match_is_found(query, text):
+    assert find_best_match(query) == text
 
 
-def test_all_words_must_fit_and_nothing_fits_all():
-    assert score("stop xyz", "Motion: Stop") is None
-    assert score("pots", "Stop") is None
-    assert score("", "Stop") == 0.0
-    assert score("s", "") is None
+def test_all_words_must_match_and_an_empty_query_matches_everything():
+    assert score_match("stop xyz", "Motion: Stop") is None
+    assert score_match("pots", "Stop") is None
+    assert score_match("", "Stop") == 0.0
+    assert score_match("s", "") is None
 
 
 @given(st.text(max_size=40), st.data())
-def test_letters_of_a_text_in_their_order_always_fit(text, data):
+def test_any_subsequence_of_a_text_matches_it(text, data):
     folded = "".join(text.casefold().split())
-    kept = data.draw(st.lists(st.booleans(), min_size=len(folded), max_size=len(folded)))
-    letters = "".join(letter for letter, keep in zip(folded, kept, strict=True) if keep)
-    assert score(letters, folded) is not None
+    mask = data.draw(st.lists(st.booleans(), min_size=len(folded), max_size=len(folded)))
+    letters = "".join(letter for letter, keep in zip(folded, mask, strict=True) if keep)
+    assert score_match(letters, folded) is not None

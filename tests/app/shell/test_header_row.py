@@ -1,11 +1,11 @@
-"""What the header and the menu bar show in windows of every width; nothing stands on the stops."""
+"""Header and menu bar fit every window width, and nothing covers the stop buttons."""
 
 import pytest
 from PySide6.QtCore import QPoint, QRect
 from PySide6.QtWidgets import QApplication
 
-from rotemina.app.shell.layouts import DIAGNOSE, OPERATE
-from rotemina.app.shell.workbench import Level
+from rotemina.app.shell.window import DIAGNOSE, OPERATE
+from rotemina.app.workbench import Level
 
 LONG_MS = 30_000
 PANELS = ("gap", "job", "events")
@@ -16,105 +16,108 @@ def settle():
         QApplication.processEvents()
 
 
-def resized(window, width, scale=1.0):
+def resize_window(window, width, scale=1.0):
     window.workbench.settings.set("window.scale", scale)
-    window.arrangement.dress()
+    window.arrangement.apply_current_theme()
     window.resize(width, 720)
     settle()
     return window._bar
 
 
-def entries(button):
+def read_menu(button):
     button.menu().aboutToShow.emit()
     return {action.text(): action for action in button.menu().actions()}
 
 
 def test_chips_are_dropped_one_by_one_and_listed(window):
-    bar = resized(window, 1900)
+    bar = resize_window(window, 1900)
     chips = (bar.owner, bar.events, bar.model)
-    left = []
+    visible_chips = []
     for width in range(1900, 800, -20):
-        resized(window, width)
-        left.append([chip for chip in chips if chip.isVisible()])
-        hidden = len(chips) - len(left[-1])
-        if bar.row.dropped.isVisible():
-            assert len(entries(bar.row.dropped)) == hidden > 0
-    drops = [at for at in range(len(chips) + 1) if list(chips[at:]) in left]
+        resize_window(window, width)
+        visible_chips.append([chip for chip in chips if chip.isVisible()])
+        hidden = len(chips) - len(visible_chips[-1])
+        if bar.row.overflow_button.isVisible():
+            assert len(read_menu(bar.row.overflow_button)) == hidden > 0
+    drops = [start for start in range(len(chips) + 1) if list(chips[start:]) in visible_chips]
     assert drops == [0, 1, 2, 3]
-    assert all(list(chips[len(chips) - len(seen) :]) == seen for seen in left)
+    assert all(list(chips[len(chips) - len(shown) :]) == shown for shown in visible_chips)
 
 
-def test_a_chip_that_was_dropped_still_does_what_it_does(window, monkeypatch):
-    bar = resized(window, 1000)
+def test_a_dropped_chip_works_from_the_menu(window, monkeypatch):
+    bar = resize_window(window, 1000)
     assert not bar.events.isVisible()
-    assert bar.row.dropped.isVisible()
-    entries(bar.row.dropped)["Warnings 0"].trigger()
+    assert bar.row.overflow_button.isVisible()
+    read_menu(bar.row.overflow_button)["Warnings 0"].trigger()
     assert window.log_page.isVisible()
     window.log_page.hide()
-    assert not entries(bar.row.dropped)["No one is driving"].isEnabled()
+    assert not read_menu(bar.row.overflow_button)["No one is driving"].isEnabled()
 
 
-def test_a_recording_is_shown_before_any_other_chip(window):
-    bar = resized(window, 1000)
+def test_the_recording_chip_has_priority(window):
+    bar = resize_window(window, 1000)
     before = bar.recording.isVisible()
     bar.recording.setText("● 12:34  5 MB")
-    bar.row.fill(bar.recording, full=True)  # without a frame, in which nothing is recorded
+    # No frame may come in between: it would say that nothing is being recorded.
+    bar.row.set_chip_wanted(bar.recording, wanted=True)
     assert not before
     assert bar.recording.isVisible()
     assert not bar.owner.isVisible()
-    bar.row.fill(bar.recording, full=False)
+    bar.row.set_chip_wanted(bar.recording, wanted=False)
     assert not bar.recording.isVisible()
 
 
-def test_the_reason_gives_way_after_the_chips_and_is_in_the_tooltip_then(qtbot, window):
-    bar = resized(window, 1024, scale=1.3)
-    assert bar.doing.isVisible()
+def test_the_reason_moves_to_the_tooltip_after_the_chips_are_dropped(qtbot, window):
+    bar = resize_window(window, 1024, scale=1.3)
+    assert bar.reason_label.isVisible()
     assert not any(chip.isVisible() for chip in (bar.owner, bar.events))
-    resized(window, 1024, scale=2.0)
-    assert not bar.doing.isVisible()
+    resize_window(window, 1024, scale=2.0)
+    assert not bar.reason_label.isVisible()
     window.workbench.emergency_stop()
     qtbot.waitUntil(lambda: "Locked by the operator" in bar.state.toolTip(), timeout=LONG_MS)
-    resized(window, 1900, scale=1.0)
+    resize_window(window, 1900, scale=1.0)
     qtbot.waitUntil(lambda: bar.state.toolTip() == "", timeout=LONG_MS)
-    assert bar.doing.isVisible()
+    assert bar.reason_label.isVisible()
 
 
-def test_nothing_of_the_window_stands_on_the_stops(window):
+def test_nothing_covers_the_stop_buttons(window):
     window.panels.make_all()
-    bar = resized(window, 1024, scale=2.0)
+    bar = resize_window(window, 1024, scale=2.0)
     for number in range(5):
         window.workbench.notify(Level.ERROR, f"{number}: " + 40 * "something is wrong ")
     window.toggle_palette()
     settle()
     palette = window.palette_page.frameGeometry()
     for button in (bar.stop, bar.emergency):
-        place = QRect(button.mapTo(window, QPoint()), button.size())
-        assert not any(notice.geometry().intersects(place) for notice in window.notices.shown())
-        assert not palette.intersects(place.translated(window.mapToGlobal(QPoint())))
-        assert window.childAt(place.center()) is button
+        stop_area = QRect(button.mapTo(window, QPoint()), button.size())
+        assert not any(
+            notice.geometry().intersects(stop_area) for notice in window.notices.visible_notices()
+        )
+        assert not palette.intersects(stop_area.translated(window.mapToGlobal(QPoint())))
+        assert window.childAt(stop_area.center()) is button
     window.toggle_palette()
 
 
 @pytest.mark.parametrize("scale", [1.0, 2.0])
-def test_layouts_are_chosen_in_the_menu_bar_as_its_room_allows(window, scale):
+def test_the_layout_buttons_collapse_to_a_menu_in_a_narrow_window(window, scale):
     row = window.layout_row
     window.arrangement.arrange(OPERATE)
-    resized(window, 1900, scale)
+    resize_window(window, 1900, scale)
     assert row.buttons["Tune"].isVisible()
-    resized(window, 1024, scale)
+    resize_window(window, 1024, scale)
     assert row.buttons["Tune"].isVisible() is (scale == 1.0)
-    assert row.short.isVisible() is (scale == 2.0)
-    if row.short.isVisible():
-        assert row.short.text() == "Operate"
-        offered = entries(row.short)
-        assert list(offered) == ["Operate", "Tune", "Diagnose", "Set up", "Job", "Events"]
-        assert offered["Operate"].isChecked()
-        offered["Job"].trigger()
+    assert row.menu_button.isVisible() is (scale == 2.0)
+    if row.menu_button.isVisible():
+        assert row.menu_button.text() == "Operate"
+        entries = read_menu(row.menu_button)
+        assert list(entries) == ["Operate", "Tune", "Diagnose", "Set up", "Job", "Events"]
+        assert entries["Operate"].isChecked()
+        entries["Job"].trigger()
         assert not window.docks["job"].isHidden()
-        offered["Diagnose"].trigger()
+        entries["Diagnose"].trigger()
         settle()
-        assert window.arrangement.in_use is DIAGNOSE
-        assert row.short.text() == "Diagnose"
-    last = window.menuBar().actionGeometry(window.menuBar().actions()[-1])
-    assert row.geometry().left() > last.right()
+        assert window.arrangement.current_layout is DIAGNOSE
+        assert row.menu_button.text() == "Diagnose"
+    last_menu = window.menuBar().actionGeometry(window.menuBar().actions()[-1])
+    assert row.geometry().left() > last_menu.right()
     assert row.geometry().right() < window.width()

@@ -1,4 +1,4 @@
-"""Palette, keys, log page and support bundle, and every action of the window."""
+"""Palette, shortcuts, log page, support bundle and every action of the window."""
 
 import re
 import zipfile
@@ -23,89 +23,91 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.motion.state import Connection
+from rotemina.app.motion.state import ConnectionState
 from rotemina.app.panel import offer_in_palette
-from rotemina.app.shell import key_help
-from rotemina.app.shell import theme as themes
-from rotemina.app.shell.workbench import Level
-from rotemina.app.widgets.controls import allow
+from rotemina.app.shell.help import key_help
+from rotemina.app.widgets.controls import enable_unless
+from rotemina.app.widgets.style import theme as themes
+from rotemina.app.workbench import Level
 
 LONG_MS = 30_000
 CONTROLS = (QAbstractButton, QAbstractSlider, QAbstractSpinBox, QComboBox, QLineEdit)
-PARTS_OF = (QAbstractSpinBox, QComboBox, QLineEdit, QTabBar)
+COMPOSITE_CONTROLS = (QAbstractSpinBox, QComboBox, QLineEdit, QTabBar)
 UNIT = re.compile(r"(?<=[ ,])(mm/s|µm/s|mm|µm|µrad|ms|Hz|1/h|s|%)$")
 LIMIT = re.compile(r"\d to [\d.]|above 0|at most \d|within its range")
 
 
 @pytest.fixture
-def silent(monkeypatch):
-    """No dialog waits for an answer."""
+def close_dialogs(monkeypatch):
+    """Close every dialog at once."""
     monkeypatch.setattr(QFileDialog, "show", lambda dialog: dialog.close())
     monkeypatch.setattr(QInputDialog, "show", lambda dialog: dialog.close())
 
 
-def all_actions(menu):
+def iterate_actions(menu):
     for action in menu.actions():
         if action.menu() is not None:
-            yield from all_actions(action.menu())
+            yield from iterate_actions(action.menu())
         elif not action.isSeparator():
             yield action
 
 
-def test_every_action_of_every_menu_and_of_the_palette(qtbot, window, silent, monkeypatch):
-    clicked, dressed = [], []
-    # Panels test what their own buttons do. (A bound method would not be given the button.)
-    monkeypatch.setattr(QPushButton, "click", lambda button: clicked.append(button))
-    monkeypatch.setattr(themes, "dress", lambda _, theme, scale: dressed.append((theme, scale)))
-    texts = {command.text for command in window.commands()}
-    seen = set()
-    for action in all_actions(window.menuBar()):
+def test_every_menu_action_and_palette_entry_runs(qtbot, window, close_dialogs, monkeypatch):
+    clicked_buttons, applied_themes = [], []
+    # Each panel tests its own buttons. (A bound method would not receive the button.)
+    monkeypatch.setattr(QPushButton, "click", lambda button: clicked_buttons.append(button))
+    monkeypatch.setattr(
+        themes, "apply_theme", lambda _, theme, scale: applied_themes.append((theme, scale))
+    )
+    texts = {command.text for command in window.make_commands()}
+    triggered = set()
+    for action in iterate_actions(window.menuBar()):
         if action.text() != "&Quit":
             action.trigger()
-            seen.add(action.text())
-    assert texts - {"&Quit"} <= seen
-    assert {dock.windowTitle() for dock in window.docks.values()} <= seen
-    assert {theme for theme, _ in dressed} == set(themes.THEMES.values())
-    assert len({scale for _, scale in dressed}) > 1
+            triggered.add(action.text())
+    assert texts - {"&Quit"} <= triggered
+    assert {dock.windowTitle() for dock in window.docks.values()} <= triggered
+    assert {theme for theme, _ in applied_themes} == set(themes.THEMES.values())
+    assert len({scale for _, scale in applied_themes}) > 1
     bench = window.workbench
     bench.release()
     bench.reconnect()  # the menu has disconnected it
-    connected = Connection.CONNECTED
+    connected = ConnectionState.CONNECTED
     qtbot.waitUntil(lambda: bench.session.snapshot().connection is connected, timeout=LONG_MS)
     window.palette_page.hide()
-    offered = list(window._entries())
-    for entry in offered:
-        assert entry.where
-        assert entry.what.strip(": ") == entry.what != ""
-    assert texts <= {command.text for command in window.commands()}
-    done = 0
-    for entry in offered[len(texts) :]:  # the commands were just triggered
-        if entry.why_not is None:
+    entries = list(window._make_palette_entries())
+    for entry in entries:
+        assert entry.group
+        assert entry.title.strip(": ") == entry.title != ""
+    assert texts <= {command.text for command in window.make_commands()}
+    run_count = 0
+    for entry in entries[len(texts) :]:  # the commands were just triggered
+        if entry.objection is None:
             entry.run()
-            done += 1
-    assert done > len(clicked) + len(window.docks)
-    assert clicked
+            run_count += 1
+    assert run_count > len(clicked_buttons) + len(window.docks)
+    assert clicked_buttons
     assert window.isVisible()
     qtbot.waitUntil(lambda: not window.workbench.busy, timeout=LONG_MS)
 
 
-def test_the_palette_finds_explains_and_does_by_keys_alone(qtbot, window):
+def test_the_palette_works_by_keyboard_alone(qtbot, window):
     bench, palette = window.workbench, window.palette_page
     panel = window.panels["faults"]
-    able, unable = QPushButton("Zebra crossing …", panel), QPushButton("Zebra stripes", panel)
-    offer_in_palette(able, unable, safe_while_hidden=True)
-    allow(able, None, "Go")
-    allow(unable, "there is no zebra", "Go")
+    enabled, disabled = QPushButton("Zebra crossing …", panel), QPushButton("Zebra stripes", panel)
+    offer_in_palette(enabled, disabled, safe_while_hidden=True)
+    enable_unless(enabled, None, "Go")
+    enable_unless(disabled, "there is no zebra", "Go")
     pressed = []
-    able.clicked.connect(lambda: pressed.append("able"))
-    unable.clicked.connect(lambda: pressed.append("unable"))
-    for button in (able, unable):
+    enabled.clicked.connect(lambda: pressed.append("enabled"))
+    disabled.clicked.connect(lambda: pressed.append("disabled"))
+    for button in (enabled, disabled):
         button.show()
     window.docks["faults"].close()
     window.toggle_palette()
     assert palette.isVisible()
     qtbot.keyClicks(palette.field, "zeb")
-    assert [entry.what for entry in palette._shown] == ["Zebra crossing", "Zebra stripes"]
+    assert [entry.title for entry in palette._shown] == ["Zebra crossing", "Zebra stripes"]
     qtbot.keyClick(palette.field, Qt.Key.Key_Down)
     assert palette.reason.text() == "Not now: there is no zebra."
     assert "there is no zebra" in palette.list.item(1).text()
@@ -114,9 +116,9 @@ def test_the_palette_finds_explains_and_does_by_keys_alone(qtbot, window):
     assert palette.isVisible()
     qtbot.keyClick(palette.field, Qt.Key.Key_Up)
     qtbot.keyClick(palette.field, Qt.Key.Key_Return)
-    assert pressed == ["able"]
+    assert pressed == ["enabled"]
     assert palette.isHidden()
-    assert not window.docks["faults"].isHidden()  # the panel that it acts in is shown
+    assert not window.docks["faults"].isHidden()  # the panel of the button is shown
     window.toggle_palette()
     assert palette.field.text() == ""
     qtbot.keyClicks(palette.field, "back previous position")
@@ -128,24 +130,26 @@ def test_the_palette_finds_explains_and_does_by_keys_alone(qtbot, window):
     assert palette.isHidden()
     session = bench.session
     session.jog("x", 1e-5)
-    qtbot.waitUntil(lambda: session.undoable and not session.snapshot().owners, timeout=LONG_MS)
-    undo = next(e for e in window._entries() if e.what.startswith("Back to the previous"))
-    assert undo.why_not is None
-    there = session.snapshot().command["x"]
+    qtbot.waitUntil(lambda: session.can_undo and not session.snapshot().owners, timeout=LONG_MS)
+    undo = next(
+        e for e in window._make_palette_entries() if e.title.startswith("Back to the previous")
+    )
+    assert undo.objection is None
+    position = session.snapshot().command["x"]
     undo.run()
-    qtbot.waitUntil(lambda: session.snapshot().command["x"] < there - 0.9e-5, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: session.snapshot().command["x"] < position - 0.9e-5, timeout=LONG_MS)
 
 
 def test_the_pages_of_help(qtbot, window, tmp_path):
-    every_control_says_what_it_does_with_unit_and_limits(window)
-    keys_are_those_of_the_actions_and_no_two_are_alike(window)
-    the_log_page_filters_follows_and_copies(window)
-    the_support_bundle_is_shown_before_it_is_written(qtbot, window, tmp_path)
+    check_tooltips_give_unit_and_limits(window)
+    check_shortcuts_are_unique(window)
+    check_log_page(window)
+    check_support_bundle(qtbot, window, tmp_path)
 
 
-def every_control_says_what_it_does_with_unit_and_limits(window):
+def check_tooltips_give_unit_and_limits(window):
     state = window.workbench.session.snapshot()
-    silent, boundless = [], []
+    without_tooltip, without_limits = [], []
     for name, panel in dict(window.panels).items():
         window.bring_up(name)
         pages = {"microscope": lambda p: p.bar.tools, "control": lambda p: p.tabs}.get(name)
@@ -154,28 +158,29 @@ def every_control_says_what_it_does_with_unit_and_limits(window):
                 pages(panel).setCurrentIndex(page)
             window.workbench.refreshed.emit(state)
             window.workbench.shown.emit(state)
-        for control in controls_of(panel):
-            what, tip = f"{name}: {control.accessibleName()}", control.toolTip()
+        for control in iterate_controls(panel):
+            label, tip = f"{name}: {control.accessibleName()}", control.toolTip()
             if not tip:
-                silent.append(f"{what} {getattr(control, 'text', str)()}")
-            if not tells_limits(control, tip):
-                boundless.append(f"{what}: {tip}")
-    assert silent == []
-    assert boundless == []
+                without_tooltip.append(f"{label} {getattr(control, 'text', str)()}")
+            if not has_limits(control, tip):
+                without_limits.append(f"{label}: {tip}")
+    assert without_tooltip == []
+    assert without_limits == []
 
 
-def controls_of(panel):
+def iterate_controls(panel):
     for control in panel.findChildren(QWidget):
-        bare = type(control) in (QAbstractButton, QScrollBar)  # the corner of a table
+        # The corner button of a table has no label.
+        is_bare = type(control) in (QAbstractButton, QScrollBar)
         if (
             isinstance(control, CONTROLS)
-            and not bare
-            and not isinstance(control.parent(), PARTS_OF)
+            and not is_bare
+            and not isinstance(control.parent(), COMPOSITE_CONTROLS)
         ):
             yield control
 
 
-def tells_limits(control, tip):
+def has_limits(control, tip):
     if isinstance(control, QSpinBox | QDoubleSpinBox):
         return all(f"{end:.7g}" in tip for end in (control.minimum(), control.maximum()))
     unit = UNIT.search(control.accessibleName())
@@ -184,23 +189,23 @@ def tells_limits(control, tip):
     return unit[0] in tip and LIMIT.search(tip) is not None
 
 
-def keys_are_those_of_the_actions_and_no_two_are_alike(window):
-    rows = key_help.keys(window.findChildren(QAction))
-    found = [key for key, _ in rows]
-    assert len(found) == len(set(found))
+def check_shortcuts_are_unique(window):
+    rows = key_help.list_shortcuts(window.findChildren(QAction))
+    listed_keys = [key for key, _ in rows]
+    assert len(listed_keys) == len(set(listed_keys))
     assert (
         "Shift+Esc",
         "Stop and lock: nothing moves until release; a software stop",
     ) in rows
-    given = {command.shortcut for command in window.commands() if command.shortcut}
-    assert given <= set(found)
+    command_keys = {command.shortcut for command in window.make_commands() if command.shortcut}
+    assert command_keys <= set(listed_keys)
     window.show_keys()
-    page = window.findChild(key_help.KeyHelp)
+    page = window.findChild(key_help.ShortcutsDialog)
     assert "Ctrl+Shift+P" in page.table.text()
     page.close()
 
 
-def the_log_page_filters_follows_and_copies(window):
+def check_log_page(window):
     bench, page = window.workbench, window.log_page
     window.show_log()
     bench.notify(Level.GOOD, "all is well")
@@ -227,7 +232,7 @@ def the_log_page_filters_follows_and_copies(window):
     page.close()
 
 
-def the_support_bundle_is_shown_before_it_is_written(qtbot, window, tmp_path):
+def check_support_bundle(qtbot, window, tmp_path):
     window.workbench.notify(Level.INFO, f"opened {tmp_path.home()}/secret.csv")
     window.show_support()
     page = window._support
@@ -244,7 +249,7 @@ def the_support_bundle_is_shown_before_it_is_written(qtbot, window, tmp_path):
     QApplication.processEvents()
 
 
-def test_the_name_of_a_panel_finds_it_before_anything_in_it(window):
+def test_a_panel_ranks_before_its_buttons_in_the_palette(window):
     palette = window.palette_page
     window.toggle_palette()
     for dock in window.docks.values():
@@ -253,7 +258,7 @@ def test_the_name_of_a_panel_finds_it_before_anything_in_it(window):
     window.toggle_palette()
 
 
-def test_recent_files_are_offered_while_they_are_there(window, settings, tmp_path):
+def test_recent_files_are_listed_while_they_exist(window, settings, tmp_path):
     menu = window.recent_files
     assert not menu.actions()[0].isEnabled()
     paths = [tmp_path / f"{number}.csv" for number in range(11)]
@@ -263,7 +268,7 @@ def test_recent_files_are_offered_while_they_are_there(window, settings, tmp_pat
     menu.add("record", paths[5])
     paths[9].unlink()
     menu.fill()
-    shown = [action.text()[4:] for action in menu.actions()]
-    assert shown == [f"record: {n}.csv" for n in (5, 10, 8, 7, 6, 4, 3, 2)]
+    entries = [action.text()[4:] for action in menu.actions()]
+    assert entries == [f"record: {n}.csv" for n in (5, 10, 8, 7, 6, 4, 3, 2)]
     settings.set("files.recent", "nonsense\nrecord\t\nother\tx.csv")
-    assert menu.listed == []
+    assert menu.entries == []

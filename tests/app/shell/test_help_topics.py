@@ -6,76 +6,90 @@ from pathlib import Path
 
 import pytest
 
-from rotemina.app.motion.state import Faulted
-from rotemina.app.shell import help_pages
-from rotemina.app.shell.help_topics import PAGES, explained, page_by_name, page_for, page_of
-from rotemina.app.shell.workbench import Level
-from rotemina.drivers.errors import LimitError
-from rotemina.sim.records.record import RecordError
+from rotemina.app.motion.state import FaultRaised
+from rotemina.app.shell.help import help_pages
+from rotemina.app.workbench import (
+    Level,
+    find_help_page,
+    find_module_page,
+    get_message_page,
+)
+from rotemina.app.workbench.help_topics import PAGES_BY_NAME, explain_error
+from rotemina.drivers.contract import LimitError
+from rotemina.sim.errors import RecordError
 
 ROOT = Path(__file__).parents[3]
 LONG_MS = 30_000
 PANELS = ("faults",)
-#: Messages that know their page already.
-CARRIED = {"reason", "message"}
+#: Variables whose message already knows its page.
+VARIABLES_WITH_PAGE = {"reason", "message"}
 
 
-@pytest.mark.parametrize("name", sorted(set(PAGES.values())))
-def test_pages_of_the_table_are_there(name):
-    page = help_pages.page(name)
+@pytest.mark.parametrize("name", sorted(set(PAGES_BY_NAME.values())))
+def test_pages_of_the_table_exist(name):
+    page = help_pages.parse_page_name(name)
     text = page.text()
     assert text is not None
-    assert not page.anchor or page.anchor in help_pages.anchors(text)
+    assert not page.anchor or page.anchor in help_pages.find_anchors(text)
 
 
 def test_every_error_of_the_program_has_a_page():
-    lost = [
+    without_page = [
         f"{layer}.{node.name}"
         for layer in ("app", "drivers", "sim")
         for path in (ROOT / layer).rglob("*.py")
         for node in ast.walk(ast.parse(path.read_text("utf-8")))
         if isinstance(node, ast.ClassDef)
         and node.name.endswith("Error")
-        and not page_by_name(f"{module_of(path)}.{node.name}")
+        and not find_module_page(f"{get_module_name(path)}.{node.name}")
     ]
-    assert sorted(lost) == ["sim.InputError", "sim.ToldError"]  # the roots of the others
+    assert sorted(without_page) == ["sim.InputError", "sim.MessageError"]  # the roots of the others
 
 
-def test_every_warning_of_window_and_panels_says_what_it_is_about():
-    silent = [
+def test_every_warning_of_window_and_panels_names_its_topic():
+    without_topic = [
         f"{path}:{call.lineno}"
-        for folder in ("app/shell", "app/widgets", "plugins")
+        for folder in ("app/language", "app/workbench", "app/shell", "app/widgets", "plugins")
         for path in sorted((ROOT / folder).rglob("*.py"))
         for call in ast.walk(ast.parse(path.read_text("utf-8")))
-        if isinstance(call, ast.Call) and is_warning(call) and not says_about(call)
+        if isinstance(call, ast.Call) and is_warning(call) and not has_topic(call)
     ]
-    assert silent == []
+    assert without_topic == []
 
 
-def test_the_nearest_class_counts():
-    class OfAPluginError(LimitError):
-        """A driver's by others."""
+def test_the_nearest_base_class_determines_the_page():
+    class PluginError(LimitError):
+        """An error of a third-party driver."""
 
-    assert page_for(OfAPluginError("no")) == PAGES["rotemina.drivers.errors.LimitError"]
-    assert page_for(Faulted("hot")) == PAGES["rotemina.app.motion.state.Faulted"]
-    assert page_for("safety.md") == "safety.md"
-    assert page_for(KeyError("x")) == page_for(None) == page_of("text") == ""
-    message = explained(RecordError("row 3"))
-    assert (message, page_of(message)) == ("row 3", PAGES["rotemina.sim.records"])
+    assert (
+        find_help_page(PluginError("no"))
+        == PAGES_BY_NAME["rotemina.drivers.contract.errors.LimitError"]
+    )
+    assert (
+        find_help_page(FaultRaised("hot"))
+        == PAGES_BY_NAME["rotemina.app.motion.state.state.FaultRaised"]
+    )
+    assert find_help_page("safety.md") == "safety.md"
+    assert find_help_page(KeyError("x")) == find_help_page(None) == get_message_page("text") == ""
+    message = explain_error(RecordError("row 3"))
+    assert (message, get_message_page(message)) == (
+        "row 3",
+        PAGES_BY_NAME["rotemina.sim.errors.errors.RecordError"],
+    )
 
 
 def test_a_notice_opens_its_page(qtbot, window, tmp_path):
-    bench, shown = window.workbench, window.help_page
+    bench, help_page = window.workbench, window.help_page
     bench.go_to({"x": 99.0})
-    assert opened(window) == "motion.md#limits"
+    assert open_notice_page(window) == "motion.md#limits"
     broken = tmp_path / "broken.csv"
     broken.write_text("t [s],x.cmd [m]\n0,1\noops,2\n", "utf-8")
-    bench.open_record(broken)
+    bench.records.open_record(broken)
     qtbot.waitUntil(lambda: "broken.csv" in window.notices.notices()[0].text, timeout=LONG_MS)
-    assert opened(window).startswith("file-formats.md")
+    assert open_notice_page(window).startswith("file-formats.md")
     bench.notify(Level.WARNING, "from a panel", about=window.panels["faults"].injection)
-    assert opened(window) == "faults.md"
-    shown.hide()
+    assert open_notice_page(window) == "faults.md"
+    help_page.hide()
     bench.notify(Level.INFO, "nobody explains this")
     assert not hasattr(window.notices.notices()[0], "help")
 
@@ -84,7 +98,7 @@ def test_a_row_of_the_log_opens_its_page(window):
     page = window.log_page
     window.show_log()
     window.workbench.notify(Level.GOOD, "all is well")
-    logging.getLogger("rotemina.drivers.registry").warning("plugin x is left out")
+    logging.getLogger("rotemina.drivers.contract.registry").warning("plugin x is left out")
     page.refresh()
     assert not page.help.isEnabled()
     page.words.setText("left out")
@@ -94,17 +108,17 @@ def test_a_row_of_the_log_opens_its_page(window):
     page.words.setText("all is well")
     page.table.selectRow(0)
     assert not page.help.isEnabled()
-    assert "no page" in page.help.toolTip()
+    assert "no help page" in page.help.toolTip()
     page.close()
 
 
-def opened(window):
+def open_notice_page(window):
     window.notices.notices()[0].help.click()
     assert window.help_page.isVisible()
     return window.help_page.page.name
 
 
-def module_of(path):
+def get_module_name(path):
     return "rotemina." + ".".join(path.relative_to(ROOT).with_suffix("").parts)
 
 
@@ -114,6 +128,6 @@ def is_warning(call):
     return name in ("notify", "_notify") and ("ERROR" in level or "WARNING" in level)
 
 
-def says_about(call):
-    carried = isinstance(call.args[1], ast.Name) and call.args[1].id in CARRIED
-    return carried or any(word.arg == "about" for word in call.keywords)
+def has_topic(call):
+    knows_page = isinstance(call.args[1], ast.Name) and call.args[1].id in VARIABLES_WITH_PAGE
+    return knows_page or any(keyword.arg == "about" for keyword in call.keywords)

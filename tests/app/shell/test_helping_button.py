@@ -1,23 +1,23 @@
-"""The button that helps: what it does, and that it never does what it did not show."""
+"""The remedy button does only what it has shown for long enough."""
 
 import pytest
 from PySide6.QtCore import Qt
 
-from rotemina.app.shell.helping_button import HelpingButton
-from rotemina.app.shell.window_state import Remedy
-from rotemina.drivers.clock import VirtualClock
+from rotemina.app.shell.window.helping_button import RemedyButton
+from rotemina.app.workbench import StateRemedy
+from rotemina.drivers.contract import VirtualClock
 
 CALLS = {
-    Remedy.CONNECT: "reconnect",
-    Remedy.RECONNECT: "reconnect",
-    Remedy.RELEASE: "release",
-    Remedy.CLEAR_FAULT: "clear_fault",
-    Remedy.HOME: "home",
+    StateRemedy.CONNECT: "reconnect",
+    StateRemedy.RECONNECT: "reconnect",
+    StateRemedy.RELEASE: "release",
+    StateRemedy.CLEAR_FAULT: "clear_fault",
+    StateRemedy.HOME: "home",
 }
 
 
-class Asked:
-    """What was asked for, by name."""
+class RecordingWorkbench:
+    """A workbench that records the names of the requests."""
 
     def __init__(self):
         self.requests = []
@@ -36,54 +36,54 @@ def clock():
 
 
 @pytest.fixture
-def asked():
-    return Asked()
+def workbench():
+    return RecordingWorkbench()
 
 
 @pytest.fixture
-def button(qtbot, asked, clock):
-    made = HelpingButton(asked, clock)
-    qtbot.addWidget(made)
-    return made
+def button(qtbot, workbench, clock):
+    remedy_button = RemedyButton(workbench, clock)
+    qtbot.addWidget(remedy_button)
+    return remedy_button
 
 
 def press(qtbot, button):
     qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
 
 
-@pytest.mark.parametrize("remedy", Remedy)
-def test_every_remedy_does_what_it_is_called(qtbot, button, asked, clock, remedy):
+@pytest.mark.parametrize("remedy", StateRemedy)
+def test_every_remedy_makes_its_request(qtbot, button, workbench, clock, remedy):
     button.show_remedy(remedy)
     clock.advance(0.5)
     button.show_remedy(remedy)
     assert button.isEnabled()
     assert button.text()
     press(qtbot, button)
-    assert asked.requests == [CALLS.get(remedy, "connection")]
+    assert workbench.requests == [CALLS.get(remedy, "connection")]
 
 
-def test_a_double_click_on_release_does_not_home(qtbot, button, asked, clock):
+def test_a_double_click_on_release_does_not_home(qtbot, button, workbench, clock):
     for _ in range(2):
-        button.show_remedy(Remedy.RELEASE)
+        button.show_remedy(StateRemedy.RELEASE)
         clock.advance(0.5)
     press(qtbot, button)
     press(qtbot, button)  # before the next frame
-    button.show_remedy(Remedy.HOME)
+    button.show_remedy(StateRemedy.HOME)
     assert not button.isEnabled()
     assert "has only just changed" in button.toolTip()
     press(qtbot, button)
     clock.advance(0.49)
-    button.show_remedy(Remedy.HOME)
+    button.show_remedy(StateRemedy.HOME)
     press(qtbot, button)
-    assert asked.requests == ["release", "release"]
+    assert workbench.requests == ["release", "release"]
     clock.advance(0.02)
-    button.show_remedy(Remedy.HOME)
+    button.show_remedy(StateRemedy.HOME)
     press(qtbot, button)
-    assert asked.requests[2:] == ["home"]
+    assert workbench.requests[2:] == ["home"]
 
 
-def test_nothing_to_help_hides_it(button):
-    button.show_remedy(Remedy.HOME)
+def test_the_button_is_hidden_without_a_remedy(button):
+    button.show_remedy(StateRemedy.HOME)
     assert not button.isHidden()
     button.show_remedy(None)
     assert button.isHidden()

@@ -1,4 +1,4 @@
-"""The window in German, and what happens where a language is unknown or its file is missing."""
+"""The window in German, and the fallback when a language is unknown or its file is missing."""
 
 import re
 import subprocess
@@ -10,59 +10,57 @@ import pytest
 from PySide6.QtCore import QCoreApplication, Qt
 from PySide6.QtWidgets import QDialog, QDialogButtonBox
 
-from rotemina.app.motion.penetration.parameters import PenetrationParameters
-from rotemina.app.motion.teleoperation.profile import load_profile
-from rotemina.app.shell import language
-from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.help_topics import explained
-from rotemina.app.shell.language import SETTING, chosen, translate
-from rotemina.app.shell.workbench import Level
-from rotemina.drivers.errors import DriverError
-from rotemina.drivers.gcode.error_texts import Firmware, describe_alarm
-from rotemina.drivers.registry import driver_named
-from rotemina.sim.errors import InputError
-from rotemina.sim.gap.intake.record_checks import check as check_gap
-from rotemina.sim.gap.output.document_reader import read_document
+from rotemina.app.language import LANGUAGE_KEY, language, translate, translate_message
+from rotemina.app.language.language import determine_language
+from rotemina.app.motion.inputs.profile import load_profile
+from rotemina.app.motion.penetration import PenetrationParameters
+from rotemina.app.workbench import Level
+from rotemina.app.workbench.help_topics import explain_error
+from rotemina.drivers.contract import DriverError, find_driver
+from rotemina.drivers.gcode.error_texts import ControllerFirmware, describe_alarm
+from rotemina.sim.errors import InputError, OutOfLimitsError
+from rotemina.sim.gap.intake import check_records as check_gap
+from rotemina.sim.gap.output import read_document
 from rotemina.sim.messages import message
 from rotemina.sim.plate.mesh import make_mesh
-from rotemina.sim.records.reading import read_record
-from rotemina.sim.robot.file import load_robot, parse_robot
-from rotemina.sim.trajectory.axis_limits import OutOfLimitsError, check_target
-from rotemina.sim.tuning.tuning_scenario import step_of
-from rotemina.sim.units import canonical
+from rotemina.sim.records import read_record
+from rotemina.sim.robot_files import load_robot, parse_robot
+from rotemina.sim.trajectory import check_target
+from rotemina.sim.tuning.tuning_scenario import make_step
+from rotemina.sim.units import parse_unit
 
 PANELS = ("connection",)
 LONG_MS = 30_000
 
 
 @pytest.fixture
-def spoken_by_the_system(monkeypatch):
-    """Let the system speak languages, the best first."""
+def set_system_languages(monkeypatch):
+    """Set the languages of the system, the preferred one first."""
 
-    def speak(*names):
+    def set_languages(*names):
         system = SimpleNamespace(uiLanguages=lambda: list(names))
         monkeypatch.setattr(language, "QLocale", SimpleNamespace(system=lambda: system))
 
-    return speak
+    return set_languages
 
 
 @pytest.fixture
 def application(qapp):
     yield qapp
-    language.use(qapp, "en")
+    language.use_language(qapp, "en")
 
 
 @pytest.fixture
 def german(application, settings, make_robot_window):
-    settings.set(SETTING, "de")
+    settings.set(LANGUAGE_KEY, "de")
     return make_robot_window()
 
 
-def notices(window):
+def get_notice_texts(window):
     return [notice.text for notice in window.notices.notices()]
 
 
-def test_the_systems_language_is_spoken_where_none_is_set(settings, spoken_by_the_system):
+def test_the_system_language_is_used_if_none_is_set(settings, set_system_languages):
     for names, expected in (
         (("de-AT", "de", "en"), "de"),
         (("fr-FR", "de-DE"), "de"),
@@ -70,23 +68,23 @@ def test_the_systems_language_is_spoken_where_none_is_set(settings, spoken_by_th
         (("C",), "en"),
         ((), "en"),
     ):
-        spoken_by_the_system(*names)
-        assert chosen(settings) == expected
-        settings.set(SETTING, "de")
-        assert chosen(settings) == "de"
-        settings.set(SETTING, "")
+        set_system_languages(*names)
+        assert determine_language(settings) == expected
+        settings.set(LANGUAGE_KEY, "de")
+        assert determine_language(settings) == "de"
+        settings.set(LANGUAGE_KEY, "")
 
 
-def test_an_unknown_language_is_told_and_the_systems_is_spoken(
-    settings, spoken_by_the_system, caplog
+def test_an_unknown_language_is_logged_and_the_system_language_used(
+    settings, set_system_languages, caplog
 ):
-    spoken_by_the_system("nl")
-    settings.set(SETTING, "klingon")
-    assert chosen(settings) == "en"
+    set_system_languages("nl")
+    settings.set(LANGUAGE_KEY, "klingon")
+    assert determine_language(settings) == "en"
     assert "'klingon'" in caplog.text
     assert "en, de" in caplog.text
-    settings.set(SETTING, 7)
-    assert chosen(settings) == "en"
+    settings.set(LANGUAGE_KEY, 7)
+    assert determine_language(settings) == "en"
 
 
 @pytest.mark.parametrize("content", [None, b"", b"\x3c\xb8\x64\x18 no texts", b"<TS></TS>"])
@@ -95,161 +93,170 @@ def test_a_file_that_cannot_be_read_leaves_the_window_english(
 ):
     if content is not None:
         (tmp_path / "de.qm").write_bytes(content)
-    language.install(application, tmp_path, "de")
+    language.install_texts(application, tmp_path, "de")
     assert translate("panels", "Plots") == "Plots"
     assert str(tmp_path / "de.qm") in caplog.text
 
 
-def test_languages_take_turns(application):
+def test_the_language_can_be_changed_repeatedly(application):
     for name, plots, cancel in (
         ("de", "Diagramme", "Abbrechen"),
         ("en", "Plots", "Cancel"),
         ("de", "Diagramme", "Abbrechen"),
     ):
-        language.use(application, name)
-        assert language.in_use(application) == name
+        language.use_language(application, name)
+        assert language.get_language(application) == name
         assert translate("panels", "Plots") == plots
         box = QDialogButtonBox(QDialogButtonBox.StandardButton.Cancel)
-        assert box.buttons()[0].text().replace("&", "") == cancel  # Qt's own
+        assert box.buttons()[0].text().replace("&", "") == cancel  # translated by Qt
 
 
-def test_a_plugin_brings_texts_of_its_own(application, tmp_path, monkeypatch):
+def test_a_plugin_brings_its_own_texts(application, tmp_path, monkeypatch):
     package = tmp_path / "glass_stage" / "languages"
     package.mkdir(parents=True)
     (package.parent / "__init__.py").write_text("", "utf-8")
     message = "<message><source>Lamp</source><translation>Lampe</translation></message>"
     context = f"<context><name>glass_stage</name>{message}</context>"
     (tmp_path / "de.ts").write_text(f'<TS version="2.1" language="de">{context}</TS>', "utf-8")
-    program = Path(PySide6.__file__).parent / "lrelease"
-    made = [program, "-silent", tmp_path / "de.ts", "-qm", package / "de.qm"]
-    subprocess.run(made, check=True)
+    lrelease = Path(PySide6.__file__).parent / "lrelease"
+    command = [lrelease, "-silent", tmp_path / "de.ts", "-qm", package / "de.qm"]
+    subprocess.run(command, check=True)
     monkeypatch.syspath_prepend(tmp_path)
     for name, lamp in (("en", "Lamp"), ("de", "Lampe")):
-        language.use(application, name)
-        language.add_texts_of("glass_stage")
-        language.add_texts_of("of_nobody")
+        language.use_language(application, name)
+        language.add_package_texts("glass_stage")
+        language.add_package_texts("of_nobody")
         assert translate("glass_stage", "Lamp") == lamp
     assert translate("panels", "Plots") == "Diagramme"
 
 
-def test_a_refusal_is_german_in_a_german_window_with_its_values_and_words(application):
+def test_a_refusal_is_translated_with_its_values(application):
     robot = load_robot("rotemina")
-    with pytest.raises(OutOfLimitsError) as refused:
+    with pytest.raises(OutOfLimitsError) as refusal:
         check_target(robot, "zn", 6.55e-5)
     english = "axis zn: target 65.5 µm is outside its range 0 µm to 65 µm; choose a target inside"
-    assert str(refused.value) == english
-    assert explained(refused.value) == english.replace("zn", "Z nano")
-    language.use(application, "de")
-    assert explained(refused.value) == (
+    assert str(refusal.value) == english
+    assert explain_error(refusal.value) == english.replace("zn", "Z nano")
+    language.use_language(application, "de")
+    assert explain_error(refusal.value) == (
         "Achse Z nano: Ziel 65,5 µm liegt außerhalb ihres Bereichs 0 µm bis 65 µm; ein Ziel "
         "innerhalb wählen"
     )
-    assert str(refused.value) == english
+    assert str(refusal.value) == english
 
 
-def refused(kind, call, *given, **named):
-    """Return the error that a call ends with."""
-    with pytest.raises(kind) as caught:
-        call(*given, **named)
+def catch_error(error_class, call, *args, **kwargs):
+    """Return the error that the call raises."""
+    with pytest.raises(error_class) as caught:
+        call(*args, **kwargs)
     return caught.value
 
 
-# Names, paths, and in brackets what the system or a library says.
-FOREIGN = re.compile(r"'[^']*'|/\S*|\([^)]*\)")
+# Names, paths, and texts of the system or a library in brackets.
+UNTRANSLATED = re.compile(r"'[^']*'|/\S*|\([^)]*\)")
 
 
-def typical_refusals(folder):
-    """What each layer below the window refuses, as an operator meets it."""
+def make_typical_errors(folder):
+    """Yield typical errors of each layer below the window."""
     robot = load_robot("rotemina")
     record = folder / "record.csv"
     record.write_text("t [s],x.cmd [mm]\n0,1\n0,2\n", "utf-8")
-    yield refused(InputError, read_record, folder / "missing.csv")
-    yield refused(InputError, read_record, record)
-    yield refused(InputError, parse_robot, "[robot]\nname = 'a'\naxes = 'x'\n", "a.toml")
-    yield refused(InputError, canonical, "furlong")
-    yield refused(DriverError, driver_named("mc68hc11")(robot, {"port": ""}).open)
-    yield refused(DriverError, driver_named("mc68hc11")(robot, {"port": "/dev/none"}).open)
-    yield refused(InputError, driver_named("gcode"), robot)
-    yield refused(InputError, PenetrationParameters.parsed, "velocity = 1")
+    yield catch_error(InputError, read_record, folder / "missing.csv")
+    yield catch_error(InputError, read_record, record)
+    yield catch_error(InputError, parse_robot, "[robot]\nname = 'a'\naxes = 'x'\n", "a.toml")
+    yield catch_error(InputError, parse_unit, "furlong")
+    yield catch_error(DriverError, find_driver("mc68hc11")(robot, {"port": ""}).open)
+    yield catch_error(DriverError, find_driver("mc68hc11")(robot, {"port": "/dev/none"}).open)
+    yield catch_error(InputError, find_driver("gcode"), robot)
+    yield catch_error(InputError, PenetrationParameters.from_text, "velocity = 1")
     profile = folder / "profile.toml"
     profile.write_text("name = 3", "utf-8")
-    yield refused(InputError, load_profile, profile)
-    yield refused(InputError, make_mesh, robot.plate, divisions=3)
-    yield refused(InputError, step_of, robot.axes["zn"], 5000.0, distance=1.0)
-    yield refused(InputError, read_document, folder / "missing.json")
-    yield refused(InputError, check_gap, robot, [])
+    yield catch_error(InputError, load_profile, profile)
+    yield catch_error(InputError, make_mesh, robot.plate, divisions=3)
+    yield catch_error(InputError, make_step, robot.axes["zn"], 5000.0, distance=1.0)
+    yield catch_error(InputError, read_document, folder / "missing.json")
+    yield catch_error(InputError, check_gap, robot, [])
 
 
 def test_refusals_of_each_layer_are_german_in_a_german_window(application, tmp_path):
-    language.use(application, "de")
-    said = [str(error) for error in typical_refusals(tmp_path)]
-    shown = [spoken(text) for text in said]
-    assert [text for text, german in zip(said, shown, strict=True) if text == german] == []
-    english = re.compile(r"\b(the|is|must|there|it|not|choose|cannot|and|of)\b")
-    assert [text for text in shown if english.search(FOREIGN.sub("", text))] == []
+    language.use_language(application, "de")
+    messages = [str(error) for error in make_typical_errors(tmp_path)]
+    translations = [translate_message(text) for text in messages]
+    assert [
+        text for text, german in zip(messages, translations, strict=True) if text == german
+    ] == []
+    english_word = re.compile(r"\b(the|is|must|there|it|not|choose|cannot|and|of)\b")
+    assert [text for text in translations if english_word.search(UNTRANSLATED.sub("", text))] == []
 
 
-def test_a_boards_fault_is_german_with_all_that_stands_in_it(application):
-    language.use(application, "de")
+def test_a_board_fault_is_translated_with_its_fields(application):
+    language.use_language(application, "de")
     board = message("engine", "board {address}: {words}")
-    met = message("engine", "limit switch reached: {switches}").fill(switches="x")
-    assert spoken(board.fill(address=1, words=met)) == "Karte 1: Endschalter erreicht: x"
+    alarm = message("engine", "limit switch reached: {switches}").fill(switches="x")
     assert (
-        spoken(describe_alarm(1, Firmware.GRBL))
+        translate_message(board.fill(address=1, words=alarm)) == "Karte 1: Endschalter erreicht: x"
+    )
+    assert (
+        translate_message(describe_alarm(1, ControllerFirmware.GRBL))
         == "ALARM:1, Hardware-Grenze: ein Endschalter wurde erreicht"
     )
 
 
-def test_words_in_the_fields_of_a_message_are_translated_and_other_texts_stay(application):
-    language.use(application, "de")
+def test_words_in_message_fields_are_translated_and_other_texts_stay(application):
+    language.use_language(application, "de")
     latched = message("engine", "{stop} is active; release it first")
     stop = message("engine", "stop and lock")
-    assert spoken(latched.fill(stop=stop)) == "Halt und sperren ist aktiv; erst freigeben"
-    cannot = message("engine", "{name}: cannot {action} while closed; open it first")
-    assert spoken(cannot.fill(name="stage", action="play")) == (
+    assert (
+        translate_message(latched.fill(stop=stop)) == "Halt und sperren ist aktiv; erst freigeben"
+    )
+    closed = message("engine", "{name}: cannot {action} while closed; open it first")
+    assert translate_message(closed.fill(name="stage", action="play")) == (
         "stage: geschlossen, kann nicht abspielen; erst öffnen"
     )
-    assert spoken("something that nobody has heard of") == "something that nobody has heard of"
+    assert (
+        translate_message("something that nobody has heard of")
+        == "something that nobody has heard of"
+    )
 
 
-def test_numbers_have_the_sign_of_the_language(application):
+def test_numbers_have_the_decimal_sign_of_the_language(application):
     text = translate("shell", "stop latency {ms:.1f} ms (99.9 %)")
     assert text.format(ms=0.9) == "stop latency 0.9 ms (99.9 %)"
-    language.use(application, "de")
+    language.use_language(application, "de")
     german = translate("shell", "stop latency {ms:.1f} ms (99.9 %)").format(ms=0.9)
     assert "0,9 ms" in german
     assert "99,9 %" in german
 
 
-def test_the_window_is_german_and_all_of_its_commands_work(qtbot, german):
+def test_the_window_is_german_and_all_commands_work(qtbot, german):
     menus = [action.text() for action in german.menuBar().actions()]
     assert menus == ["&Datei", "&Bewegung", "&Ansicht", "&Hilfe"]
     assert german.docks["control"].windowTitle() == "Steuerung"
     assert german.stop_button.text() == "HALT (Esc)"
-    _a_panels_notice_is_german(qtbot, german)
-    _a_setting_has_a_german_number(german)
-    _the_palette_finds_and_does(qtbot, german)
-    _every_command_works(german)
+    _check_panel_notice(qtbot, german)
+    _check_setting_number(german)
+    _check_palette(qtbot, german)
+    _run_every_command(german)
 
 
-def _a_panels_notice_is_german(qtbot, window):
+def _check_panel_notice(qtbot, window):
     row = window.panels["control"].rows["x"]
     qtbot.waitUntil(row.go.isEnabled, timeout=LONG_MS)  # it is locked until a reading is fresh
     row.target.setText("1.500,0")
     row.go.click()
-    assert "ist keine Position" in notices(window)[0]
-    assert "Dezimalkomma" in notices(window)[0]
+    assert "ist keine Position" in get_notice_texts(window)[0]
+    assert "Dezimalkomma" in get_notice_texts(window)[0]
 
 
-def _a_setting_has_a_german_number(window):
+def _check_setting_number(window):
     field = window.panels["connection"].device.form.fields["settle_s"]
     assert field.widget.text() == "0,02"
     field.set_text("0,25")
-    assert field.value() == 0.25
+    assert field.read_value() == 0.25
     field.set_text("0,02")
 
 
-def _the_palette_finds_and_does(qtbot, window):
+def _check_palette(qtbot, window):
     window.toggle_palette()
     page = window.palette_page
     qtbot.keyClicks(page.field, "schema helles")
@@ -264,8 +271,8 @@ def _the_palette_finds_and_does(qtbot, window):
     page.hide()
 
 
-def _every_command_works(window):
-    for command in window.commands():
+def _run_every_command(window):
+    for command in window.make_commands():
         assert command.text.replace("&", "").strip()
         if command.run != window.close:
             command.run()
@@ -275,8 +282,8 @@ def _every_command_works(window):
 
 
 def test_a_language_is_chosen_for_the_next_start(window, settings):
-    told = []
-    window.workbench.noticed.connect(lambda level, text: told.append((level, str(text))))
+    notices = []
+    window.workbench.notice_posted.connect(lambda level, text: notices.append((level, str(text))))
     actions = {action.data(): action for action in window.language_menu.actions()}
     assert {name: action.isChecked() for name, action in actions.items()} == {
         "": True,
@@ -284,19 +291,19 @@ def test_a_language_is_chosen_for_the_next_start(window, settings):
         "de": False,
     }
     actions["de"].trigger()
-    assert settings.get(SETTING, "") == "de"
-    assert told == [
+    assert settings.get(LANGUAGE_KEY, "") == "de"
+    assert notices == [
         (
             Level.INFO,
-            "The window speaks Deutsch from the next start on. "
-            "Das Fenster spricht ab dem nächsten Start Deutsch.",
+            "The window will use Deutsch from the next start. "
+            "Das Fenster erscheint ab dem nächsten Start auf Deutsch.",
         )
     ]
     assert actions["de"].isChecked()
     assert not actions[""].isChecked()
-    entries = {entry.text: entry for entry in window._entries()}
+    entries = {entry.text: entry for entry in window._make_palette_entries()}
     entries["Language: English"].run()
-    assert settings.get(SETTING, "") == "en"
-    assert len(told) == 1  # it is spoken already
-    window.language_menu.mark()
+    assert settings.get(LANGUAGE_KEY, "") == "en"
+    assert len(notices) == 1  # it is in use already
+    window.language_menu.check_current()
     assert actions["en"].isChecked()

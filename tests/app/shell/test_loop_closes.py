@@ -1,4 +1,4 @@
-"""The loop closes in the window: a corrected model is used everywhere at once, and told alike."""
+"""A corrected model is used everywhere at once, and all panels agree on the gap."""
 
 import json
 import logging
@@ -9,24 +9,29 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QMessageBox
 
-from rotemina.app.motion.model_in_use import NOTED
-from rotemina.app.shell.gap_words import run_gap, run_lines
-from rotemina.plugins.gap.answer_exports import write_report
-from rotemina.plugins.gap.diagnosis_answer import Answer
-from rotemina.sim.gap.diagnosis import AxisDiagnosis, Diagnosis, Shrinkage, Verdict
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.robot.model import AxisEffect
+from rotemina.app.motion.model import NOTED_KEY
+from rotemina.app.workbench import format_run_gap, format_run_gaps
+from rotemina.plugins.gap.answer import DiagnosisAnswer
+from rotemina.plugins.gap.answer.answer_exports import write_report
+from rotemina.sim.gap.result import (
+    AxisDiagnosis,
+    Diagnosis,
+    GapShrinkage,
+    GapVerdict,
+)
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot import AxisEffect
+from rotemina.sim.robot_files import load_robot
 
 PANELS = ("plots", "comparison", "gap")
 LONG_MS = 30_000
 ROBOT = load_robot("rotemina")
-LOOP = AxisEffect(axis="zn", id="hysteresis", parameters={"width": 6e-6})
-WRONG = AxisEffect(axis="zn", id="hysteresis", parameters={"width": 3e-5})
+HYSTERESIS = AxisEffect(axis="zn", id="hysteresis", parameters={"width": 6e-6})
+WRONG_HYSTERESIS = AxisEffect(axis="zn", id="hysteresis", parameters={"width": 3e-5})
 CONTACT = AxisEffect(axis="zn", id="contact", parameters={"place": 6.0e-5, "stiffness": 1.0})
 
 
-def swing(share=0.48, seconds=1.5):
+def make_swing(share=0.48, seconds=1.5):
     time_s = np.arange(0.0, seconds, 2e-3)
     low, high = ROBOT.axes["zn"].range
     wave = share * (high - low) * np.sin(2.0 * np.pi * time_s / seconds)
@@ -34,17 +39,17 @@ def swing(share=0.48, seconds=1.5):
     return Record.from_signals(time_s, commands, {"zn": "m"})
 
 
-def answer_of(run, *fitted, corrected=1e-7):
-    shrinkage = Shrinkage("zn", Tap.MEAS, 2e-6, 2e-6, corrected, 1e-8, None, 0.99, None, ())
-    axis = AxisDiagnosis("zn", Verdict.EXPLAINED, (), shrinkage=(shrinkage,), fitted=fitted)
-    return Answer.of(Diagnosis(ROBOT, {"zn": axis}), [run.name], [run.record])
+def make_answer(run, *fitted, corrected=1e-7):
+    shrinkage = GapShrinkage("zn", Tap.MEAS, 2e-6, 2e-6, corrected, 1e-8, None, 0.99, None, ())
+    axis = AxisDiagnosis("zn", GapVerdict.EXPLAINED, (), shrinkage=(shrinkage,), fitted=fitted)
+    return DiagnosisAnswer.from_diagnosis(Diagnosis(ROBOT, {"zn": axis}), [run.name], [run.record])
 
 
 def click(qtbot, button):
     qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
 
 
-def question(window):
+def find_question(window):
     boxes = [box for box in window.findChildren(QMessageBox) if box.isVisible()]
     return boxes[0] if boxes else None
 
@@ -52,8 +57,8 @@ def question(window):
 @pytest.fixture
 def bench(qtbot, window):
     bench = window.workbench
-    qtbot.waitUntil(lambda: bench.session.snapshot().locked is None, timeout=LONG_MS)
-    bench.session.service.set_effects([LOOP])
+    qtbot.waitUntil(lambda: bench.session.snapshot().lock_reason is None, timeout=LONG_MS)
+    bench.session.service.set_effects([HYSTERESIS])
     return bench
 
 
@@ -61,9 +66,9 @@ def bench(qtbot, window):
 def play(qtbot, window, bench):
     def play(name="swing", trajectory=None):
         with qtbot.waitSignal(bench.plan_changed, timeout=LONG_MS):
-            bench.plan_trajectory(name, swing() if trajectory is None else trajectory)
+            bench.plan_trajectory(name, make_swing() if trajectory is None else trajectory)
         assert bench.plan.dry_run.allowed
-        # What was just switched on moves the machine, and none is played to in motion.
+        # Effects that were just switched on move the machine; playing needs it at rest.
         qtbot.waitUntil(lambda: bench.session.at_rest, timeout=LONG_MS)
         with qtbot.waitSignal(bench.run_changed, timeout=LONG_MS):
             bench.play()
@@ -78,46 +83,46 @@ def panel(qtbot, window):
     return window.panels["gap"]
 
 
-def use(qtbot, bench, panel, answer):
+def use_answer(qtbot, bench, panel, answer):
     panel.take_answer(answer)
     qtbot.waitUntil(panel.result.use.isEnabled, timeout=LONG_MS)
     with qtbot.waitSignals([bench.model_changed, bench.run_changed], timeout=LONG_MS):
         panel.result.use.click()
 
 
-def test_what_a_diagnosis_found_is_used_everywhere_at_once(qtbot, window, bench, panel, play):
+def test_a_diagnosed_model_is_used_everywhere_at_once(qtbot, window, bench, panel, play):
     before = play().gaps["zn", Tap.MEAS]
     assert before.rms == before.nominal > 1e-6
-    planned = bench.plan.dry_run.axes["zn"].tracking_rms
+    nominal_tracking_rms = bench.plan.dry_run.axes["zn"].tracking_rms
     window.bring_up("gap")
-    use(qtbot, bench, panel, answer_of(bench.run, LOOP))
+    use_answer(qtbot, bench, panel, make_answer(bench.run, HYSTERESIS))
     chip = window._bar.model
     qtbot.waitUntil(lambda: chip.text().startswith("Corrected: Hysteresis"), timeout=LONG_MS)
-    assert bench.run.gaps["zn", Tap.MEAS].rms < 0.1 * before.rms  # the run in hand, again
+    assert bench.run.gaps["zn", Tap.MEAS].rms < 0.1 * before.rms  # the same run, compared again
     assert bench.run.gaps["zn", Tap.MEAS].nominal == pytest.approx(before.rms)
-    assert panel.isVisible()  # no other panel has come up before it
+    assert panel.isVisible()  # no other panel was raised over it
     qtbot.waitUntil(lambda: bench.plan.model_id == bench.session.model.id, timeout=LONG_MS)
-    assert bench.plan.dry_run.axes["zn"].tracking_rms > 5.0 * planned
-    run = play("again", swing(0.45))
+    assert bench.plan.dry_run.axes["zn"].tracking_rms > 5.0 * nominal_tracking_rms
+    run = play("again", make_swing(0.45))
     after = run.gaps["zn", Tap.MEAS]
     assert after.rms < 0.1 * after.nominal
     assert run.model_id == run.record.metadata["model"] == bench.session.model.id
     state = bench.session.snapshot()
-    assert abs(state.measured["zn"] - state.model["zn"]) < 1e-7  # what the ghost in 3-D shows
+    assert abs(state.measured["zn"] - state.model["zn"]) < 1e-7  # shown as the ghost in 3-D
 
 
 def test_the_gap_is_the_same_string_in_all_four_places(qtbot, window, bench, panel, play, tmp_path):
     play()
     window.bring_up("gap")
-    use(qtbot, bench, panel, answer_of(bench.run, LOOP))
-    run = play("again", swing(0.45))
-    told = run_gap(run.gaps["zn", Tap.MEAS], "m")
-    assert re.fullmatch(r"Gap, this run \d+(\.\d+)? (nm|µm)", told)
-    size = told.removeprefix("Gap, this run ")
+    use_answer(qtbot, bench, panel, make_answer(bench.run, HYSTERESIS))
+    run = play("again", make_swing(0.45))
+    gap_text = format_run_gap(run.gaps["zn", Tap.MEAS], "m")
+    assert re.fullmatch(r"Gap, this run \d+(\.\d+)? (nm|µm)", gap_text)
+    size = gap_text.removeprefix("Gap, this run ")
     plots = window.panels["plots"]
     window.bring_up("plots")
     plots.refresh()
-    assert plots.plots["zn"].figures.text().endswith(told)
+    assert plots.plots["zn"].figures.text().endswith(gap_text)
     assert plots.plots["zn"].figures.text().startswith("Gap, last 10 s ")
     comparison = window.panels["comparison"].table
     window.bring_up("comparison")
@@ -125,19 +130,23 @@ def test_the_gap_is_the_same_string_in_all_four_places(qtbot, window, bench, pan
     heads = [comparison.horizontalHeaderItem(n).text() for n in range(comparison.columnCount())]
     row = next(n for n in range(comparison.rowCount()) if "meas" in comparison.item(n, 0).text())
     assert comparison.item(row, heads.index("Gap, this run")).text() == size
-    qtbot.waitUntil(lambda: panel.result.proof.proof and panel.result.proof.proof.name == "again")
-    assert panel.result.proof.title.text() == "Gap, this run"
-    assert panel.result.proof.table.texts()[0][3] == size
+    qtbot.waitUntil(
+        lambda: (
+            panel.result.unseen_motion.latest and panel.result.unseen_motion.latest.name == "again"
+        )
+    )
+    assert panel.result.unseen_motion.title.text() == "Gap, this run"
+    assert panel.result.unseen_motion.table.read_texts()[0][3] == size
     write_report(panel.answer.diagnosis, panel.answer.records, tmp_path / "page.html", ["a"], run)
-    assert told in (tmp_path / "page.html").read_text("utf-8")
-    assert any(told in line for line in run_lines(run))
+    assert gap_text in (tmp_path / "page.html").read_text("utf-8")
+    assert any(gap_text in line for line in format_run_gaps(run))
     figure = run.gaps["zn", Tap.MEAS]
-    assert figure.without_offset < figure.rms < figure.nominal  # in small print beside it
+    assert figure.without_offset < figure.rms < figure.nominal  # shown in small print next to it
 
 
 def test_back_to_nominal_from_the_header(qtbot, window, bench, panel, play):
     before = play().gaps["zn", Tap.MEAS].rms
-    use(qtbot, bench, panel, answer_of(bench.run, LOOP))
+    use_answer(qtbot, bench, panel, make_answer(bench.run, HYSTERESIS))
     chip = window._bar.model
     qtbot.waitUntil(chip.back.isEnabled, timeout=LONG_MS)
     assert chip.property("corrected") is True
@@ -147,53 +156,51 @@ def test_back_to_nominal_from_the_header(qtbot, window, bench, panel, play):
     assert bench.run.gaps["zn", Tap.MEAS].rms == pytest.approx(before)
 
 
-def test_worse_on_a_motion_is_said_in_the_headline_and_asked_about(
+def test_using_a_model_that_is_worse_on_a_motion_needs_confirmation(
     qtbot, window, bench, panel, play
 ):
     play()
     window.bring_up("gap")
-    panel.take_answer(answer_of(bench.run, WRONG))
+    panel.take_answer(make_answer(bench.run, WRONG_HYSTERESIS))
     assert panel.result.use.text() == "Use corrected model"
-    play("elsewhere", swing(0.3))
-    qtbot.waitUntil(lambda: panel.result.proof.proof is not None, timeout=LONG_MS)
+    play("elsewhere", make_swing(0.3))
+    qtbot.waitUntil(lambda: panel.result.unseen_motion.latest is not None, timeout=LONG_MS)
     assert panel.result.headline.property("tone") == "worse"
     assert panel.result.headline.sentence.text().startswith("Worse on elsewhere: Z nano ")
     assert "× larger" in panel.result.headline.sentence.text()
-    assert "× larger" in panel.result.proof.table.texts()[0][4]
-    assert "diagnose them together" in panel.result.headline.remainder.text() or (
-        "play the motion again" in panel.result.headline.remainder.text()
+    assert "× larger" in panel.result.unseen_motion.table.read_texts()[0][4]
+    assert "diagnose them together" in panel.result.headline.details.text() or (
+        "play the motion again" in panel.result.headline.details.text()
     )
     qtbot.waitUntil(panel.result.use.isEnabled, timeout=LONG_MS)
     assert panel.result.use.text() == "Use anyway …"
     click(qtbot, panel.result.use)
-    box = question(window)
+    box = find_question(window)
     assert "worse than the nominal one on elsewhere: Z nano" in box.informativeText()
     assert not box.isModal()
     box.button(QMessageBox.StandardButton.No).click()
-    qtbot.waitUntil(lambda: question(window) is None, timeout=LONG_MS)
-    assert not bench.session.model.corrected
+    qtbot.waitUntil(lambda: find_question(window) is None, timeout=LONG_MS)
+    assert not bench.session.model.is_corrected
 
 
-def test_what_was_learned_beside_a_fault_or_a_contact_is_confirmed_by_name(
-    qtbot, window, bench, panel, play
-):
+def test_using_a_model_learned_with_a_contact_needs_confirmation(qtbot, window, bench, panel, play):
     run = play()
-    answer = answer_of(run, LOOP, CONTACT)
+    answer = make_answer(run, HYSTERESIS, CONTACT)
     noted = Record(
         run.record.time_s,
         run.record.columns,
         run.record.values,
         run.record.units,
-        {**run.record.metadata, NOTED: "the tip was in contact"},
+        {**run.record.metadata, NOTED_KEY: "the tip was in contact"},
     )
-    panel.take_answer(Answer(answer.diagnosis, ("day one",), (noted,), answer.traces, {}))
+    panel.take_answer(DiagnosisAnswer(answer.diagnosis, ("day one",), (noted,), answer.traces, {}))
     qtbot.waitUntil(panel.result.use.isEnabled, timeout=LONG_MS)
     panel.result.use.click()
-    told = question(window).informativeText()
-    assert "During day one: the tip was in contact." in told
-    assert "The model includes contact" in told
+    question_text = find_question(window).informativeText()
+    assert "During day one: the tip was in contact." in question_text
+    assert "The model includes contact" in question_text
     with qtbot.waitSignal(bench.model_changed, timeout=LONG_MS):
-        question(window).button(QMessageBox.StandardButton.Yes).click()
+        find_question(window).button(QMessageBox.StandardButton.Yes).click()
     model = bench.session.model
     assert CONTACT not in model.without_contact.effects
 
@@ -201,24 +208,29 @@ def test_what_was_learned_beside_a_fault_or_a_contact_is_confirmed_by_name(
 def test_the_log_says_which_model_is_in_use(qtbot, bench, panel, play, caplog):
     caplog.set_level(logging.INFO)
     play()
-    use(qtbot, bench, panel, answer_of(bench.run, LOOP))
+    use_answer(qtbot, bench, panel, make_answer(bench.run, HYSTERESIS))
     assert f"model in use: {bench.session.model.id}" in caplog.text
 
 
-def test_what_remains_beyond_the_model_in_use_is_a_choice_of_its_own(qtbot, bench, panel, play):
+def test_the_remainder_of_the_model_in_use_can_be_diagnosed(qtbot, bench, panel, play):
     play()
     robots = panel.robots
     names = [robots.itemText(n) for n in range(robots.count())]
     assert names[:2] == ["RoTeMiNa, nominal", "Remainder of the model in use"]
-    use(qtbot, bench, panel, answer_of(bench.run, LOOP))
+    use_answer(qtbot, bench, panel, make_answer(bench.run, HYSTERESIS))
     assert robots.robot == bench.robot  # a diagnosis compares with the nominal model
     robots.activated.emit(1)
-    assert robots.robot.effects == (LOOP,)
+    assert robots.robot.effects == (HYSTERESIS,)
     gain = AxisEffect(axis="zn", id="gain_error", parameters={"error": 1e-3})
-    answer = answer_of(bench.run, gain)
-    beyond = Diagnosis(robots.robot, answer.diagnosis.axes)
-    use(qtbot, bench, panel, Answer.of(beyond, ["swing"], [bench.run.record]))
-    assert bench.session.model.effects == (LOOP, gain)
-    bench.use_nominal_model()
+    answer = make_answer(bench.run, gain)
+    remainder = Diagnosis(robots.robot, answer.diagnosis.axes)
+    use_answer(
+        qtbot,
+        bench,
+        panel,
+        DiagnosisAnswer.from_diagnosis(remainder, ["swing"], [bench.run.record]),
+    )
+    assert bench.session.model.effects == (HYSTERESIS, gain)
+    bench.machine.use_nominal_model()
     qtbot.waitUntil(lambda: robots.robot == bench.robot, timeout=LONG_MS)
     assert json.dumps(bench.session.snapshot().model_id).startswith('"nominal-')

@@ -1,7 +1,8 @@
-"""The window as an operator meets it, on the simulator and its real threads."""
+"""The main window on the simulator, with its real threads."""
 
 import threading
 from importlib.metadata import EntryPoint
+from operator import attrgetter
 
 import numpy as np
 import pytest
@@ -11,21 +12,18 @@ from PySide6.QtWidgets import QFileDialog, QMessageBox, QTextEdit, QWidget
 
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import PlaybackFinished
-from rotemina.app.settings import Settings
-from rotemina.app.shell import main_window as module
-from rotemina.app.shell import window_run
-from rotemina.app.shell.deferred_panels import LatePanels
-from rotemina.app.shell.layouts import TUNE
-from rotemina.app.shell.panel_host import GROUP
-from rotemina.app.widgets.scroll_areas import frame_of
-from rotemina.drivers import registry
-from rotemina.drivers.samples import DeviceState
-from rotemina.drivers.simulator.driver import Simulator
+from rotemina.app.settings import UserSettings
+from rotemina.app.shell.panels import DeferredPanelLoader
+from rotemina.app.shell.panels.panel_host import ENTRY_POINT_GROUP
+from rotemina.app.shell.startup import window_run
+from rotemina.app.shell.window import main_window as module
+from rotemina.app.shell.window.layouts import TUNE
+from rotemina.app.widgets.layout import find_frame
+from rotemina.drivers.contract import DeviceState, registry
+from rotemina.drivers.simulator import Simulator
 from rotemina.sim.errors import InputError
-from rotemina.sim.records.reading import read_record
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.records.writing import write_record
-from rotemina.sim.robot.file import load_robot
+from rotemina.sim.records import Record, Tap, read_record, write_record
+from rotemina.sim.robot_files import load_robot
 
 PANELS = ("comparison",)
 
@@ -37,50 +35,53 @@ BUILT_IN += ["compensation", "penetration"]
 BUILT_IN += ["effects", "gap", "faults", "recorder", "view3d", "plate"]
 
 
-def short_trajectory(path, seconds=0.4, height=2e-4):
-    """A smooth move of thx and back."""
+def write_short_trajectory(path, seconds=0.4, height=2e-4):
+    """Write a smooth move of thx and back."""
     time_s = np.arange(int(seconds * 500) + 1) / 500
     command = 5.81775e-4 + height * np.sin(np.pi * time_s / time_s[-1]) ** 2
     write_record(Record.from_signals(time_s, {("thx", Tap.CMD): command}, {"thx": "rad"}), path)
     return path
 
 
-def notices(window):
+def get_notice_texts(window):
     return [notice.text for notice in window.notices.notices()]
 
 
 def load(qtbot, window, path):
     with qtbot.waitSignal(window.workbench.plan_changed, timeout=LONG_MS):
-        window.use_file(path, window.workbench.load_trajectory)
+        window.use_file_with_columns(path, window.workbench.planner.load_trajectory)
 
 
 @pytest.mark.every_panel
-def test_all_built_in_panels_are_there_and_nothing_is_broken(window):
+def test_all_built_in_panels_are_made_without_a_notice(window):
     assert list(window.panels) == BUILT_IN
-    assert notices(window) == []
-    behind = {"microscope"}  # the second tab of the centre
-    assert {name for name, one in window.panels.items() if not one.isVisibleTo(window)} == behind
+    assert get_notice_texts(window) == []
+    hidden = {"microscope"}  # the second tab of the centre
+    assert {
+        name for name, panel in window.panels.items() if not panel.isVisibleTo(window)
+    } == hidden
 
 
 @pytest.mark.every_panel
-def test_panels_out_of_sight_are_made_by_and_by(qtbot, window):
-    with qtbot.waitSignal(window.workbench.busy_changed, timeout=LONG_MS):
+def test_hidden_panels_are_made_before_any_work(qtbot, window):
+    with qtbot.waitSignal(window.workbench.jobs.busy_changed, timeout=LONG_MS):
         window.workbench.work("any", "Reading …", lambda: None, lambda _: None)
-    assert window.panels.waiting == ()  # none is made so late that it misses what was read
+    # All panels are made before the work starts, so none misses its result.
+    assert window.panels.pending_names == ()
     for name, dock in window.docks.items():
         assert dock.widget().widget() is window.panels[name]
 
 
 @pytest.mark.every_panel
-def test_a_panel_is_made_when_its_dock_comes_into_sight(qtbot, make_robot_window, monkeypatch):
-    monkeypatch.setattr(LatePanels, "start", lambda _: None)
-    monkeypatch.setattr(LatePanels, "_before_work", lambda *_: None)
+def test_a_panel_is_made_when_its_dock_becomes_visible(qtbot, make_robot_window, monkeypatch):
+    monkeypatch.setattr(DeferredPanelLoader, "start", lambda _: None)
+    monkeypatch.setattr(DeferredPanelLoader, "_make_all_before_work", lambda *_: None)
     window = make_robot_window()
     for name in ("gap", "plate", "plate"):
         assert (name in window.panels.made) == (window.docks[name].widget() is not None)
         window.docks[name].raise_()
         qtbot.waitUntil(lambda name=name: name in window.panels.made, timeout=LONG_MS)
-    assert window.panels.waiting
+    assert window.panels.pending_names
     assert "view3d" not in window.panels.made
     window.bring_up("view3d")
     assert window.docks["view3d"].widget().widget() is window.panels.made["view3d"]
@@ -88,67 +89,65 @@ def test_a_panel_is_made_when_its_dock_comes_into_sight(qtbot, make_robot_window
 
 
 @pytest.mark.every_panel
-def test_what_comes_into_sight_is_laid_out_before_it_is_painted(make_robot_window, monkeypatch):
-    monkeypatch.setattr(LatePanels, "start", lambda _: None)
-    monkeypatch.setattr(LatePanels, "_before_work", lambda *_: None)
+def test_a_new_panel_is_laid_out_before_it_is_painted(make_robot_window, monkeypatch):
+    monkeypatch.setattr(DeferredPanelLoader, "start", lambda _: None)
+    monkeypatch.setattr(DeferredPanelLoader, "_make_all_before_work", lambda *_: None)
     window = make_robot_window()
     for name in ("gap", "plate"):
         window.docks[name].raise_()
         assert name not in window.panels.made
-        window.late_panels.make_seen()
+        window.panel_loader.make_visible_panels()
         laid_out = [widget.geometry() for widget in window.findChildren(QWidget)]
         QCoreApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
         assert laid_out == [widget.geometry() for widget in window.findChildren(QWidget)]
 
 
 @pytest.mark.every_panel
-def test_what_a_layout_shows_is_made_in_small_steps_once_the_window_is_in_use(
-    make_robot_window, monkeypatch
-):
-    monkeypatch.setattr(LatePanels, "start", lambda _: None)
-    monkeypatch.setattr(LatePanels, "_before_work", lambda *_: None)
+def test_panels_of_a_layout_are_made_in_small_steps(make_robot_window, monkeypatch):
+    monkeypatch.setattr(DeferredPanelLoader, "start", lambda _: None)
+    monkeypatch.setattr(DeferredPanelLoader, "_make_all_before_work", lambda *_: None)
     window = make_robot_window()
-    late, panels = window.late_panels, window.panels
-    late._since.start()
+    loader, panels = window.panel_loader, window.panels
+    loader._since.start()
     window.arrangement.arrange(TUNE)
-    wanted = ("connection", "identification")
-    assert not panels.made.keys() & set(wanted)
+    shown_names = ("connection", "identification")
+    assert not panels.made.keys() & set(shown_names)
     for _ in range(100):
-        made = len(panels.made)
-        placed = sum(dock.widget() is not None for dock in window.docks.values())
-        late.make_seen()
-        steps = len(panels.made) - made
-        steps += sum(dock.widget() is not None for dock in window.docks.values()) - placed
+        made_before = len(panels.made)
+        placed_before = sum(dock.widget() is not None for dock in window.docks.values())
+        loader.make_visible_panels()
+        steps = len(panels.made) - made_before
+        steps += sum(dock.widget() is not None for dock in window.docks.values()) - placed_before
         assert steps <= 1
-    for name in wanted:
-        assert window.docks[name].widget() is frame_of(panels.made[name])
+    for name in shown_names:
+        assert window.docks[name].widget() is find_frame(panels.made[name])
 
 
 @pytest.mark.every_panel
-def test_others_wait_for_what_they_need(qtbot, make_robot_window, monkeypatch):
-    monkeypatch.setattr(LatePanels, "start", lambda _: None)
-    monkeypatch.setattr(LatePanels, "_before_work", lambda *_: None)
-    window, loaded = make_robot_window(), threading.Event()
-    thread = threading.Thread(target=loaded.wait)
+def test_panels_wait_for_their_libraries(qtbot, make_robot_window, monkeypatch):
+    monkeypatch.setattr(DeferredPanelLoader, "start", lambda _: None)
+    monkeypatch.setattr(DeferredPanelLoader, "_make_all_before_work", lambda *_: None)
+    window, libraries_loaded = make_robot_window(), threading.Event()
+    thread = threading.Thread(target=libraries_loaded.wait)
 
-    def load():
+    def start_loading():
         thread.start()
         return thread
 
-    late, waiting = window.late_panels, window.panels.waiting
-    late.load = load
+    loader, pending = window.panel_loader, window.panels.pending_names
+    loader.start_loading = start_loading
     for _ in range(3):
-        late._make_next()
+        loader._make_next()
     assert thread.is_alive()
-    assert window.panels.waiting == waiting != ()
-    loaded.set()
+    assert window.panels.pending_names == pending != ()
+    libraries_loaded.set()
     thread.join()
-    with qtbot.waitSignal(late.done, timeout=LONG_MS):
-        late._next.start()
-    assert window.panels.waiting == ()
+    with qtbot.waitSignal(loader.done, timeout=LONG_MS):
+        loader._next.start()
+    assert window.panels.pending_names == ()
 
 
-def test_stop_is_always_in_sight_and_stops_on_escape(qtbot, window, press_escape):
+def test_stop_is_always_visible_and_escape_stops(qtbot, window, press_escape):
     window.resize(640, 480)
     for dock in window.docks.values():
         dock.hide()
@@ -179,7 +178,7 @@ def test_escape_stops_even_while_a_dialog_is_open(qtbot, window, press_escape):
 
 
 def test_a_trajectory_is_loaded_played_and_compared(qtbot, window, tmp_path):
-    path = short_trajectory(tmp_path / "move.csv")
+    path = write_short_trajectory(tmp_path / "move.csv")
     load(qtbot, window, path)
     panel = window.panels["trajectory"]
     qtbot.waitUntil(panel.transport.play.isEnabled, timeout=LONG_MS)
@@ -189,17 +188,17 @@ def test_a_trajectory_is_loaded_played_and_compared(qtbot, window, tmp_path):
     assert run.completed
     tap = next(tap for tap in run.comparison.taps if tap.tap == "meas")
     assert tap.rms == pytest.approx(tap.noise_floor, rel=0.25)
-    asked = read_record(path)
-    row = np.searchsorted(run.record.time_s, asked.time_s + 1e-3, side="right") - 1
+    trajectory = read_record(path)
+    row = np.searchsorted(run.record.time_s, trajectory.time_s + 1e-3, side="right") - 1
     np.testing.assert_array_equal(
-        run.record.signal("thx", Tap.CMD)[row], asked.signal("thx", Tap.CMD)
+        run.record.signal("thx", Tap.CMD)[row], trajectory.signal("thx", Tap.CMD)
     )
     assert window.panels["comparison"].table.rowCount() == len(run.comparison.taps)
-    assert notices(window) == []
+    assert get_notice_texts(window) == []
 
 
 def test_a_stopped_playback_keeps_what_was_played(qtbot, window, tmp_path):
-    load(qtbot, window, short_trajectory(tmp_path / "long.csv", seconds=20.0))
+    load(qtbot, window, write_short_trajectory(tmp_path / "long.csv", seconds=20.0))
     session = window.workbench.session
     window.workbench.play()
     qtbot.waitUntil(lambda: session.snapshot().progress > 0.005, timeout=LONG_MS)
@@ -207,7 +206,7 @@ def test_a_stopped_playback_keeps_what_was_played(qtbot, window, tmp_path):
         window.workbench.stop()
     assert not window.workbench.run.completed
     assert 0 < window.workbench.run.record.duration_s < 19
-    assert "stopped after" in notices(window)[0]
+    assert "stopped after" in get_notice_texts(window)[0]
 
 
 def test_a_trajectory_beyond_a_limit_is_shown_but_cannot_be_played(qtbot, window, tmp_path):
@@ -215,17 +214,17 @@ def test_a_trajectory_beyond_a_limit_is_shown_but_cannot_be_played(qtbot, window
     path.write_text("t [s],x [mm]\n0,27.5\n1,99\n", "utf-8")
     load(qtbot, window, path)
     panel = window.panels["trajectory"]
-    said = panel.verdict.text()
-    assert said.startswith("Not playable: ")
-    assert "x" in said
-    assert "99 mm" in said
-    assert "55 mm" in said
-    assert "Violation(" not in said
+    verdict = panel.verdict.text()
+    assert verdict.startswith("Not playable: ")
+    assert "x" in verdict
+    assert "99 mm" in verdict
+    assert "55 mm" in verdict
+    assert "Violation(" not in verdict
     with qtbot.waitSignal(window.workbench.refreshed):
         pass
     assert not panel.transport.play.isEnabled()
     window.workbench.play()
-    assert "99" in notices(window)[0]
+    assert "99" in get_notice_texts(window)[0]
     assert window.workbench.session.snapshot().activity is DeviceState.IDLE
 
 
@@ -239,15 +238,15 @@ def test_a_trajectory_beyond_a_limit_is_shown_but_cannot_be_played(qtbot, window
         b"t [s],x [mm]\n1,1\n0,1\n",
     ],
 )
-@pytest.mark.parametrize("use", ["load_trajectory", "open_record"])
+@pytest.mark.parametrize("use", ["planner.load_trajectory", "records.open_record"])
 def test_a_bad_file_is_one_notice_and_changes_nothing(qtbot, window, tmp_path, content, use):
-    load(qtbot, window, short_trajectory(tmp_path / "good.csv"))
+    load(qtbot, window, write_short_trajectory(tmp_path / "good.csv"))
     plan = window.workbench.plan
     bad = tmp_path / "bad.csv"
     bad.write_bytes(content)
-    window.use_file(bad, getattr(window.workbench, use))
-    qtbot.waitUntil(lambda: notices(window) != [], timeout=LONG_MS)
-    (text,) = notices(window)
+    window.use_file_with_columns(bad, attrgetter(use)(window.workbench))
+    qtbot.waitUntil(lambda: get_notice_texts(window) != [], timeout=LONG_MS)
+    (text,) = get_notice_texts(window)
     assert "bad.csv" in text
     assert window.workbench.plan is plan
     assert window.workbench.run is None
@@ -255,14 +254,14 @@ def test_a_bad_file_is_one_notice_and_changes_nothing(qtbot, window, tmp_path, c
 
 def test_a_folder_and_a_missing_file_are_notices(qtbot, window, tmp_path):
     for path in (tmp_path, tmp_path / "nothing.csv"):
-        window.use_file(path, window.workbench.open_record)
-        qtbot.waitUntil(lambda path=path: any(str(path) in n for n in notices(window)))
+        window.use_file_with_columns(path, window.workbench.records.open_record)
+        qtbot.waitUntil(lambda path=path: any(str(path) in n for n in get_notice_texts(window)))
 
 
-def test_a_record_is_opened_beside_the_model(qtbot, window, shared_dir):
+def test_an_opened_record_is_compared_with_the_model(qtbot, window, shared_dir):
     path = shared_dir / "examples" / "example_1" / "train_1.csv.gz"
     with qtbot.waitSignal(window.workbench.run_changed, timeout=LONG_MS):
-        window.use_file(path, window.workbench.open_record)
+        window.use_file_with_columns(path, window.workbench.records.open_record)
     tap = next(
         t for t in window.workbench.run.comparison.taps if (t.axis, t.tap) == ("thx", "meas")
     )
@@ -273,33 +272,32 @@ def test_any_robot_gets_its_window(qtbot, make_robot_window):
     for robot in ("emps", "picma", "fsm"):
         window = make_robot_window(robot)
         assert set(window.panels["control"].rows) == set(window.workbench.robot.axes)
-        assert notices(window) == []
+        assert get_notice_texts(window) == []
 
 
-def played(qtbot, window, path):
-    load(qtbot, window, short_trajectory(path))
+def play_trajectory(qtbot, window, path):
+    load(qtbot, window, write_short_trajectory(path))
     with qtbot.waitSignal(window.workbench.run_changed, timeout=LONG_MS):
         window.workbench.play()
 
 
 @pytest.fixture
-def question(monkeypatch):
-    """What the window asks, and what it is answered."""
-    asked = []
+def questions(monkeypatch):
+    """The questions of the window; the first is answered with Stay, the others with Leave."""
+    boxes = []
 
-    def answer(box):
-        """Stay the first time, leave the second."""
-        asked.append(box)
-        next(b for b in box.buttons() if (b is box.defaultButton()) == (len(asked) == 1)).click()
+    def click_answer(box):
+        boxes.append(box)
+        next(b for b in box.buttons() if (b is box.defaultButton()) == (len(boxes) == 1)).click()
 
-    monkeypatch.setattr(QMessageBox, "exec", answer)
-    return asked
+    monkeypatch.setattr(QMessageBox, "exec", click_answer)
+    return boxes
 
 
 def test_saving_asks_where(qtbot, window, tmp_path, monkeypatch):
     window.ask_save()
-    assert "no record to save" in notices(window)[0]
-    played(qtbot, window, tmp_path / "move.csv")
+    assert "no record to save" in get_notice_texts(window)[0]
+    play_trajectory(qtbot, window, tmp_path / "move.csv")
     target = tmp_path / "saved.csv"
     monkeypatch.setattr(QFileDialog, "show", lambda dialog: dialog.fileSelected.emit(str(target)))
     window.ask_save()
@@ -307,77 +305,77 @@ def test_saving_asks_where(qtbot, window, tmp_path, monkeypatch):
     np.testing.assert_array_equal(read_record(target).values, window.workbench.run.record.values)
 
 
-def test_every_playback_is_kept_in_a_file_by_itself(qtbot, window, tmp_path, question):
+def test_every_playback_is_saved_to_its_own_file(qtbot, window, tmp_path, questions):
     for count in (1, 2):
-        played(qtbot, window, tmp_path / "move.csv")
-        qtbot.waitUntil(lambda: window.workbench.unsaved is None, timeout=LONG_MS)
+        play_trajectory(qtbot, window, tmp_path / "move.csv")
+        qtbot.waitUntil(lambda: window.workbench.records.unsaved is None, timeout=LONG_MS)
         assert len(list(window.workbench.played_folder.glob("*_move.csv.gz"))) == count
     newest = max(window.workbench.played_folder.iterdir())
     np.testing.assert_array_equal(read_record(newest).values, window.workbench.record.values)
     window.close()
     qtbot.waitUntil(window.isHidden, timeout=LONG_MS)
-    assert not question
+    assert not questions
 
 
-def test_a_playback_that_could_not_be_kept_is_not_lost_without_asking(
-    qtbot, window, tmp_path, question
-):
+def test_closing_with_an_unsaved_playback_asks_first(qtbot, window, tmp_path, questions):
     window.workbench.played_folder.write_text("no folder", "utf-8")
-    played(qtbot, window, tmp_path / "move.csv")
-    qtbot.waitUntil(lambda: any("cannot be created" in n for n in notices(window)), timeout=LONG_MS)
+    play_trajectory(qtbot, window, tmp_path / "move.csv")
+    qtbot.waitUntil(
+        lambda: any("cannot be created" in n for n in get_notice_texts(window)), timeout=LONG_MS
+    )
     assert not window.close()
     assert window.isVisible()
     window.close()
     qtbot.waitUntil(window.isHidden, timeout=LONG_MS)
-    assert len(question) == 2
-    assert question[0].defaultButton().text() == "Stay"  # what Enter chooses
-    assert "is not saved" in question[0].text()
+    assert len(questions) == 2
+    assert questions[0].defaultButton().text() == "Stay"  # the default button
+    assert "is not saved" in questions[0].text()
 
 
 def test_quitting_during_a_playback_asks_first_and_keeps_what_was_played(
-    qtbot, window, tmp_path, question
+    qtbot, window, tmp_path, questions
 ):
-    load(qtbot, window, short_trajectory(tmp_path / "long.csv", seconds=20.0))
+    load(qtbot, window, write_short_trajectory(tmp_path / "long.csv", seconds=20.0))
     session = window.workbench.session
     window.workbench.play()
     qtbot.waitUntil(lambda: session.snapshot().progress > 0.005, timeout=LONG_MS)
     assert not window.close()
-    assert session.snapshot().stop is None  # to stay changes nothing
-    assert "A trajectory is playing" in question[0].text()
-    assert not window.close()  # until it rests, and the record is in its file
+    assert session.snapshot().stop is None  # Stay changes nothing
+    assert "A trajectory is playing" in questions[0].text()
+    assert not window.close()  # until the machine is at rest and the record is saved
     assert session.snapshot().stop is not None
     qtbot.waitUntil(window.isHidden, timeout=LONG_MS)
-    assert len(question) == 2
+    assert len(questions) == 2
     assert len(list(window.workbench.played_folder.glob("*_long.csv.gz"))) == 1
 
 
-def test_the_window_stays_until_it_has_heard_of_what_was_played(qtbot, window, tmp_path):
-    bench, held = window.workbench, []
-    bench._happened.disconnect()
-    bench._happened.connect(held.append)
-    load(qtbot, window, short_trajectory(tmp_path / "long.csv", seconds=20.0))
+def test_the_window_stays_open_until_a_playback_is_handled(qtbot, window, tmp_path):
+    bench, events = window.workbench, []
+    bench.machine._event_received.disconnect()
+    bench.machine._event_received.connect(events.append)
+    load(qtbot, window, write_short_trajectory(tmp_path / "long.csv", seconds=20.0))
     bench.play()
     qtbot.waitUntil(lambda: bench.session.snapshot().progress > 0.005, timeout=LONG_MS)
     bench.stop()
-    qtbot.waitUntil(lambda: any(isinstance(e, PlaybackFinished) for e in held), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: any(isinstance(e, PlaybackFinished) for e in events), timeout=LONG_MS)
     qtbot.waitUntil(lambda: bench.session.at_rest, timeout=LONG_MS)
-    assert bench.untold
+    assert bench.has_unhandled_playback
     assert not window.close()
-    for event in held:
-        bench._on_event(event)
+    for event in events:
+        bench.machine._on_event(event)
     qtbot.waitUntil(window.isHidden, timeout=LONG_MS)
     assert len(list(bench.played_folder.glob("*_long.csv.gz"))) == 1
 
 
-def test_a_record_whose_comparison_fails_is_kept_all_the_same(qtbot, window, tmp_path, monkeypatch):
+def test_a_record_is_saved_even_if_its_comparison_fails(qtbot, window, tmp_path, monkeypatch):
     monkeypatch.setattr(
-        "rotemina.app.shell.played_records.compared",
+        "rotemina.app.workbench.played_records.compare_with_model",
         lambda *_, **__: (_ for _ in ()).throw(InputError("no")),
     )
-    load(qtbot, window, short_trajectory(tmp_path / "move.csv"))
+    load(qtbot, window, write_short_trajectory(tmp_path / "move.csv"))
     window.workbench.play()
-    qtbot.waitUntil(lambda: notices(window) == ["no"], timeout=LONG_MS)
-    qtbot.waitUntil(lambda: window.workbench.unsaved is None, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: get_notice_texts(window) == ["no"], timeout=LONG_MS)
+    qtbot.waitUntil(lambda: window.workbench.records.unsaved is None, timeout=LONG_MS)
     assert list(window.workbench.played_folder.iterdir())
 
 
@@ -392,11 +390,13 @@ def test_the_stop_button_works_under_an_open_menu(qtbot, window, open_menu, pres
     menu.close()
 
 
-def test_a_key_that_is_held_runs_its_command_once(window):
-    shortcuts = [one for one in window.findChildren(QAction) if not one.shortcut().isEmpty()]
-    repeated = [one.text() for one in shortcuts if one.autoRepeat()]
-    assert "&Play or pause" in [one.text() for one in shortcuts]
-    assert repeated == []  # play, pause and resume, as long as it is held
+def test_a_held_shortcut_runs_its_command_once(window):
+    shortcuts = [
+        action for action in window.findChildren(QAction) if not action.shortcut().isEmpty()
+    ]
+    repeated = [action.text() for action in shortcuts if action.autoRepeat()]
+    assert "&Play or pause" in [action.text() for action in shortcuts]
+    assert repeated == []  # otherwise it would play, pause and resume while the key is held
 
 
 def test_theme_and_layout_survive_a_restart(qtbot, make_robot_window, settings):
@@ -404,13 +404,13 @@ def test_theme_and_layout_survive_a_restart(qtbot, make_robot_window, settings):
     first.use_theme("light")
     first.docks["control"].hide()
     first.close()
-    qtbot.waitUntil(first.isHidden, timeout=LONG_MS)  # what was begun at the start is ended first
+    qtbot.waitUntil(first.isHidden, timeout=LONG_MS)  # background work of the start ends first
     second = make_robot_window()
     assert second.workbench.theme.name == "light"
     assert second.docks["control"].isHidden()
 
 
-def test_spoilt_preferences_never_keep_the_window_shut(make_robot_window, settings):
+def test_the_window_opens_with_invalid_preferences(make_robot_window, settings):
     for key in ("window.geometry", "window.state"):
         settings.set(key, "no layout at all")
     settings.set("window.theme", "pink")
@@ -426,27 +426,27 @@ class RaisingPanel(module.Panel):
 
 @pytest.mark.every_panel
 def test_a_bad_panel_is_named_and_left_out(make_robot_window, monkeypatch):
-    good = registry.entry_points(group=GROUP)
-    here = f"{__name__}:RaisingPanel"
+    good = registry.entry_points(group=ENTRY_POINT_GROUP)
+    test_entry = f"{__name__}:RaisingPanel"
     bad = [
-        EntryPoint("gone", "no_such_module:Panel", GROUP),
-        EntryPoint("wrong", "pathlib:Path", GROUP),
-        EntryPoint("raising", here, GROUP),
+        EntryPoint("gone", "no_such_module:Panel", ENTRY_POINT_GROUP),
+        EntryPoint("wrong", "pathlib:Path", ENTRY_POINT_GROUP),
+        EntryPoint("raising", test_entry, ENTRY_POINT_GROUP),
     ]
-    monkeypatch.setattr(EntryPoint, "load", _load_from_here(EntryPoint.load, here))
+    monkeypatch.setattr(EntryPoint, "load", make_entry_loader(EntryPoint.load, test_entry))
     monkeypatch.setattr(registry, "entry_points", lambda group: [*good, *bad])
     window = make_robot_window()
     window.panels.make_all()
     assert list(window.panels) == BUILT_IN
     assert "raising" not in window.docks
-    said = " ".join(notices(window))
+    message = " ".join(get_notice_texts(window))
     for name in ("gone", "wrong", "raising"):
-        assert f"'{name}' is left out" in said
+        assert f"'{name}' is left out" in message
 
 
-def _load_from_here(load, here):
-    """Test modules are imported by path, so an entry point cannot name one."""
-    return lambda point: RaisingPanel if point.value == here else load(point)
+def make_entry_loader(original_load, test_entry):
+    """Return a loader for this module too; imported by path, no entry point can name it."""
+    return lambda point: RaisingPanel if point.value == test_entry else original_load(point)
 
 
 def test_a_notice_is_plain_text_and_can_be_closed(qtbot, window):
@@ -457,28 +457,28 @@ def test_a_notice_is_plain_text_and_can_be_closed(qtbot, window):
     assert window.notices.notices() == []
 
 
-def test_preferences_that_cannot_be_read_are_told_of_with_the_place_of_the_file(qtbot, tmp_path):
+def test_unreadable_preferences_are_reported_with_their_path(qtbot, tmp_path):
     path = tmp_path / "settings.json"
     path.write_text("{", "utf-8")
     session = MotionSession(Simulator(load_robot("rotemina")))
-    window = window_run.make_window(session, Settings(path), tmp_path / "played")
+    window = window_run.make_window(session, UserSettings(path), tmp_path / "played")
     qtbot.addWidget(window)
-    told = window.notices.notices()[0].text
+    message = window.notices.notices()[0].text
     window.workbench.close()
-    assert f"{path}:1: not valid JSON" in told
-    assert f"kept as {tmp_path / 'settings.damaged-1.json'}" in told
+    assert f"{path}:1: not valid JSON" in message
+    assert f"kept as {tmp_path / 'settings.damaged-1.json'}" in message
 
 
-def test_the_first_steps_are_four_clicks_and_gone_for_good(qtbot, window, tmp_path, monkeypatch):
+def test_the_first_steps_take_four_clicks_and_do_not_return(qtbot, window, tmp_path, monkeypatch):
     card, bench = window.first_steps, window.workbench
-    assert card.isHidden()  # but on a first start
-    short = read_record(short_trajectory(tmp_path / "move.csv"))
-    monkeypatch.setattr("rotemina.app.shell.first_steps.example_for", lambda _: short)
+    assert card.isHidden()  # except on a first start
+    short = read_record(write_short_trajectory(tmp_path / "move.csv"))
+    monkeypatch.setattr("rotemina.app.shell.help.first_steps.make_example", lambda _: short)
     card.offer()
     qtbot.waitUntil(lambda: card._marks[0].text() == "1", timeout=LONG_MS)
     assert not card.play.isEnabled()
     assert "load one first" in card.play.toolTip()
-    for button in (card.stay, card.load, card.play, card.diagnose):
+    for button in (card.simulator_button, card.load, card.play, card.diagnose):
         qtbot.waitUntil(button.isEnabled, timeout=LONG_MS)
         qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: bench.run is not None and card.isHidden(), timeout=LONG_MS)

@@ -1,4 +1,4 @@
-"""The command palette opens panels, and moves nothing that the operator does not see."""
+"""The command palette opens panels and operates no hidden control."""
 
 import pytest
 from PySide6.QtWidgets import QPushButton
@@ -10,34 +10,34 @@ LONG_MS = 30_000
 
 
 @pytest.fixture
-def button(window):
-    """Return how to put a button into the panel *Faults*, which notes its clicks."""
+def add_button(window):
+    """Return a function that adds a button, which counts its clicks, to the panel *Faults*."""
 
-    def add(text):
-        made = QPushButton(text, window.panels["faults"])
-        made.clicks = []
-        made.clicked.connect(lambda: made.clicks.append(text))
-        made.show()
-        return made
+    def add_to_panel(text):
+        new_button = QPushButton(text, window.panels["faults"])
+        new_button.clicks = []
+        new_button.clicked.connect(lambda: new_button.clicks.append(text))
+        new_button.show()
+        return new_button
 
-    return add
-
-
-def entry(window, text):
-    return next(each for each in window._entries() if each.text == text)
+    return add_to_panel
 
 
-def test_a_button_that_its_author_does_not_offer_is_not_in_the_palette(window, button):
-    button("Dispense")
-    assert "Faults: Dispense" not in [each.text for each in window._entries()]
+def find_entry(window, text):
+    return next(candidate for candidate in window._make_palette_entries() if candidate.text == text)
 
 
-def test_a_panel_comes_before_a_button_that_fits_better(window, button):
-    offer_in_palette(button("Faults"), button("Faults by date"))
+def test_only_offered_buttons_are_in_the_palette(window, add_button):
+    add_button("Dispense")
+    assert "Faults: Dispense" not in [entry.text for entry in window._make_palette_entries()]
+
+
+def test_a_panel_ranks_before_a_button_that_matches_better(window, add_button):
+    offer_in_palette(add_button("Faults"), add_button("Faults by date"))
     palette = window.palette_page
     window.toggle_palette()
-    for typed in ("faults", "fau", "fts"):
-        palette.field.setText(typed)
+    for query in ("faults", "fau", "fts"):
+        palette.field.setText(query)
         assert palette._shown[0].text == "Panel: Faults"
     palette.field.setText("faults date")
     assert palette._shown[0].text == "Faults: Faults by date"
@@ -45,8 +45,8 @@ def test_a_panel_comes_before_a_button_that_fits_better(window, button):
 
 
 @pytest.mark.parametrize("hide", ["closed", "behind another"])
-def test_a_hidden_panel_is_opened_and_its_button_not_clicked(qtbot, window, button, hide):
-    dispense = button("Dispense")
+def test_a_hidden_panel_is_opened_and_its_button_not_clicked(qtbot, window, add_button, hide):
+    dispense = add_button("Dispense")
     offer_in_palette(dispense)
     window.bring_up("faults")
     if hide == "closed":
@@ -58,38 +58,50 @@ def test_a_hidden_panel_is_opened_and_its_button_not_clicked(qtbot, window, butt
     window.toggle_palette()
     palette.field.setText("dispense")
     assert "Press Enter to open Faults" in palette.reason.text()
-    palette.do()
+    palette.run_selected()
     assert dispense.clicks == []
     qtbot.waitUntil(lambda: not dispense.visibleRegion().isEmpty(), timeout=LONG_MS)
     assert "Dispense: not run" in window.notices.notices()[0].text
     window.toggle_palette()
     palette.field.setText("dispense")
     assert palette.reason.text() == "Press Enter to run it."
-    palette.do()
+    palette.run_selected()
     assert dispense.clicks == ["Dispense"]
 
 
-def test_what_is_safe_runs_while_its_panel_is_hidden(window, button):
-    halt = button("Stop pump")
+def test_a_safe_button_runs_while_its_panel_is_hidden(window, add_button):
+    halt = add_button("Stop pump")
     offer_in_palette(halt, safe_while_hidden=True)
     window.docks["faults"].close()
-    entry(window, "Faults: Stop pump").run()
+    find_entry(window, "Faults: Stop pump").run()
     assert halt.clicks == ["Stop pump"]
 
 
-def test_no_command_moves_or_switches_anything_behind_the_operator(qtbot, window, monkeypatch):
-    bench, called = window.workbench, []
+def test_no_motion_command_runs_while_its_panel_is_hidden(qtbot, window, monkeypatch):
+    bench, calls = window.workbench, []
     safe = {"Stop", "Stop and lock", "Connect …"}
-    actions = ("toggle_playback", "release", "undo", "home", "clear_fault", "reconnect", "let_go")
+    actions = (
+        "toggle_playback",
+        "release",
+        "undo",
+        "home",
+        "clear_fault",
+        "reconnect",
+        "disconnect_device",
+    )
     for name in actions:
-        monkeypatch.setattr(bench, name, lambda name=name: called.append(name))
-    motion = [e for e in window._entries() if e.where == "Motion" and e.what not in safe]
-    assert len(motion) == len(actions)
-    for each in motion:
+        monkeypatch.setattr(bench, name, lambda name=name: calls.append(name))
+    motion_entries = [
+        entry
+        for entry in window._make_palette_entries()
+        if entry.group == "Motion" and entry.title not in safe
+    ]
+    assert len(motion_entries) == len(actions)
+    for entry in motion_entries:
         for dock in window.docks.values():
             dock.close()
-        each.run()
-    assert called == []
+        entry.run()
+    assert calls == []
 
 
 def test_stops_work_while_every_panel_is_hidden(window):
@@ -97,14 +109,14 @@ def test_stops_work_while_every_panel_is_hidden(window):
         dock.close()
     session = window.workbench.session
     before = session.snapshot().stop
-    entry(window, "Motion: Stop").run()
+    find_entry(window, "Motion: Stop").run()
     assert session.snapshot().stop is not before
-    entry(window, "Motion: Stop and lock").run()
-    assert session.snapshot().latched is not None
+    find_entry(window, "Motion: Stop and lock").run()
+    assert session.snapshot().latch_reason is not None
 
 
 def test_a_command_whose_panel_is_missing_refers_to_the_menu(window):
     window.panels.make_all()
-    for panels in (window.panels.kinds, window.panels.made):
+    for panels in (window.panels.panel_types, window.panels.made):
         panels.pop("connection")
-    assert entry(window, "Motion: Reconnect").why_not == "its panel is missing; use the menu"
+    assert find_entry(window, "Motion: Reconnect").objection == "its panel is missing; use the menu"

@@ -1,4 +1,4 @@
-"""A third party's panel that fails while the window is open is named and left out; ours stay."""
+"""A third-party panel that fails while the window is open is named and left out; ours stay."""
 
 import gc
 import logging
@@ -11,11 +11,12 @@ from PySide6.QtCore import QCoreApplication, QEvent, Qt
 from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QTabWidget, QWidget
 from shiboken6 import isValid
 
-from rotemina.app.shell.exit_guard import ExitRefusedError, exits_refused
-from rotemina.app.shell.panel_watch import MOST_FAULTS, PanelWatch
-from rotemina.app.shell.workbench import Level
+from rotemina.app.shell.panels import PanelWatch
+from rotemina.app.shell.panels.panel_watch import MAX_FAULTS
+from rotemina.app.shell.startup.exit_guard import ExitRefusedError, refuse_exits
+from rotemina.app.workbench import Level
 
-THEIRS = """
+THIRD_PARTY_MODULE = """
 import sys
 
 from PySide6.QtCore import QTimer
@@ -52,23 +53,23 @@ class Other(QLabel):
 """
 
 
-def module_of(name):
-    """A module that was imported from elsewhere."""
+def make_module(name):
+    """Create a module as if it came from another package."""
     module = ModuleType(name)
-    exec(compile(THEIRS, name, "exec"), vars(module))  # noqa: S102
+    exec(compile(THIRD_PARTY_MODULE, name, "exec"), vars(module))  # noqa: S102
     return module
 
 
 @pytest.fixture
-def make(qtbot):
-    """Make a window with two panels, one in a dock and one in a tab, that is watched."""
-    made = []
+def make_window(qtbot):
+    """Make a watched window with two panels, one in a dock and one in a tab."""
+    watches = []
 
-    def make(package="others_panels", *, one_module=False):
+    def build(package="others_panels", *, one_module=False):
         window = QMainWindow()
         qtbot.addWidget(window)
-        module = module_of(f"{package}.panel")
-        second = module.Other if one_module else module_of("second_panels").Fragile
+        module = make_module(f"{package}.panel")
+        second = module.Other if one_module else make_module("second_panels").Fragile
         docked, tabbed = module.Fragile("docked"), second("tabbed")
         dock, tabs = QDockWidget("docked"), QTabWidget()
         dock.setWidget(docked)
@@ -76,32 +77,32 @@ def make(qtbot):
         tabs.addTab(tabbed, "tabbed")
         window.setCentralWidget(tabs)
         window.addDockWidget(Qt.DockWidgetArea.RightDockWidgetArea, dock)
-        told = []
+        reports = []
         panels, docks = {"docked": docked, "tabbed": tabbed}, {"docked": dock}
-        watch = PanelWatch(window, panels, docks, lambda *said: told.append(said))
+        watch = PanelWatch(window, panels, docks, lambda *args: reports.append(args))
         watch.install()
-        made.append(watch)
+        watches.append(watch)
         window.show()
-        return window, panels, docks, told
+        return window, panels, docks, reports
 
-    yield make
-    for watch in made:
+    yield build
+    for watch in watches:
         watch.remove()
 
 
 def settle():
-    for _ in range(3):  # what is due now, what that has asked for, and what is to be deleted
+    for _ in range(3):  # due events, the events they post, and deferred deletions
         QCoreApplication.processEvents()
         QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
 
 
-def test_one_that_cannot_paint_is_left_out_at_once(make):
-    window, panels, docks, told = make()
+def test_a_panel_that_cannot_paint_is_left_out_at_once(make_window):
+    window, panels, docks, reports = make_window()
     bad = panels["docked"]
     bad.paints_badly = True
     bad.repaint()
     settle()
-    ((level, text),) = told
+    ((level, text),) = reports
     assert level is Level.ERROR
     assert "'docked' is left out" in text
     assert "ValueError: no colour" in text
@@ -111,42 +112,42 @@ def test_one_that_cannot_paint_is_left_out_at_once(make):
     assert window.findChildren(QDockWidget) == []
 
 
-def test_a_painter_that_a_failed_paint_event_leaves_is_ended_before_qt_goes_on(make):
-    _, panels, _, told = make()
+def test_a_painter_left_open_by_a_failed_paint_event_is_ended(make_window):
+    _, panels, _, reports = make_window()
     bad = panels["docked"]
     bad.paints_badly = bad.leaves_a_painter = True
     bad.repaint()
     settle()
-    assert "'docked' is left out" in told[0][1]
+    assert "'docked' is left out" in reports[0][1]
     assert not bad.painter.isActive()
 
 
-def test_of_two_in_one_module_the_one_that_fails_is_left_out(make):
-    _, panels, _, told = make(one_module=True)
+def test_of_two_panels_in_one_module_only_the_failing_one_is_left_out(make_window):
+    _, panels, _, reports = make_window(one_module=True)
     panels["tabbed"].paints_badly = True
     panels["tabbed"].parentWidget().parentWidget().setCurrentIndex(1)
     panels["tabbed"].repaint()
     settle()
-    assert "'tabbed' is left out" in told[0][1]
+    assert "'tabbed' is left out" in reports[0][1]
     assert list(panels) == ["docked"]
 
 
-def test_one_that_fails_in_slots_and_timers_has_a_few_chances(make):
-    _, panels, _, told = make()
+def test_a_panel_is_left_out_after_several_faults_in_slots_and_timers(make_window):
+    _, panels, _, reports = make_window()
     bad = panels["tabbed"]
     tabs = bad.parentWidget().parentWidget()
-    for _ in range(MOST_FAULTS):
+    for _ in range(MAX_FAULTS):
         assert isValid(bad)
         bad.tick()
         settle()
-    assert [level for level, _ in told] == [Level.WARNING, Level.ERROR]
-    assert f"after {MOST_FAULTS} faults: KeyError: 'thy'" in told[-1][1]
+    assert [level for level, _ in reports] == [Level.WARNING, Level.ERROR]
+    assert f"after {MAX_FAULTS} faults: KeyError: 'thy'" in reports[-1][1]
     assert not isValid(bad)
     assert [tabs.tabText(number) for number in range(tabs.count())] == ["ours"]
     assert list(panels) == ["docked"]
 
 
-def raised(call):
+def catch_error(call):
     try:
         call()
     except Exception as error:
@@ -154,87 +155,90 @@ def raised(call):
     raise AssertionError("nothing was raised")
 
 
-def test_what_an_event_raises_within_a_call_is_noted(make):
-    window, panels, docks, told = make()
+def test_an_error_in_an_event_within_a_guarded_call_is_noted(make_window):
+    window, panels, docks, reports = make_window()
     panels["docked"].paints_badly = True
-    watch = PanelWatch(window, panels, docks, lambda *said: told.append(said))
-    with watch.guarding():
+    watch = PanelWatch(window, panels, docks, lambda *args: reports.append(args))
+    with watch.guard():
         panels["docked"].grab()
     settle()
-    assert "'docked' is left out" in told[0][1]
-    with pytest.raises(ZeroDivisionError), watch.guarding():
+    assert "'docked' is left out" in reports[0][1]
+    with pytest.raises(ZeroDivisionError), watch.guard():
         _ = 1 / 0
 
 
-def test_what_is_left_of_a_panel_may_fail_in_silence(make):
-    _, panels, _, told = make()
+def test_a_panel_that_was_left_out_fails_silently(make_window):
+    _, panels, _, reports = make_window()
     bad = panels["docked"]
-    seen = raised(bad.click)
-    for _ in range(MOST_FAULTS + 5):
-        sys.excepthook(*seen)
+    error = catch_error(bad.click)
+    for _ in range(MAX_FAULTS + 5):
+        sys.excepthook(*error)
     settle()
-    assert len(told) == 2
+    assert len(reports) == 2
 
 
 @pytest.mark.parametrize("package", ["rotemina.plugins.control", "rotemina.app.shell"])
-def test_our_own_stay_and_their_faults_are_logged_and_told_once(make, caplog, package):
-    _, panels, docks, told = make(package)
-    seen = raised(panels["docked"].click)
+def test_built_in_panels_stay_and_their_faults_are_reported_once(make_window, caplog, package):
+    _, panels, docks, reports = make_window(package)
+    error = catch_error(panels["docked"].click)
     for _ in range(5):
-        sys.excepthook(*seen)
+        sys.excepthook(*error)
     assert (list(panels), list(docks)) == (["docked", "tabbed"], ["docked"])
-    ((level, text),) = told
+    ((level, text),) = reports
     assert (level, "KeyError: 'thy'" in text) == (Level.ERROR, True)
     first, *later = caplog.records
-    assert first.exc_info[1] is seen[1]
-    assert [(one.levelno, one.args[0]) for one in later] == [(logging.ERROR, 2), (logging.ERROR, 4)]
+    assert first.exc_info[1] is error[1]
+    assert [(record.levelno, record.args[0]) for record in later] == [
+        (logging.ERROR, 2),
+        (logging.ERROR, 4),
+    ]
 
 
-def test_what_a_thread_of_a_panel_raises_is_told_on_the_window_s_thread(make):
-    _, panels, _, told = make()
-    for call in (panels["docked"].click, sys.exit):  # the latter is how a thread may end
+def test_an_error_in_a_panels_thread_is_reported_on_the_window_thread(make_window):
+    _, panels, _, reports = make_window()
+    for call in (panels["docked"].click, sys.exit):  # a thread may end with sys.exit
         thread = threading.Thread(target=call)
         thread.start()
         thread.join()
-    assert told == []
+    assert reports == []
     settle()
-    ((_, text),) = told
+    ((_, text),) = reports
     assert "Panel 'docked' has failed: KeyError" in text
 
 
-def test_what_a_panel_raises_as_it_is_collected_is_told(make):
-    _, panels, _, told = make()
+def test_an_error_during_garbage_collection_is_reported(make_window):
+    _, panels, _, reports = make_window()
 
-    class Leaving:
+    class RaisesOnDeletion:
         def __del__(self, click=panels["docked"].click):
             click()
 
-    Leaving()
+    RaisesOnDeletion()
     gc.collect()
     settle()
-    assert "Panel 'docked' has failed: KeyError" in told[0][1]
+    assert "Panel 'docked' has failed: KeyError" in reports[0][1]
 
 
-def test_a_call_that_would_end_the_program_is_a_fault_of_the_panel(make):
-    _, panels, _, told = make()
+def test_a_call_that_would_end_the_program_is_a_fault_of_the_panel(make_window):
+    _, panels, _, reports = make_window()
     before = sys.exit, exit, quit
-    with exits_refused():
-        sys.excepthook(*raised(panels["docked"].leave))
+    with refuse_exits():
+        sys.excepthook(*catch_error(panels["docked"].leave))
         for call in (exit, quit):
             with pytest.raises(ExitRefusedError, match=r"exit\(None\)"):
                 call()
     assert (sys.exit, exit, quit) == before
-    assert "'docked' has failed: ExitRefusedError: it called exit(3)" in told[0][1]
+    assert "'docked' has failed: ExitRefusedError: it called exit(3)" in reports[0][1]
 
 
-def test_a_panel_that_stands_alone_is_taken_out(make, qtbot):
-    _, panels, _, _ = make()
-    alone = panels["tabbed"]
+def test_a_panel_without_a_dock_is_removed(make_window, qtbot):
+    _, panels, _, _ = make_window()
+    panel = panels["tabbed"]
     parent = QWidget()
     qtbot.addWidget(parent)
-    alone.setParent(parent)
-    alone.show()
-    alone.paints_badly = True
+    panel.setParent(parent)
+    panel.show()
+    panel.paints_badly = True
     parent.show()
     settle()
-    assert not isValid(alone)
+    assert not isValid(panel)

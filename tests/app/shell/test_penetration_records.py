@@ -1,108 +1,108 @@
-"""A penetration is recorded by itself, unless a recording runs anyway."""
+"""A penetration is recorded automatically, unless a recording is already running."""
 
 from types import SimpleNamespace
 
 import pytest
 
-from rotemina.app.motion.penetration.status import Phase
-from rotemina.app.shell.penetration_records import PenetrationRecords
-from rotemina.drivers.clock import VirtualClock
+from rotemina.app.motion.penetration import PenetrationPhase
+from rotemina.app.workbench.penetration_records import PenetrationRecorder
+from rotemina.drivers.contract import VirtualClock
 
 
-class Operation:
-    """Of an operation, what a recorder of penetrations needs."""
+class FakeOperation:
+    """A stub operation that logs its recordings."""
 
     def __init__(self, file):
         self.file = file
         self.recording = None
-        self.done = []
-        self.penetration = SimpleNamespace(status=SimpleNamespace(phase=Phase.ARMED))
+        self.calls = []
+        self.penetration = SimpleNamespace(status=SimpleNamespace(phase=PenetrationPhase.ARMED))
 
     def start_recording(self, *, name=""):
-        self.done.append(name)
+        self.calls.append(name)
         self.recording = object()
 
     def stop_recording(self):
         self.recording = None
-        self.done.append("ended")
+        self.calls.append("ended")
         self.file.write_text("all")
         return self.file
 
 
-class Bench:
+class RecorderBench:
     def __init__(self, qtbot, file):
-        self.operation, self.clock, self.told = Operation(file), VirtualClock(0.0), []
-        self.records = PenetrationRecords(self.operation, self.told.append, self.clock)
+        self.operation, self.clock, self.messages = FakeOperation(file), VirtualClock(0.0), []
+        self.records = PenetrationRecorder(self.operation, self.messages.append, self.clock)
         self.stored = []
         self.records.stored.connect(self.stored.append)
         self.qtbot = qtbot
 
-    def look(self, phase, seconds=0.0):
+    def update(self, phase, seconds=0.0):
         self.operation.penetration.status.phase = phase
         self.clock.advance(seconds)
-        self.records.look()
+        self.records.update_recording()
         self.qtbot.waitUntil(lambda: not self.records._background.busy)
-        return self.operation.done
+        return self.operation.calls
 
 
 @pytest.fixture
 def bench(qtbot, tmp_path):
-    bench = Bench(qtbot, tmp_path / "file")
+    bench = RecorderBench(qtbot, tmp_path / "file")
     yield bench
     bench.records.close()
 
 
-def test_a_penetration_is_recorded_from_its_arming_until_half_a_second_after_its_end(bench):
-    assert bench.look(Phase.DISARMED) == []
-    assert bench.look(Phase.ARMED) == ["penetration"]
-    assert bench.look(Phase.APPROACH) == ["penetration"]
-    assert bench.look(Phase.RETRACT, 5.0) == ["penetration"]
-    assert bench.look(Phase.DONE) == ["penetration"]
-    assert bench.look(Phase.DONE, 0.4) == ["penetration"]
-    assert bench.look(Phase.DONE, 0.2) == ["penetration", "ended"]
-    assert bench.look(Phase.DONE, 9.0) == ["penetration", "ended"]
+def test_a_penetration_is_recorded_from_arming_until_half_a_second_after_its_end(bench):
+    assert bench.update(PenetrationPhase.DISARMED) == []
+    assert bench.update(PenetrationPhase.ARMED) == ["penetration"]
+    assert bench.update(PenetrationPhase.APPROACH) == ["penetration"]
+    assert bench.update(PenetrationPhase.RETRACT, 5.0) == ["penetration"]
+    assert bench.update(PenetrationPhase.DONE) == ["penetration"]
+    assert bench.update(PenetrationPhase.DONE, 0.4) == ["penetration"]
+    assert bench.update(PenetrationPhase.DONE, 0.2) == ["penetration", "ended"]
+    assert bench.update(PenetrationPhase.DONE, 9.0) == ["penetration", "ended"]
     assert bench.stored == [bench.operation.file]
     assert bench.operation.file.exists()
-    assert bench.look(Phase.RETRACT)[2:] == ["penetration"]  # what was held comes back
-    assert bench.told == []
+    assert bench.update(PenetrationPhase.RETRACT)[2:] == ["penetration"]  # retracted after a hold
+    assert bench.messages == []
 
 
-def test_what_was_armed_and_never_started_is_not_kept(bench):
-    bench.look(Phase.ARMED)
-    bench.look(Phase.DISARMED)
-    assert bench.look(Phase.DISARMED, 1.0) == ["penetration", "ended"]
+def test_a_penetration_that_never_started_is_not_kept(bench):
+    bench.update(PenetrationPhase.ARMED)
+    bench.update(PenetrationPhase.DISARMED)
+    assert bench.update(PenetrationPhase.DISARMED, 1.0) == ["penetration", "ended"]
     assert bench.stored == []
     assert not bench.operation.file.exists()
 
 
-def test_a_recording_of_the_operator_is_neither_begun_anew_nor_ended(bench):
-    bench.operation.recording = theirs = object()
-    bench.look(Phase.APPROACH)
-    bench.look(Phase.DONE, 9.0)
-    assert bench.look(Phase.DONE, 9.0) == []
-    assert bench.operation.recording is theirs
+def test_a_recording_of_the_operator_is_left_running(bench):
+    bench.operation.recording = other_recording = object()
+    bench.update(PenetrationPhase.APPROACH)
+    bench.update(PenetrationPhase.DONE, 9.0)
+    assert bench.update(PenetrationPhase.DONE, 9.0) == []
+    assert bench.operation.recording is other_recording
 
 
-def test_one_that_the_operator_ended_is_not_ended_again(bench):
-    bench.look(Phase.APPROACH)
-    bench.operation.recording = theirs = object()
-    bench.look(Phase.DONE, 9.0)
-    assert bench.look(Phase.DONE, 9.0) == ["penetration"]
-    assert bench.operation.recording is theirs
+def test_a_recording_that_the_operator_replaced_is_not_ended(bench):
+    bench.update(PenetrationPhase.APPROACH)
+    bench.operation.recording = other_recording = object()
+    bench.update(PenetrationPhase.DONE, 9.0)
+    assert bench.update(PenetrationPhase.DONE, 9.0) == ["penetration"]
+    assert bench.operation.recording is other_recording
 
 
-def test_what_the_operator_records_since_is_not_ended_and_not_deleted(bench):
-    """The operator ends the recording and begins another between the look and the end of it."""
-    bench.look(Phase.ARMED)
-    bench.look(Phase.DISARMED)
+def test_a_newer_recording_of_the_operator_is_kept(bench):
+    """The operator ends the recording and starts another while the recorder ends the first."""
+    bench.update(PenetrationPhase.ARMED)
+    bench.update(PenetrationPhase.DISARMED)
     run = bench.records._background.run
 
-    def late(*given):
-        bench.operation.recording = another
-        run(*given)
+    def run_late(*args):
+        bench.operation.recording = new_recording
+        run(*args)
 
-    another = object()
-    bench.records._background.run = late
-    assert bench.look(Phase.DISARMED, 0.6) == ["penetration"]
-    assert bench.operation.recording is another
+    new_recording = object()
+    bench.records._background.run = run_late
+    assert bench.update(PenetrationPhase.DISARMED, 0.6) == ["penetration"]
+    assert bench.operation.recording is new_recording
     assert bench.stored == []

@@ -1,8 +1,9 @@
-"""How far long work is, and calling it off."""
+"""Progress of long work, and cancelling it."""
 
 import pytest
 
-from rotemina.app.shell.progress_line import CancelledError, Progress, ProgressLine
+from rotemina.app.errors import WorkCancelledError
+from rotemina.app.workbench import StatusProgressLine, WorkProgress
 
 
 class Clock:
@@ -12,39 +13,39 @@ class Clock:
         return self.now_s
 
 
-def test_time_left_is_told_when_it_can_be():
+def test_the_remaining_time_is_shown_once_known():
     clock = Clock()
-    progress = Progress("Copied.", clock=clock)
-    assert progress.left_s is None
-    progress.reached(0.25)
+    progress = WorkProgress("Copied.", clock=clock)
+    assert progress.remaining_s is None
+    progress.report(0.25)
     clock.now_s += 0.5
-    assert progress.left_s is None
+    assert progress.remaining_s is None
     clock.now_s += 9.5
-    assert progress.left_s == pytest.approx(30.0)
+    assert progress.remaining_s == pytest.approx(30.0)
     assert progress.text == "Copied. About 0:30 left."
-    progress.reached(3.0)
-    assert progress.left_s == 0.0
+    progress.report(3.0)
+    assert progress.remaining_s == 0.0
 
 
-def test_work_that_is_called_off_ends_when_it_reports():
-    progress = Progress("Copied.")
+def test_cancelled_work_ends_at_its_next_report():
+    progress = WorkProgress("Copied.")
     progress.cancel()
-    with pytest.raises(CancelledError, match="Cancelled"):
-        progress.reached(0.5)
-    kept = Progress("Merged.", cancellable=False)
-    kept.cancel()
-    kept.reached(0.5)
-    assert kept.share == 0.5
+    with pytest.raises(WorkCancelledError, match="Cancelled"):
+        progress.report(0.5)
+    uncancellable = WorkProgress("Merged.", cancellable=False)
+    uncancellable.cancel()
+    uncancellable.report(0.5)
+    assert uncancellable.share == 0.5
 
 
-def test_the_line_is_seen_for_long_work_only_and_cancels(qtbot):
-    line, clock = ProgressLine(), Clock()
+def test_the_line_appears_for_long_work_and_can_cancel_it(qtbot):
+    line, clock = StatusProgressLine(), Clock()
     qtbot.addWidget(line)
-    progress = Progress("Copied.", clock=clock)
+    progress = WorkProgress("Copied.", clock=clock)
     line.show_progress(progress)
     assert line.isHidden()
     clock.now_s += 2.0
-    progress.reached(0.5)
+    progress.report(0.5)
     line.show_progress(progress)
     assert not line.isHidden()
     assert line.bar.value() == line.bar.maximum() // 2

@@ -1,4 +1,4 @@
-"""Starting with and without a display, and on a machine that lacks something."""
+"""Starting with and without a display, and on a machine with missing libraries."""
 
 import os
 import subprocess
@@ -9,29 +9,29 @@ import pytest
 from PySide6.QtGui import QImage
 
 from rotemina.app.cli.main import main
-from rotemina.app.shell import start as module
-from rotemina.app.shell.display_check import display_fault
-from rotemina.app.system_check import Package
-from rotemina.sim.records.reading import read_record
+from rotemina.app.shell.startup import window_start as module
+from rotemina.app.shell.startup.display_check import find_display_fault
+from rotemina.app.system.system_check import DebianPackage
+from rotemina.sim.records import read_record
 
-LEFT_BEHIND = {"window.png", "comparison.svg", "comparison.json", "report.txt", "record.csv"}
+OUTPUT_FILES = {"window.png", "comparison.svg", "comparison.json", "report.txt", "record.csv"}
 linux = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="only Linux has a choice")
 
 
 @linux
 @pytest.mark.slow
-def test_without_a_display_the_main_job_is_done_and_its_folder_named(tmp_path):
-    hidden = ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")
-    environment = {key: value for key, value in os.environ.items() if key not in hidden}
+def test_without_a_display_the_run_is_done_and_its_folder_named(tmp_path):
+    display_variables = ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")
+    environment = {key: value for key, value in os.environ.items() if key not in display_variables}
     command = [Path(sys.executable).with_name("rotemina"), "--output", "left"]
-    done = subprocess.run(
+    result = subprocess.run(
         command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False
     )
-    assert done.returncode == 0, done.stderr
-    assert done.stderr == ""
-    assert "no DISPLAY or WAYLAND_DISPLAY" in done.stdout
-    assert str(tmp_path / "left") in done.stdout
-    assert {path.name for path in (tmp_path / "left").iterdir()} >= LEFT_BEHIND
+    assert result.returncode == 0, result.stderr
+    assert result.stderr == ""
+    assert "no DISPLAY or WAYLAND_DISPLAY" in result.stdout
+    assert str(tmp_path / "left") in result.stdout
+    assert {path.name for path in (tmp_path / "left").iterdir()} >= OUTPUT_FILES
     picture = QImage(str(tmp_path / "left" / "window.png"))
     assert (picture.width(), picture.height()) == (1280, 800)
     colours = {picture.pixel(x, y) for x in range(0, 1280, 7) for y in range(0, 800, 7)}
@@ -40,16 +40,16 @@ def test_without_a_display_the_main_job_is_done_and_its_folder_named(tmp_path):
 
 
 @linux
-def test_a_display_that_does_not_answer_is_said(monkeypatch):
+def test_a_display_that_does_not_answer_is_reported(monkeypatch):
     monkeypatch.delenv("QT_QPA_PLATFORM", raising=False)
     monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
     monkeypatch.setenv("DISPLAY", ":4711")
-    assert display_fault() == "the display ':4711' does not answer"
+    assert find_display_fault() == "the display ':4711' does not answer"
 
 
 def test_a_missing_library_is_one_line_with_the_command(monkeypatch, capsys, tmp_path):
-    lacking = [Package("libxcb-cursor0", "libxcb-cursor.so.0")]
-    monkeypatch.setattr(module, "missing_libraries", lambda platform: lacking)
+    missing = [DebianPackage("libxcb-cursor0", "libxcb-cursor.so.0")]
+    monkeypatch.setattr(module, "find_missing_libraries", lambda platform: missing)
     assert main(["--offscreen", "--output", str(tmp_path / "left")]) == 1
     error = capsys.readouterr().err
     assert error.count("\n") == 1
@@ -79,7 +79,7 @@ def test_a_bad_option_is_one_clear_line(arguments, message, capsys):
 
 
 def test_a_folder_that_cannot_be_made_is_one_clear_line(qapp, tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("rotemina.app.shell.qt_messages.log_qt_messages", lambda: None)
+    monkeypatch.setattr("rotemina.app.shell.startup.qt_setup.log_qt_messages", lambda: None)
     (tmp_path / "taken").write_text("a file", "utf-8")
     assert main(["--offscreen", "--output", str(tmp_path / "taken")]) == 2
     assert "taken: the folder cannot be created" in capsys.readouterr().err

@@ -1,4 +1,4 @@
-"""The support bundle: names nobody, holds what helps, and is there whole or not at all."""
+"""The support bundle is anonymous, complete, and written whole or not at all."""
 
 import getpass
 import json
@@ -9,18 +9,20 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from rotemina.app.errors import WorkCancelledError
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.anonymiser import Anonymiser
-from rotemina.app.shell.message_log import Message
-from rotemina.app.shell.progress_line import CancelledError, Progress
-from rotemina.app.shell.support_bundle import gather, write_bundle
-from rotemina.app.shell.workbench import Level
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.whole_files import FileWriteError
+from rotemina.app.shell.support.anonymiser import TextAnonymiser
+from rotemina.app.shell.support.message_log import LogMessage
+from rotemina.app.shell.support.support_bundle import gather_files, write_bundle
+from rotemina.app.workbench import Level, WorkProgress
+from rotemina.sim.errors import (
+    FileWriteError,
+)
+from rotemina.sim.records import Record, Tap
 
 PANELS = ()
 
-ANONYMISER = Anonymiser(
+ANONYMISER = TextAnonymiser(
     ["/home/ada.byron", r"C:\Users\Ada Byron"], ["ada.byron", "Ada Byron", "Byron", "x"], ["lab-7"]
 )
 
@@ -40,16 +42,16 @@ ANONYMISER = Anonymiser(
         ("the byronic robot at home, /homes/a", "the byronic robot at home, /homes/a"),
     ],
 )
-def test_names_and_homes_are_taken_out_and_nothing_else(text, anonymised):
+def test_only_names_and_home_folders_are_removed(text, anonymised):
     assert ANONYMISER.anonymise(text) == anonymised
 
 
-def test_a_short_name_and_the_root_spoil_nothing():
-    assert Anonymiser(["/"], ["x", "y"]).anonymise("x: 1 /data/y") == "x: 1 /data/y"
+def test_a_short_name_and_the_root_folder_are_kept():
+    assert TextAnonymiser(["/"], ["x", "y"]).anonymise("x: 1 /data/y") == "x: 1 /data/y"
 
 
-def test_this_user_is_known():
-    anonymiser = Anonymiser.of_this_user()
+def test_the_current_user_is_anonymised():
+    anonymiser = TextAnonymiser.for_current_user()
     path = str(Path.home() / "records" / "r.csv")
     assert str(Path.home()) not in anonymiser.anonymise(f"{path} of {getpass.getuser()}")
     if len(getpass.getuser()) > 2:
@@ -58,18 +60,18 @@ def test_this_user_is_known():
 
 @pytest.fixture
 def items():
-    said = "/home/ada.byron/a.csv: no such file"
-    messages = [Message(datetime(2026, 3, 4), Level.ERROR, "window", said)]
+    message = "/home/ada.byron/a.csv: no such file"
+    messages = [LogMessage(datetime(2026, 3, 4), Level.ERROR, "window", message)]
     time_s = np.arange(5) / 10.0
     record = Record.from_signals(
         time_s, {("x", Tap.CMD): time_s}, {"x": "m"}, metadata={"operator": "Ada Byron"}
     )
     preferences = {"files.folder": "/home/ada.byron/data", "window.theme": "dark"}
     state = SessionState(fault="ada.byron pulled the plug")
-    return gather(messages, preferences, state, "simulator", "rotemina", record, ANONYMISER)
+    return gather_files(messages, preferences, state, "simulator", "rotemina", record, ANONYMISER)
 
 
-def test_a_bundle_holds_log_settings_versions_and_record_and_names_nobody(items, tmp_path):
+def test_a_bundle_holds_log_settings_versions_and_record_anonymously(items, tmp_path):
     path = tmp_path / "bundle.zip"
     write_bundle(path, items)
     with zipfile.ZipFile(path) as archive:
@@ -91,29 +93,29 @@ def test_a_bundle_holds_log_settings_versions_and_record_and_names_nobody(items,
     for text in files.values():
         assert "byron" not in text.casefold()
         assert "/home/" not in text
-    assert {item.name: item.text for item in items} == files  # what was shown before
+    assert {item.name: item.text for item in items} == files  # the contents shown before writing
 
 
 def test_a_bundle_is_written_whole_or_not_at_all(items, tmp_path):
     path = tmp_path / "bundle.zip"
-    progress = Progress("Written.")
+    progress = WorkProgress("Written.")
 
-    def reached(share):
+    def cancel_early(share):
         if share > 0.3:
             progress.cancel()
-        progress.reached(share)
+        progress.report(share)
 
-    with pytest.raises(CancelledError):
-        write_bundle(path, items, reached)
+    with pytest.raises(WorkCancelledError):
+        write_bundle(path, items, cancel_early)
     assert list(tmp_path.iterdir()) == []
     with pytest.raises(FileWriteError, match="folder"):
         write_bundle(tmp_path, items)
     path.write_bytes(b"before")
-    with pytest.raises(CancelledError):
-        write_bundle(path, items, reached)
+    with pytest.raises(WorkCancelledError):
+        write_bundle(path, items, cancel_early)
     assert path.read_bytes() == b"before"
 
 
-def test_without_a_record_there_is_none_in_it():
-    items = gather([], {}, SessionState(), "simulator", "rotemina", None, ANONYMISER)
+def test_a_bundle_without_a_record():
+    items = gather_files([], {}, SessionState(), "simulator", "rotemina", None, ANONYMISER)
     assert "record.csv" not in {item.name for item in items}

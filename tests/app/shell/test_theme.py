@@ -1,4 +1,4 @@
-"""Colours that can be read in every theme, and text of every size."""
+"""Readable colours in every theme, and scalable text."""
 
 import re
 from importlib import resources
@@ -6,33 +6,35 @@ from importlib import resources
 import numpy as np
 import pytest
 
-from rotemina.app.shell.plot import LINES
-from rotemina.app.shell.theme import (
+from rotemina.app.widgets.drawing import LINE_STYLES
+from rotemina.app.widgets.style import THEMES
+from rotemina.app.widgets.style.theme import (
     HIGH_CONTRAST,
-    THEMES,
-    scale_for,
-    style_sheet,
-    theme_named,
+    find_text_scale,
+    find_theme,
+    make_style_sheet,
 )
 
 GROUNDS = ("window", "surface", "raised")
-#: Roles that are read on every ground.
-READ = (
+#: Text roles used on every ground.
+TEXT_ROLES = (
     *("text", "quiet", "accent", "danger_text", "warning", "good"),
     *("command", "model", "real", "other"),
 )
-#: What is read, and on what: every text of the style sheet is one of these.
+#: (text, ground): every text of the style sheet is one of these pairs.
 PAIRS = (
-    *((role, ground) for role in READ for ground in GROUNDS),
+    *((role, ground) for role in TEXT_ROLES for ground in GROUNDS),
     ("on_accent", "accent"),
     ("on_danger", "danger"),
     ("window", "warning"),
     ("on_virtual", "virtual"),
 )
-LEAST = 4.5  # WCAG 2.1, level AA
-TOLD_APART = 20.0  # ΔE*ab of two lines that have the same dashes
-#: How dichromats see linear sRGB (Machado, Oliveira, Fernandes 2009, severity 1).
-EYES = {
+#: WCAG 2.1, level AA.
+MIN_CONTRAST = 4.5
+#: ΔE*ab of two lines with the same dashes.
+MIN_COLOUR_DISTANCE = 20.0
+#: Linear sRGB as dichromats see it (Machado, Oliveira, Fernandes 2009, severity 1).
+COLOUR_VISIONS = {
     "usual": np.eye(3),
     "protan": [
         [0.152286, 1.052583, -0.204868],
@@ -51,90 +53,103 @@ EYES = {
     ],
 }
 #: CIE XYZ of linear sRGB, white at 1.
-XYZ = np.array([[0.4339, 0.3762, 0.1899], [0.2127, 0.7152, 0.0722], [0.0178, 0.1095, 0.8727]])
+XYZ_FROM_SRGB = np.array(
+    [[0.4339, 0.3762, 0.1899], [0.2127, 0.7152, 0.0722], [0.0178, 0.1095, 0.8727]]
+)
 
 
-def contrast(one, other):
+def compute_contrast(first, second):
     """Return the contrast of two colours ``#rrggbb``, 1 to 21, as WCAG 2.1 defines it."""
-    low, high = sorted((_luminance(one), _luminance(other)))
+    low, high = sorted((_compute_luminance(first), _compute_luminance(second)))
     return (high + 0.05) / (low + 0.05)
 
 
-def _luminance(colour):
-    shares = [int(colour[at : at + 2], 16) / 255.0 for at in (1, 3, 5)]
+def _compute_luminance(colour):
+    components = [int(colour[at : at + 2], 16) / 255.0 for at in (1, 3, 5)]
     linear = [
-        share / 12.92 if share <= 0.04045 else ((share + 0.055) / 1.055) ** 2.4 for share in shares
+        component / 12.92 if component <= 0.04045 else ((component + 0.055) / 1.055) ** 2.4
+        for component in components
     ]
     return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
 
 
-def lab(colour, eye):
-    """Return a colour ``#rrggbb`` in CIE L*a*b* as an eye sees it."""
-    shares = np.array([int(colour[at : at + 2], 16) / 255.0 for at in (1, 3, 5)])
-    linear = np.where(shares <= 0.04045, shares / 12.92, ((shares + 0.055) / 1.055) ** 2.4)
-    seen = XYZ @ np.clip(np.asarray(eye) @ linear, 0.0, 1.0)
-    root = np.where(seen > 0.008856, np.cbrt(seen), 7.787 * seen + 16.0 / 116.0)
+def convert_to_lab(colour, matrix):
+    """Return a colour ``#rrggbb`` in CIE L*a*b* as seen with a kind of colour vision."""
+    components = np.array([int(colour[at : at + 2], 16) / 255.0 for at in (1, 3, 5)])
+    linear = np.where(
+        components <= 0.04045, components / 12.92, ((components + 0.055) / 1.055) ** 2.4
+    )
+    xyz = XYZ_FROM_SRGB @ np.clip(np.asarray(matrix) @ linear, 0.0, 1.0)
+    root = np.where(xyz > 0.008856, np.cbrt(xyz), 7.787 * xyz + 16.0 / 116.0)
     return np.array([116 * root[1] - 16, 500 * (root[0] - root[1]), 200 * (root[1] - root[2])])
 
 
-@pytest.mark.parametrize("eye", EYES.values(), ids=EYES)
+@pytest.mark.parametrize("vision", COLOUR_VISIONS.values(), ids=COLOUR_VISIONS)
 @pytest.mark.parametrize("theme", THEMES.values(), ids=THEMES)
-def test_lines_of_the_same_dashes_are_told_apart_by_every_eye(theme, eye):
-    lines = list({(line.role, line.style): line for line in LINES.values()}.values())
-    for number, one in enumerate(lines):
+def test_lines_with_the_same_dashes_differ_for_every_colour_vision(theme, vision):
+    lines = list({(line.role, line.style): line for line in LINE_STYLES.values()}.values())
+    for number, line in enumerate(lines):
         for other in lines[number + 1 :]:
-            if one.style == other.style:
-                roles = (one.role, other.role)
-                first, second = (lab(getattr(theme, role), eye) for role in roles)
-                assert np.linalg.norm(first - second) > TOLD_APART, roles
+            if line.style == other.style:
+                roles = (line.role, other.role)
+                first_lab, second_lab = (
+                    convert_to_lab(getattr(theme, role), vision) for role in roles
+                )
+                assert np.linalg.norm(first_lab - second_lab) > MIN_COLOUR_DISTANCE, roles
 
 
-def test_contrast_is_that_of_the_standard():
-    assert contrast("#000000", "#ffffff") == pytest.approx(21.0)
-    assert contrast("#777777", "#ffffff") == pytest.approx(4.48, abs=0.01)
-    assert contrast("#123456", "#123456") == 1.0
+def test_contrast_follows_the_standard():
+    assert compute_contrast("#000000", "#ffffff") == pytest.approx(21.0)
+    assert compute_contrast("#777777", "#ffffff") == pytest.approx(4.48, abs=0.01)
+    assert compute_contrast("#123456", "#123456") == 1.0
 
 
 @pytest.mark.parametrize("theme", THEMES.values(), ids=THEMES)
 @pytest.mark.parametrize("pair", PAIRS, ids="-on-".join)
 def test_every_role_can_be_read_on_its_ground(theme, pair):
-    assert contrast(*(getattr(theme, role) for role in pair)) >= LEAST
+    assert compute_contrast(*(getattr(theme, role) for role in pair)) >= MIN_CONTRAST
 
 
 def test_high_contrast_has_visible_lines_and_strong_text():
     for ground in GROUNDS:
-        assert contrast(HIGH_CONTRAST.line, getattr(HIGH_CONTRAST, ground)) >= LEAST
-        assert contrast(HIGH_CONTRAST.text, getattr(HIGH_CONTRAST, ground)) >= 15.0
+        assert compute_contrast(HIGH_CONTRAST.line, getattr(HIGH_CONTRAST, ground)) >= MIN_CONTRAST
+        assert compute_contrast(HIGH_CONTRAST.text, getattr(HIGH_CONTRAST, ground)) >= 15.0
 
 
-def test_the_style_sheet_sets_no_text_on_a_ground_that_is_no_pair():
+def test_the_style_sheet_uses_only_checked_pairs():
     sheet = resources.files("rotemina.resources.theme").joinpath("window.qss").read_text("utf-8")
     pairs = set(PAIRS)
-    found = set()
+    used_pairs = set()
     for rule in re.findall(r"\{([^}]*)\}", sheet):
         colour = re.search(r"(?<![-\w])color: \$(\w+)", rule)
         ground = re.search(r"(?<![-\w])background: \$(\w+)", rule)
         if colour and ground:
-            found.add((colour[1], ground[1]))
+            used_pairs.add((colour[1], ground[1]))
         elif colour:
             assert colour[1] in {role for role, _ in pairs}, rule
-    assert len(found) > 5
-    assert found <= pairs
+    assert len(used_pairs) > 5
+    assert used_pairs <= pairs
 
 
-def test_a_style_sheet_has_no_role_left_and_scales_lengths_but_lines():
+def test_all_roles_are_filled_in_and_lengths_except_lines_are_scaled():
     for theme in THEMES.values():
-        assert "$" not in style_sheet(theme)
-    sheet = style_sheet(HIGH_CONTRAST, 2.0)
+        assert "$" not in make_style_sheet(theme)
+    sheet = make_style_sheet(HIGH_CONTRAST, 2.0)
     assert "font-size: 26px" in sheet
     assert "font-size: 13px" not in sheet
     assert "border: 1px solid" in sheet
 
 
 def test_text_grows_with_the_screen_by_size_classes():
-    assert [scale_for(lines) for lines in (768, 800, 1080, 1440, 2160)] == [1, 1, 1, 1.15, 1.5]
+    assert [find_text_scale(lines) for lines in (768, 800, 1080, 1440, 2160)] == [
+        1,
+        1,
+        1,
+        1.15,
+        1.5,
+    ]
 
 
 def test_an_unknown_theme_is_the_dark_one():
-    assert theme_named("pink").name == "dark"
-    assert theme_named("contrast") is HIGH_CONTRAST
+    assert find_theme("pink").name == "dark"
+    assert find_theme("contrast") is HIGH_CONTRAST

@@ -1,13 +1,18 @@
-"""Layouts, themes and sizes of text of the window."""
+"""Layouts, themes and text scales of the window."""
 
 import pytest
 from PySide6.QtCore import QByteArray, QPoint
 from PySide6.QtWidgets import QApplication, QLabel, QTabBar
 
-from rotemina.app.panel import Area
-from rotemina.app.shell.central_column import LEAST_HEIGHT
-from rotemina.app.shell.folded_panels import FOLDED
-from rotemina.app.shell.layouts import BUILT_IN, DIAGNOSE, MOST_KEPT, OPERATE, KeptLayouts
+from rotemina.app.panel import PanelArea
+from rotemina.app.shell.window import (
+    BUILT_IN,
+    DIAGNOSE,
+    OPERATE,
+)
+from rotemina.app.shell.window.central_column import MIN_PANELS_HEIGHT_PX
+from rotemina.app.shell.window.folded_panels import FOLDED_PANELS
+from rotemina.app.shell.window.layouts import MAX_SAVED_LAYOUTS, SavedLayouts
 
 LONG_MS = 30_000
 
@@ -17,153 +22,161 @@ def settle():
         QApplication.processEvents()
 
 
-def forgotten_tabs(window):
-    """Tab bars that are seen and have no dock beside them."""
+def find_orphan_tab_bars(window):
+    """Return the visible tab bars without a dock next to them."""
     docks = [dock for dock in window.docks.values() if not dock.visibleRegion().isEmpty()]
-    left = []
+    orphans = []
     for bar in window.findChildren(QTabBar):
         tabs = bar.geometry()
         if bar.parent() is window and bar.isVisible() and window.rect().intersects(tabs):
-            near = [
+            adjacent = [
                 dock
                 for dock in docks
                 if abs(dock.geometry().left() - tabs.left()) < 10
                 and abs(dock.geometry().top() - tabs.bottom()) < 10
             ]
-            if not near:
-                left.append([bar.tabText(number) for number in range(bar.count())])
-    return left
+            if not adjacent:
+                orphans.append([bar.tabText(number) for number in range(bar.count())])
+    return orphans
 
 
-def shown(window):
+def get_shown_docks(window):
     return {name for name, dock in window.docks.items() if not dock.isHidden()}
 
 
-def named(layout):
+def get_docks_of_layout(layout):
     return {
-        name for area, names in layout.places.items() if area is not Area.CENTRE for name in names
+        name
+        for area, names in layout.places.items()
+        if area is not PanelArea.CENTRE
+        for name in names
     }
 
 
-def test_layouts_and_sizes_of_text(window, settings):
-    layouts_can_be_taken_kept_and_brought_back(window)
-    text_grows_by_steps_to_its_end_and_is_remembered(window, settings)
+def test_layouts_and_text_scale(window, settings):
+    check_layouts(window)
+    check_text_scale(window, settings)
 
 
-def layouts_can_be_taken_kept_and_brought_back(window):
-    looks = window.arrangement
+def check_layouts(window):
+    arrangement = window.arrangement
     for layout in BUILT_IN:
-        window.layout_row.buttons[layout.word].click()
+        window.layout_row.buttons[layout.plain_title].click()
         settle()
-        assert shown(window) == named(layout) - set(FOLDED)  # which fold away at 1280 px
+        # Folded panels are hidden at 1280 px.
+        assert get_shown_docks(window) == get_docks_of_layout(layout) - set(FOLDED_PANELS)
         assert window.folded.isVisible() == (layout is OPERATE)
-        assert forgotten_tabs(window) == []
-        marked = [word for word, one in window.layout_row.buttons.items() if one.isChecked()]
-        assert marked == [layout.word]
+        assert find_orphan_tab_bars(window) == []
+        checked = [
+            title for title, button in window.layout_row.buttons.items() if button.isChecked()
+        ]
+        assert checked == [layout.plain_title]
         for area, names in layout.places.items():
-            if area is not Area.CENTRE and names[0] not in FOLDED:
+            if area is not PanelArea.CENTRE and names[0] not in FOLDED_PANELS:
                 assert not window.docks[names[0]].visibleRegion().isEmpty()
-    looks.arrange(DIAGNOSE)
+    arrangement.arrange(DIAGNOSE)
     settle()
     assert window.docks["gap"].height() > 0.6 * window.height()
-    assert window.centralWidget().height() == LEAST_HEIGHT
+    assert window.centralWidget().height() == MIN_PANELS_HEIGHT_PX
     tops = {plot.mapTo(window, QPoint()).y() for plot in window.panels["plots"].plots.values()}
-    assert len(tops) == 1  # a strip of plots, side by side
+    assert len(tops) == 1  # the plots are side by side
     window.docks["faults"].setFloating(True)
-    looks.keep("mine")
+    arrangement.save_layout("mine")
     assert "mine" in window.notices.notices()[0].text
     for dock in window.docks.values():
         dock.close()
     window.reset_layout()
     settle()
-    assert shown(window) == set(window.docks)
+    assert get_shown_docks(window) == set(window.docks)
     assert not any(dock.isFloating() for dock in window.docks.values())
-    assert forgotten_tabs(window) == []
+    assert find_orphan_tab_bars(window) == []
     window.layout_menu.aboutToShow.emit()
-    action = next(each for each in window.layout_menu.actions() if each.text() == "mine")
+    action = next(
+        candidate for candidate in window.layout_menu.actions() if candidate.text() == "mine"
+    )
     action.trigger()
     settle()
-    assert shown(window) == named(DIAGNOSE)
+    assert get_shown_docks(window) == get_docks_of_layout(DIAGNOSE)
     assert window.docks["faults"].isFloating()
-    assert forgotten_tabs(window) == []
-    looks.arrange(OPERATE)
-    the_rail_opens_one_panel_and_a_wide_window_has_both(window)
-    window.docks["plate"].toggleViewAction().trigger()  # one that the layout had closed
+    assert find_orphan_tab_bars(window) == []
+    arrangement.arrange(OPERATE)
+    check_folded_panels(window)
+    window.docks["plate"].toggleViewAction().trigger()  # a panel that the layout had closed
     settle()
-    assert "plate" in shown(window)
+    assert "plate" in get_shown_docks(window)
     window.bring_up("effects")
     settle()
     assert not window.docks["effects"].visibleRegion().isEmpty()
     assert not window.docks["effects"].isFloating()
 
 
-def the_rail_opens_one_panel_and_a_wide_window_has_both(window):
-    for name in FOLDED:
+def check_folded_panels(window):
+    for name in FOLDED_PANELS:
         window.folded.buttons[name].click()
-        assert shown(window) & set(FOLDED) == {name}
+        assert get_shown_docks(window) & set(FOLDED_PANELS) == {name}
         assert window.layout_row.buttons["Operate"].isChecked()
     window.resize(1920, 1080)
     settle()
-    assert set(FOLDED) <= shown(window)
+    assert set(FOLDED_PANELS) <= get_shown_docks(window)
     assert not window.folded.isVisible()
-    job, events = (window.docks[name].geometry() for name in FOLDED)
+    job, events = (window.docks[name].geometry() for name in FOLDED_PANELS)
     assert job.left() == events.left()
     assert job.bottom() < events.top()
-    window.docks["trajectory"].close()  # by hand: it is that layout no more
+    window.docks["trajectory"].close()  # by hand: this is no longer the layout
     settle()
     assert not window.layout_row.buttons["Operate"].isChecked()
     window.docks["trajectory"].show()
     window.resize(1280, 800)
     settle()
-    assert not shown(window) & set(FOLDED)
+    assert not get_shown_docks(window) & set(FOLDED_PANELS)
     assert window.layout_row.buttons["Operate"].isChecked()
 
 
-def test_layouts_of_the_users_own_are_kept_within_bounds(settings):
-    kept = KeptLayouts(settings)
-    assert kept.names() == ()
-    kept.keep("b & c", QByteArray(b"\x00state"))
-    kept.keep("A", QByteArray(b"other"))
-    assert KeptLayouts(settings).names() == ("A", "b & c")
-    assert KeptLayouts(settings).state("b & c") == QByteArray(b"\x00state")
-    kept.forget("A")
-    assert kept.names() == ("b & c",)
-    assert kept.objection("") == "enter a name"
-    assert "of the program" in kept.objection("operate")
-    assert "41" in kept.objection(41 * "x")
-    for number in range(MOST_KEPT - 1):
-        kept.keep(f"n{number}", QByteArray(b"x"))
-    assert "delete one first" in kept.objection("one more")
-    assert kept.objection("n1") is None
+def test_saved_layouts_are_limited_in_number(settings):
+    layouts = SavedLayouts(settings)
+    assert layouts.list_names() == ()
+    layouts.save("b & c", QByteArray(b"\x00state"))
+    layouts.save("A", QByteArray(b"other"))
+    assert SavedLayouts(settings).list_names() == ("A", "b & c")
+    assert SavedLayouts(settings).read_state("b & c") == QByteArray(b"\x00state")
+    layouts.delete("A")
+    assert layouts.list_names() == ("b & c",)
+    assert layouts.find_objection("") == "enter a name"
+    assert "of the program" in layouts.find_objection("operate")
+    assert "41" in layouts.find_objection(41 * "x")
+    for number in range(MAX_SAVED_LAYOUTS - 1):
+        layouts.save(f"n{number}", QByteArray(b"x"))
+    assert "delete one first" in layouts.find_objection("one more")
+    assert layouts.find_objection("n1") is None
 
 
-@pytest.mark.parametrize("spoilt", ["", "[1]", "{", '{"a": 3}', '{"a": "no base 64"}'])
-def test_spoilt_layouts_are_no_failure(settings, spoilt):
-    settings.set("window.layouts", spoilt)
-    kept = KeptLayouts(settings)
-    for name in kept.names():
-        assert kept.state(name).isEmpty()
-    kept.keep("good", QByteArray(b"x"))
-    assert kept.state("good") == QByteArray(b"x")
+@pytest.mark.parametrize("content", ["", "[1]", "{", '{"a": 3}', '{"a": "no base 64"}'])
+def test_invalid_saved_layouts_are_ignored(settings, content):
+    settings.set("window.layouts", content)
+    layouts = SavedLayouts(settings)
+    for name in layouts.list_names():
+        assert layouts.read_state(name).isEmpty()
+    layouts.save("good", QByteArray(b"x"))
+    assert layouts.read_state("good") == QByteArray(b"x")
 
 
-def text_grows_by_steps_to_its_end_and_is_remembered(window, settings):
-    looks = window.arrangement
-    before, plain = window.stop_button.sizeHint().height(), QLabel(parent=window)
-    plain.ensurePolished()
-    assert plain.font().pixelSize() == 13
-    assert looks.text_scale == 1.0
+def check_text_scale(window, settings):
+    arrangement = window.arrangement
+    before, label = window.stop_button.sizeHint().height(), QLabel(parent=window)
+    label.ensurePolished()
+    assert label.font().pixelSize() == 13
+    assert arrangement.text_scale == 1.0
     settings.set("window.scale", 1.75)
-    looks.step_scale(1)
-    looks.step_scale(1)
-    assert looks.text_scale == 2.0
+    arrangement.step_scale(1)
+    arrangement.step_scale(1)
+    assert arrangement.text_scale == 2.0
     assert window.stop_button.sizeHint().height() > 1.5 * before
-    assert plain.font().pixelSize() == 26
-    looks.use_theme("contrast")
+    assert label.font().pixelSize() == 26
+    arrangement.use_theme("contrast")
     assert window.workbench.theme.name == "contrast"
     assert window.stop_button.sizeHint().height() > 1.5 * before  # a theme keeps the size
     assert settings.get("window.scale", 0.0) == 2.0
-    looks.suit_the_screen()
-    assert looks.text_scale == 1.0
-    settings.set("window.scale", 77.7)  # no size that is offered
-    assert looks.text_scale == 1.0
+    arrangement.use_automatic_scale()
+    assert arrangement.text_scale == 1.0
+    settings.set("window.scale", 77.7)  # not an offered size
+    assert arrangement.text_scale == 1.0

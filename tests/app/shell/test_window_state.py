@@ -1,4 +1,4 @@
-"""What the window says of every state of the machine: rows to read, and rules for all of them."""
+"""How the window describes the state of the machine: examples, and rules for all states."""
 
 from dataclasses import replace
 from datetime import datetime
@@ -6,57 +6,76 @@ from itertools import product
 
 import pytest
 
-from rotemina.app.motion.penetration.status import PenetrationStatus
-from rotemina.app.motion.penetration.status import Phase as PenetrationPhase
-from rotemina.app.motion.playback import PAUSE_REASON, PlaybackPhase, PlaybackState
-from rotemina.app.motion.resuming import ResumeStep
-from rotemina.app.motion.state import Connection, SessionState, lock_reason
-from rotemina.app.motion.stop import LOCKED, StopRequest
-from rotemina.app.shell.state_tone import Tone
-from rotemina.app.shell.state_words import describe_motion
-from rotemina.app.shell.window_state import Remedy, WindowSnapshot, describe_state
-from rotemina.drivers.samples import DeviceState
-from rotemina.sim.robot.file import load_robot
+from rotemina.app.motion.penetration import PenetrationPhase, PenetrationStatus
+from rotemina.app.motion.playback import (
+    PAUSE_REASON,
+    PlaybackPhase,
+    PlaybackState,
+    ResumeStep,
+)
+from rotemina.app.motion.state import (
+    STOP_AND_LOCK_REASON,
+    ConnectionState,
+    SessionState,
+    StopRequest,
+    find_lock_reason,
+)
+from rotemina.app.workbench import (
+    StateRemedy,
+    StateTone,
+    WindowSnapshot,
+    describe_motion,
+    describe_state,
+)
+from rotemina.drivers.contract import DeviceState
+from rotemina.sim.robot_files import load_robot
 
 ROBOT = load_robot("rotemina")
-AT = datetime(2026, 3, 1, 12, 3, 4)
-PRESSED = StopRequest("operator", "", AT)
-BY_PAUSE = StopRequest("operator", PAUSE_REASON, AT)
+STOP_TIME = datetime(2026, 3, 1, 12, 3, 4)
+OPERATOR_STOP = StopRequest("operator", "", STOP_TIME)
+PAUSE_STOP = StopRequest("operator", PAUSE_REASON, STOP_TIME)
 COMMAND = dict.fromkeys(ROBOT.axes, 0.0)
 READY = SessionState(
-    Connection.CONNECTED, DeviceState.IDLE, COMMAND, COMMAND, position_known=True, age_s=0.02
+    ConnectionState.CONNECTED, DeviceState.IDLE, COMMAND, COMMAND, position_known=True, age_s=0.02
 )
-ALL = dict.fromkeys(ROBOT.axes, "playback")
+ALL_AXES_PLAYED = dict.fromkeys(ROBOT.axes, "playback")
 MOVING = (DeviceState.MOVING, DeviceState.PLAYING, DeviceState.HOMING)
 PLAYED = PlaybackState(rows=10000, duration_s=100.0)
 PAUSED = replace(PLAYED, phase=PlaybackPhase.PAUSED, row=5436, path_s=54.36)
-EXCESS = "axis thy deviates from the model by 126 µrad for more than 20 ms; the bound is 125 µrad"
+DEVIATION_TEXT = (
+    "axis thy deviates from the model by 126 µrad for more than 20 ms; the bound is 125 µrad"
+)
 
 
-def state(**changes):
-    """A state as a session gives it, with the reason why it is locked."""
-    made = replace(READY, **changes)
-    locked = changes.get("locked") or lock_reason(made)
-    return replace(made, locked=f"{made.latched} is active" if made.latched else locked)
+def make_state(**changes):
+    """Return a session state with the reason why it is lock_reason."""
+    new_state = replace(READY, **changes)
+    lock_reason = changes.get("lock_reason") or find_lock_reason(new_state)
+    return replace(
+        new_state,
+        lock_reason=f"{new_state.latch_reason} is active"
+        if new_state.latch_reason
+        else lock_reason,
+    )
 
 
-def shown(session=READY, **more):
-    return describe_state(WindowSnapshot(ROBOT, session, **more))
+def describe(session=READY, **other_fields):
+    return describe_state(WindowSnapshot(ROBOT, session, **other_fields))
 
 
 ROWS = [
     # session, the rest of the snapshot, headword, line 2, tone, remedy
-    (state(), {}, "Ready", "At rest; every axis can be moved.", "good", None),
+    (make_state(), {}, "Ready", "At rest; every axis can be moved.", "good", None),
     (
-        state(connection=Connection.DISCONNECTED, activity=DeviceState.CLOSED),
+        make_state(connection=ConnectionState.DISCONNECTED, activity=DeviceState.CLOSED),
         {},
         "Disconnected",
         "No machine is connected; nothing can be moved from here.",
         "quiet",
-        Remedy.CONNECT,
+        StateRemedy.CONNECT,
     ),
     (
-        state(connection=Connection.CONNECTING, activity=DeviceState.CLOSED),
+        make_state(connection=ConnectionState.CONNECTING, activity=DeviceState.CLOSED),
         {},
         "Connecting",
         "Waiting for the first answer of the device.",
@@ -64,23 +83,23 @@ ROWS = [
         None,
     ),
     (
-        state(connection=Connection.FAILED, fault="port COM7: there is no such port"),
+        make_state(connection=ConnectionState.FAILED, fault="port COM7: there is no such port"),
         {},
         "Failed",
         "Port COM7: there is no such port",
         "danger",
-        Remedy.RECONNECT,
+        StateRemedy.RECONNECT,
     ),
     (
-        state(connection=Connection.FAILED, fault="unplugged", link_lost=True, age_s=3.0),
+        make_state(connection=ConnectionState.FAILED, fault="unplugged", link_lost=True, age_s=3.0),
         {},
         "Link lost",
         "No answer for 3.0 s; the machine may have moved. Unplugged",
         "danger",
-        Remedy.RECONNECT,
+        StateRemedy.RECONNECT,
     ),
     (
-        state(silent_s=0.3, activity=DeviceState.MOVING, owners={"x": "operator"}),
+        make_state(silent_s=0.3, activity=DeviceState.MOVING, owners={"x": "operator"}),
         {},
         "Link lost",
         "No answer for 0.3 s; commands are refused until it answers.",
@@ -88,47 +107,53 @@ ROWS = [
         None,
     ),
     (
-        state(activity=DeviceState.FAULT, fault="x: limit switch"),
+        make_state(activity=DeviceState.FAULT, fault="x: limit switch"),
         {"playback": PAUSED},
         "Fault",
         "X: limit switch. Check the machine, then clear the fault.",
         "danger",
-        Remedy.CLEAR_FAULT,
+        StateRemedy.CLEAR_FAULT,
     ),
     (
-        state(activity=DeviceState.FAULT, fault="overheated", latched=LOCKED),
+        make_state(
+            activity=DeviceState.FAULT, fault="overheated", latch_reason=STOP_AND_LOCK_REASON
+        ),
         {},
         "Fault",
         "Overheated. The machine is locked as well: release it first.",
         "danger",
-        Remedy.RELEASE,
+        StateRemedy.RELEASE,
     ),
     (
-        state(latched=LOCKED, stop=StopRequest("operator", LOCKED, AT), halted=True),
+        make_state(
+            latch_reason=STOP_AND_LOCK_REASON,
+            stop=StopRequest("operator", STOP_AND_LOCK_REASON, STOP_TIME),
+            halted=True,
+        ),
         {"playback": PAUSED},
         "Locked",
         "Locked by the operator at 12:03:04. Release it to move.",
         "danger",
-        Remedy.RELEASE,
+        StateRemedy.RELEASE,
     ),
     (
-        state(latched="the stick's stop"),
+        make_state(latch_reason="the stick's stop"),
         {},
         "Locked",
         "The stick's stop is active. Release it to move.",
         "danger",
-        Remedy.RELEASE,
+        StateRemedy.RELEASE,
     ),
     (
-        state(position_known=False, unhomed=("x", "y")),
+        make_state(position_known=False, unhomed=("x", "y")),
         {},
         "Locked",
         "The position of X, Y is not known; home first.",
         "warning",
-        Remedy.HOME,
+        StateRemedy.HOME,
     ),
     (
-        state(
+        make_state(
             position_known=False,
             unhomed=("x", "y"),
             activity=DeviceState.HOMING,
@@ -141,15 +166,15 @@ ROWS = [
         None,
     ),
     (
-        state(doubt="the connection was lost"),
+        make_state(doubt="the connection was lost"),
         {},
         "Locked",
         "The connection was lost: the position may be wrong; home, or confirm it.",
         "warning",
-        Remedy.CONFIRM,
+        StateRemedy.CONFIRM,
     ),
     (
-        state(activity=DeviceState.MOVING, owners={"x": "operator", "zn": "joystick"}),
+        make_state(activity=DeviceState.MOVING, owners={"x": "operator", "zn": "joystick"}),
         {},
         "Moving",
         "Operator moves X; Joystick moves Z nano",
@@ -157,7 +182,7 @@ ROWS = [
         None,
     ),
     (
-        state(activity=DeviceState.MOVING),
+        make_state(activity=DeviceState.MOVING),
         {},
         "Moving",
         "The machine moves without a command from this window; STOP halts it.",
@@ -165,7 +190,7 @@ ROWS = [
         None,
     ),
     (
-        state(activity=DeviceState.MOVING, locked="a replay is shown"),
+        make_state(activity=DeviceState.MOVING, lock_reason="a replay is shown"),
         {},
         "Moving",
         "The machine moves without a command from this window; STOP halts it. No new command is "
@@ -174,7 +199,7 @@ ROWS = [
         None,
     ),
     (
-        state(activity=DeviceState.PLAYING, progress=0.3, owners=ALL),
+        make_state(activity=DeviceState.PLAYING, progress=0.3, owners=ALL_AXES_PLAYED),
         {"playback": replace(PLAYED, phase=PlaybackPhase.PLAYING, row=6199, path_s=62.0)},
         "Playing 62 %",
         "Playback moves all axes; 0:38 left",
@@ -182,7 +207,7 @@ ROWS = [
         None,
     ),
     (
-        state(stopping=True, activity=DeviceState.MOVING, stop=PRESSED, halted=True),
+        make_state(stopping=True, activity=DeviceState.MOVING, stop=OPERATOR_STOP, halted=True),
         {},
         "Stopping",
         "The axes are coming to rest.",
@@ -190,48 +215,55 @@ ROWS = [
         None,
     ),
     (
-        state(stop=PRESSED, halted=True),
+        make_state(stop=OPERATOR_STOP, halted=True),
         {},
         "Stopped",
         "Stopped by the operator at 12:03:04. The next command moves it again.",
         "warning",
         None,
     ),
-    (state(stop=PRESSED), {}, "Ready", "At rest; every axis can be moved.", "good", None),
     (
-        state(stop=BY_PAUSE, halted=True),
+        make_state(stop=OPERATOR_STOP),
+        {},
+        "Ready",
+        "At rest; every axis can be moved.",
+        "good",
+        None,
+    ),
+    (
+        make_state(stop=PAUSE_STOP, halted=True),
         {"playback": PAUSED},
         "Paused at row 5437",
-        "At rest; Resume goes on from here, End gives it up.",
+        "At rest; Resume continues from here, End ends the playback.",
         "warning",
         None,
     ),
     (
-        state(stop=PRESSED, halted=True),
+        make_state(stop=OPERATOR_STOP, halted=True),
         {"playback": PAUSED},
         "Paused at row 5437",
-        "Stopped by the operator at 12:03:04. Resume goes on from here.",
+        "Stopped by the operator at 12:03:04. Resume continues from here.",
         "warning",
         None,
     ),
     (
-        state(stop=StopRequest("program", EXCESS, AT), halted=True),
-        {"playback": replace(PAUSED, excess=EXCESS)},
+        make_state(stop=StopRequest("program", DEVIATION_TEXT, STOP_TIME), halted=True),
+        {"playback": replace(PAUSED, excess=DEVIATION_TEXT)},
         "Paused at row 5437",
-        f"A{EXCESS[1:]}. Check the machine, then resume or end.",
+        f"A{DEVIATION_TEXT[1:]}. Check the machine, then resume or end.",
         "warning",
         None,
     ),
     (
-        state(stop=BY_PAUSE),
+        make_state(stop=PAUSE_STOP),
         {"playback": replace(PAUSED, moved={"x": 2.7e-3, "thx": -1e-4})},
         "Paused at row 5437",
-        "X moved 2.7 mm, θx moved 100 µrad since the pause; Resume asks how to go on.",
+        "X moved 2.7 mm, θx moved 100 µrad since the pause; Resume asks how to continue.",
         "warning",
         None,
     ),
     (
-        state(activity=DeviceState.MOVING, owners=ALL),
+        make_state(activity=DeviceState.MOVING, owners=ALL_AXES_PLAYED),
         {"playback": PAUSED, "resuming": ResumeStep.RETURNING},
         "Moving",
         "Moving back slowly to row 5437; then the playback resumes.",
@@ -239,15 +271,15 @@ ROWS = [
         None,
     ),
     (
-        state(),
+        make_state(),
         {"penetration": PenetrationStatus(PenetrationPhase.HOLD)},
         "Penetration",
-        "Hold; it moves on by itself.",
+        "Hold; it continues automatically.",
         "busy",
         None,
     ),
     (
-        state(),
+        make_state(),
         {"penetration": PenetrationStatus(PenetrationPhase.ARMED)},
         "Penetration",
         "Armed; its button starts the run.",
@@ -255,7 +287,7 @@ ROWS = [
         None,
     ),
     (
-        state(),
+        make_state(),
         {"procedure": "autofocus"},
         "Moving",
         "Autofocus is under way and moves axes by itself.",
@@ -265,40 +297,40 @@ ROWS = [
 ]
 
 
-@pytest.mark.parametrize(("session", "more", "headword", "reason", "tone", "remedy"), ROWS)
-def test_a_state_reads(session, more, headword, reason, tone, remedy):
-    display = shown(session, **more)
+@pytest.mark.parametrize(("session", "other_fields", "headword", "reason", "tone", "remedy"), ROWS)
+def test_a_state_is_described(session, other_fields, headword, reason, tone, remedy):
+    display = describe(session, **other_fields)
     assert (display.headword, display.reason) == (headword, reason)
     assert (display.tone, display.remedy) == (tone, remedy)
 
 
 TONES = {
-    "Ready": {Tone.GOOD},
-    "Moving": {Tone.BUSY, Tone.WARNING},
-    "Playing": {Tone.BUSY, Tone.WARNING},
-    "Homing": {Tone.BUSY},
-    "Connecting": {Tone.BUSY},
-    "Penetration": {Tone.BUSY, Tone.WARNING},
-    "Paused": {Tone.WARNING},
-    "Stopping": {Tone.WARNING},
-    "Stopped": {Tone.WARNING},
-    "Locked": {Tone.WARNING, Tone.DANGER},
-    "Link": {Tone.WARNING, Tone.DANGER},
-    "Fault": {Tone.DANGER},
-    "Failed": {Tone.DANGER},
-    "Disconnected": {Tone.QUIET},
+    "Ready": {StateTone.GOOD},
+    "Moving": {StateTone.BUSY, StateTone.WARNING},
+    "Playing": {StateTone.BUSY, StateTone.WARNING},
+    "Homing": {StateTone.BUSY},
+    "Connecting": {StateTone.BUSY},
+    "Penetration": {StateTone.BUSY, StateTone.WARNING},
+    "Paused": {StateTone.WARNING},
+    "Stopping": {StateTone.WARNING},
+    "Stopped": {StateTone.WARNING},
+    "Locked": {StateTone.WARNING, StateTone.DANGER},
+    "Link": {StateTone.WARNING, StateTone.DANGER},
+    "Fault": {StateTone.DANGER},
+    "Failed": {StateTone.DANGER},
+    "Disconnected": {StateTone.QUIET},
 }
 OBSTACLES = (
     {},
     {"differences": ("kp: 3 in place of 4",)},
     {"position_known": False, "unhomed": ("x", "y")},
     {"doubt": "the connection was lost"},
-    {"locked": "a replay is shown"},
+    {"lock_reason": "a replay is shown"},
 )
-OWNERS = ({}, {"x": "operator", "thx": "operator"}, ALL)
-WORK = (
+OWNERS = ({}, {"x": "operator", "thx": "operator"}, ALL_AXES_PLAYED)
+ACTIVITIES = (
     {},
-    {"playback": replace(PAUSED, excess=EXCESS)},
+    {"playback": replace(PAUSED, excess=DEVIATION_TEXT)},
     {"playback": replace(PAUSED, moved={"x": 2.7e-3})},
     {"playback": PAUSED, "resuming": ResumeStep.RESTING},
     {"playback": PAUSED, "resuming": ResumeStep.RETURNING},
@@ -309,15 +341,18 @@ WORK = (
 )
 
 
-def every_session():
-    """Every combination of what a session's state says, also such as never come together."""
+def make_all_sessions():
+    """Yield all combinations of state fields, including those that never occur together."""
     for connection, activity, silent_s, fault, stopping in product(
-        Connection, DeviceState, (0.0, 0.3), (None, "overheated"), (False, True)
+        ConnectionState, DeviceState, (0.0, 0.3), (None, "overheated"), (False, True)
     ):
         for stop, latched, owners, obstacle in product(
-            ((None, False), (PRESSED, True), (PRESSED, False)), (None, LOCKED), OWNERS, OBSTACLES
+            ((None, False), (OPERATOR_STOP, True), (OPERATOR_STOP, False)),
+            (None, STOP_AND_LOCK_REASON),
+            OWNERS,
+            OBSTACLES,
         ):
-            yield state(
+            yield make_state(
                 connection=connection,
                 activity=activity,
                 silent_s=silent_s,
@@ -325,114 +360,116 @@ def every_session():
                 stopping=stopping,
                 stop=stop[0],
                 halted=stop[1],
-                latched=latched,
+                latch_reason=latched,
                 owners=owners,
                 **obstacle,
             )
 
 
-def check_display(session, more):
-    """Hold a display against the state that it is of."""
-    display = shown(session, **more)
+def check_display(session, other_fields):
+    """Check a display against its state."""
+    display = describe(session, **other_fields)
     word = display.headword.split()[0]
     assert display.tone in TONES[word]
     assert display.reason.strip()
-    # What moves is said once; the reason of a lock names the axes that it is about.
+    # Each moving axis is named once; the reason of a lock may name it again.
     movers, _, _ = display.reason.partition("No new command is accepted")
     for axis in ("X", "θx", "Z nano"):
         assert movers.count(axis) <= 1
-    check_gravest_first(word, session)
-    check_present(word, display, session, more)
+    check_most_serious_first(word, session)
+    check_present(word, display, session, other_fields)
     check_remedy(display.remedy, session)
 
 
-def check_gravest_first(word, session):
-    """The gravest of several things is shown."""
-    if session.connection is Connection.FAILED:
+def check_most_serious_first(word, session):
+    """Check that the most serious condition is shown."""
+    if session.connection is ConnectionState.FAILED:
         assert word in ("Failed", "Link")
-    if session.connection is not Connection.CONNECTED:
+    if session.connection is not ConnectionState.CONNECTED:
         assert word in ("Failed", "Link", "Connecting", "Disconnected")
     elif session.activity is DeviceState.CLOSED:
         assert word == "Connecting"
     elif session.fault or session.activity is DeviceState.FAULT:
-        assert word == "Fault"  # what halted may send no readings, and is not lost for that
+        assert word == "Fault"  # a halted machine may send no readings without being lost
     elif session.silent_s > 0.0:
         assert word == "Link"
-    elif session.latched:
+    elif session.latch_reason:
         assert word == "Locked"
 
 
-def check_present(word, display, session, more):
-    """Nothing past or impossible is shown, and nothing green that accepts no motion."""
-    moves = session.activity in MOVING
+def check_present(word, display, session, other_fields):
+    """Check that only present conditions are shown, and green only if motion is accepted."""
+    is_moving = session.activity in MOVING
     if word in ("Ready", "Paused", "Stopped"):
         assert session.activity is DeviceState.IDLE
-        assert session.locked is None
+        assert session.lock_reason is None
         assert not session.stopping
         assert not session.owners
     if "Stopped by" in display.reason:
         assert session.halted
-        assert not moves
+        assert not is_moving
     if "At rest" in display.reason:
-        assert not moves
+        assert not is_moving
     if word == "Paused":
-        assert more["playback"].phase is PlaybackPhase.PAUSED
-    if display.tone is Tone.GOOD:
+        assert other_fields["playback"].phase is PlaybackPhase.PAUSED
+    if display.tone is StateTone.GOOD:
         assert not session.halted
-        assert more.get("playback", PLAYED).phase is PlaybackPhase.IDLE
-        assert "procedure" not in more
+        assert other_fields.get("playback", PLAYED).phase is PlaybackPhase.IDLE
+        assert "procedure" not in other_fields
 
 
 def check_remedy(remedy, session):
-    """The button that is offered can help."""
-    connected = session.connection is Connection.CONNECTED
-    moves = session.activity in MOVING
+    """Check that the offered button can help."""
+    is_connected = session.connection is ConnectionState.CONNECTED
+    is_moving = session.activity in MOVING
     can_help = {
         None: True,
-        Remedy.CONNECT: session.connection is Connection.DISCONNECTED,
-        Remedy.RECONNECT: session.connection is Connection.FAILED,
-        Remedy.RELEASE: connected and session.latched is not None,
-        Remedy.CLEAR_FAULT: connected and session.latched is None,
-        Remedy.COMPARE_PARAMETERS: bool(session.differences) and not moves,
-        Remedy.HOME: bool(session.unhomed) and not moves and session.latched is None,
-        Remedy.CONFIRM: session.doubt is not None and not moves,
+        StateRemedy.CONNECT: session.connection is ConnectionState.DISCONNECTED,
+        StateRemedy.RECONNECT: session.connection is ConnectionState.FAILED,
+        StateRemedy.RELEASE: is_connected and session.latch_reason is not None,
+        StateRemedy.CLEAR_FAULT: is_connected and session.latch_reason is None,
+        StateRemedy.COMPARE_PARAMETERS: bool(session.differences) and not is_moving,
+        StateRemedy.HOME: bool(session.unhomed) and not is_moving and session.latch_reason is None,
+        StateRemedy.CONFIRM: session.doubt is not None and not is_moving,
     }
     assert can_help[remedy]
 
 
-def test_no_state_of_a_session_is_worded_against_it():
-    for session in every_session():
+def test_the_display_never_contradicts_the_session():
+    for session in make_all_sessions():
         check_display(session, {})
 
 
-@pytest.mark.parametrize("more", WORK)
-def test_no_work_is_worded_against_the_state_in_which_it_is_done(more):
+@pytest.mark.parametrize("other_fields", ACTIVITIES)
+def test_the_display_of_an_activity_never_contradicts_the_session(other_fields):
     for activity, stop, owners, obstacle in product(
-        DeviceState, ((None, False), (PRESSED, True), (BY_PAUSE, True)), OWNERS, OBSTACLES
+        DeviceState, ((None, False), (OPERATOR_STOP, True), (PAUSE_STOP, True)), OWNERS, OBSTACLES
     ):
-        for latched, silent_s, stopping in product((None, LOCKED), (0.0, 0.3), (False, True)):
-            session = state(
+        for latched, silent_s, stopping in product(
+            (None, STOP_AND_LOCK_REASON), (0.0, 0.3), (False, True)
+        ):
+            session = make_state(
                 activity=activity,
                 stop=stop[0],
                 halted=stop[1],
                 owners=owners,
-                latched=latched,
+                latch_reason=latched,
                 silent_s=silent_s,
                 stopping=stopping,
                 **obstacle,
             )
-            check_display(session, more)
+            check_display(session, other_fields)
 
 
 @pytest.mark.parametrize(
     ("session", "words"),
     [
-        (state(), "No axis is moving."),
-        (state(activity=DeviceState.MOVING), "Axes are moving."),
-        (state(owners={"x": "operator"}), "Operator moves X"),
-        (state(silent_s=0.4), "Not known: the machine does not answer."),
-        (state(connection=Connection.FAILED), "Not known: the machine does not answer."),
+        (make_state(), "No axis is moving."),
+        (make_state(activity=DeviceState.MOVING), "Axes are moving."),
+        (make_state(owners={"x": "operator"}), "Operator moves X"),
+        (make_state(silent_s=0.4), "Not known: the machine does not answer."),
+        (make_state(connection=ConnectionState.FAILED), "Not known: the machine does not answer."),
     ],
 )
-def test_nothing_is_said_to_rest_that_nobody_sees(session, words):
+def test_axes_without_readings_are_not_described_as_at_rest(session, words):
     assert describe_motion(session) == words

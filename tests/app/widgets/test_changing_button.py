@@ -1,21 +1,23 @@
-"""A button whose meaning changes keeps its room, and a double click on it counts once."""
+"""A button whose meaning changes keeps its size, and a double click on it counts once."""
 
 import pytest
 from PySide6.QtCore import Qt
 
-from rotemina.app.widgets.changing_button import ChangingButton
+from rotemina.app.widgets.controls import ChangingButton
 
 
 @pytest.fixture
 def button(qtbot):
     clicks = []
-    made = ChangingButton("Play", "Pause", "Resume", run=lambda: clicks.append(made.text()))
-    made.clicks = clicks
-    qtbot.addWidget(made)
-    return made
+    changing_button = ChangingButton(
+        "Play", "Pause", "Resume", run=lambda: clicks.append(changing_button.text())
+    )
+    changing_button.clicks = clicks
+    qtbot.addWidget(changing_button)
+    return changing_button
 
 
-def test_its_size_is_the_same_whatever_it_says(button):
+def test_the_size_does_not_depend_on_the_meaning(button):
     sizes = set()
     for text in ("Play", "Pause", "Resume"):
         button.show_meaning(text)

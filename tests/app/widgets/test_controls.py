@@ -1,38 +1,45 @@
-"""Controls that say why they cannot act, and what they show."""
+"""Disabled controls say why, and properties and bars update their look."""
 
 from PySide6.QtWidgets import QLabel, QProgressBar, QPushButton, QWidget
 
-from rotemina.app.widgets.controls import allow, button, fill, plain_tip, set_property, why_not
+from rotemina.app.widgets.controls import (
+    enable_unless,
+    get_disabled_reason,
+    make_button,
+    make_tooltip,
+    set_bar_value,
+    set_property,
+)
 
 
-def test_a_control_that_cannot_act_says_why(qtbot):
+def test_a_disabled_control_says_why(qtbot):
     control = QPushButton()
     qtbot.addWidget(control)
-    allow(control, "nothing <moves>", "Stop it")
+    enable_unless(control, "nothing <moves>", "Stop it")
     assert not control.isEnabled()
-    assert why_not(control) == "nothing <moves>"
-    assert control.toolTip() == plain_tip("Stop it", "Not now: nothing <moves>")
+    assert get_disabled_reason(control) == "nothing <moves>"
+    assert control.toolTip() == make_tooltip("Stop it", "Not now: nothing <moves>")
     assert "<moves>" not in control.toolTip()
-    allow(control, None, "Stop it")
+    enable_unless(control, None, "Stop it")
     assert control.isEnabled()
-    assert why_not(control) is None
-    assert control.toolTip() == plain_tip("Stop it")
+    assert get_disabled_reason(control) is None
+    assert control.toolTip() == make_tooltip("Stop it")
 
 
-def test_a_button_does_one_thing(qtbot):
-    pressed = []
-    made = button("Go", lambda: pressed.append(1), "Move <there>")
-    qtbot.addWidget(made)
-    made.click()
-    assert pressed == [1]
-    assert made.toolTip() == plain_tip("Move <there>")
+def test_a_button_calls_its_function_and_has_a_tooltip(qtbot):
+    calls = []
+    button = make_button("Go", lambda: calls.append(1), "Move <there>")
+    qtbot.addWidget(button)
+    button.click()
+    assert calls == [1]
+    assert button.toolTip() == make_tooltip("Move <there>")
 
 
 def test_a_property_changes_the_look(qtbot):
-    around = QWidget()
-    around.setStyleSheet("QLabel[bad=true] { color: #ff0000; }")
-    qtbot.addWidget(around)
-    label = QLabel("x", around)
+    parent = QWidget()
+    parent.setStyleSheet("QLabel[bad=true] { color: #ff0000; }")
+    qtbot.addWidget(parent)
+    label = QLabel("x", parent)
     label.ensurePolished()
     before = label.palette().color(label.foregroundRole()).name()
     assert set_property(label, "bad", True)
@@ -42,7 +49,7 @@ def test_a_property_changes_the_look(qtbot):
     assert label.palette().color(label.foregroundRole()).name() == before
 
 
-def test_a_bar_that_fills_is_painted_later_with_the_rest(qtbot):
+def test_a_bar_is_not_painted_at_once(qtbot):
     painted = []
 
     class Bar(QProgressBar):
@@ -53,9 +60,9 @@ def test_a_bar_that_fills_is_painted_later_with_the_rest(qtbot):
     bar = Bar()
     qtbot.addWidget(bar)
     bar.show()
-    fill(bar, 0)
+    set_bar_value(bar, 0)
     qtbot.waitUntil(lambda: painted[-1:] == [0], timeout=30_000)
-    fill(bar, 60)
+    set_bar_value(bar, 60)
     assert bar.value() == 60
     assert painted[-1] == 0
     qtbot.waitUntil(lambda: painted[-1] == 60, timeout=30_000)

@@ -6,14 +6,18 @@ import pytest
 from PySide6.QtCore import QCoreApplication, QEvent, QObject
 from PySide6.QtWidgets import QLabel, QTabWidget, QWidget
 
-from rotemina.app.shell import plot as plot_module
-from rotemina.app.shell.plot import SignalPlot, drop_plots_ahead, make_plot_ahead
-from rotemina.app.shell.theme import THEMES
-from rotemina.app.widgets.layouts import in_column
+from rotemina.app.widgets.drawing import (
+    SignalPlot,
+    drop_spare_plots,
+    make_spare_plot,
+    plot as plot_module,
+)
+from rotemina.app.widgets.layout import make_column
+from rotemina.app.widgets.style import THEMES
 
 
-class Paints(QObject):
-    """Counts how often plots are painted, apart from their ground."""
+class PaintCounter(QObject):
+    """Counts the paint events that draw plots, not only their background."""
 
     def __init__(self, plots):
         super().__init__()
@@ -23,17 +27,17 @@ class Paints(QObject):
 
     def eventFilter(self, watched, event):  # noqa: N802 (Qt's name)
         plot = watched.parent()
-        if event.type() == QEvent.Type.Paint and not plot._turn.is_held:
+        if event.type() == QEvent.Type.Paint and not plot._staggering.is_held:
             self.counts[plot] += 1
         return False
 
 
-def all_painted():
+def process_events():
     for _ in range(8):
         QCoreApplication.processEvents()
 
 
-def shown_tabs(qtbot, *pages):
+def show_tabs(qtbot, *pages):
     tabs = QTabWidget()
     qtbot.addWidget(tabs)
     for page in pages:
@@ -44,66 +48,66 @@ def shown_tabs(qtbot, *pages):
     return tabs
 
 
-def page_with_plots():
+def make_page_with_plots():
     page = QWidget()
     plots = [SignalPlot(THEMES["dark"]) for _ in range(3)]
-    in_column(*plots, on=page)
+    make_column(*plots, on=page)
     return page, plots
 
 
-def test_plots_are_painted_once_each_in_its_turn_when_they_are_shown(qtbot):
-    page, plots = page_with_plots()
-    tabs = shown_tabs(qtbot, page, QLabel())
+def test_shown_plots_are_painted_once_each_in_turn(qtbot):
+    page, plots = make_page_with_plots()
+    tabs = show_tabs(qtbot, page, QLabel())
     tabs.setCurrentIndex(1)
-    all_painted()
-    paints = Paints(plots)
+    process_events()
+    counter = PaintCounter(plots)
     tabs.setCurrentIndex(0)
-    seen = []
+    totals = []
     for _ in range(8):
         QCoreApplication.processEvents()
-        seen.append(sum(paints.counts.values()))
-    assert seen[-1] == 3
-    assert max(after - before for before, after in pairwise([0, *seen])) == 1
-    assert list(paints.counts.values()) == [1, 1, 1]
+        totals.append(sum(counter.counts.values()))
+    assert totals[-1] == 3
+    assert max(after - before for before, after in pairwise([0, *totals])) == 1
+    assert list(counter.counts.values()) == [1, 1, 1]
     for plot in plots:
         plot.viewport().update()
-    all_painted()
-    assert list(paints.counts.values()) == [2, 2, 2]
+    process_events()
+    assert list(counter.counts.values()) == [2, 2, 2]
 
 
-def test_a_plot_that_is_resized_several_times_fits_its_axes_once(qtbot):
-    page, (plot, *_) = page_with_plots()
-    tabs = shown_tabs(qtbot, page)
-    all_painted()
-    fitted = []
-    plot.sigDeviceRangeChanged.connect(lambda *_: fitted.append(plot.width()))
+def test_a_plot_resized_several_times_fits_its_axes_once(qtbot):
+    page, (plot, *_) = make_page_with_plots()
+    tabs = show_tabs(qtbot, page)
+    process_events()
+    fitted_widths = []
+    plot.sigDeviceRangeChanged.connect(lambda *_: fitted_widths.append(plot.width()))
     for width in (500, 600, 700):
         tabs.resize(width, 500)
-    assert not fitted
-    all_painted()
-    assert set(fitted) == {plot.width()}
+    assert not fitted_widths
+    process_events()
+    assert set(fitted_widths) == {plot.width()}
     assert plot.getPlotItem().boundingRect().width() == pytest.approx(plot.width(), abs=2.0)
 
 
-def test_a_picture_can_be_taken_of_a_plot_that_waits_for_its_turn(qtbot):
-    page, (plot, *_) = page_with_plots()
-    tabs = shown_tabs(qtbot, page)
-    all_painted()
+def test_a_waiting_plot_can_be_grabbed(qtbot):
+    page, (plot, *_) = make_page_with_plots()
+    tabs = show_tabs(qtbot, page)
+    process_events()
     tabs.resize(700, 500)
-    paints = Paints([plot])
-    plot.settle()
+    counter = PaintCounter([plot])
+    plot.paint_now()
     plot.grab()
-    assert paints.counts[plot] == 1
+    assert counter.counts[plot] == 1
 
 
-def test_plots_made_ahead_are_used_first_and_dropped_at_the_end(qtbot):
-    while not make_plot_ahead():
+def test_spare_plots_are_used_first_and_dropped_at_the_end(qtbot):
+    while not make_spare_plot():
         pass
-    ahead = list(plot_module._made_ahead)
-    used = SignalPlot(THEMES["dark"])
-    qtbot.addWidget(used)
-    assert used.getPlotItem() is ahead[-1]
-    drop_plots_ahead()
-    another = SignalPlot(THEMES["dark"])
-    qtbot.addWidget(another)
-    assert another.getPlotItem() not in ahead
+    spare_items = list(plot_module._spare_items)
+    first = SignalPlot(THEMES["dark"])
+    qtbot.addWidget(first)
+    assert first.getPlotItem() is spare_items[-1]
+    drop_spare_plots()
+    second = SignalPlot(THEMES["dark"])
+    qtbot.addWidget(second)
+    assert second.getPlotItem() not in spare_items

@@ -1,7 +1,7 @@
-"""An operator's day in the real program, offscreen; writes what the turns of its loop have cost.
+"""An operator's day in the real program, offscreen; measures the turns of the event loop.
 
-``day.py FOLDER PART`` does one of the :data:`PARTS` of :mod:`day_steps`, and writes ``PART.json``
-into the folder. The program does all that it does at a start; the day begins with the first paint.
+``day.py FOLDER PART`` runs one of the :data:`PARTS` of :mod:`day_steps`, and writes ``PART.json``
+into the folder. The program starts completely as usual; the day begins with the first paint.
 """
 
 import gc
@@ -23,43 +23,45 @@ from PySide6.QtCore import QEvent, QObject, QTimer
 from PySide6.QtGui import QDesktopServices
 
 from rotemina.app.motion.session import MotionSession
-from rotemina.app.settings import Settings
-from rotemina.app.shell import window_run
-from rotemina.app.shell.application import show_splash
-from rotemina.drivers.simulator.driver import Simulator
-from rotemina.sim.robot.file import load_robot
+from rotemina.app.settings import UserSettings
+from rotemina.app.shell.startup import window_run
+from rotemina.app.shell.startup.application import show_splash
+from rotemina.drivers.simulator import Simulator
+from rotemina.sim.robot_files import load_robot
 
-LONG_S = 120.0  # that a step may take
-SETTLED_S = 0.15  # in which what follows from a step is drawn
+# A step fails after this time.
+MAX_STEP_S = 120.0
+# Time for drawing the consequences of a step.
+SETTLING_S = 0.15
 
 
-class Day(QObject):
-    """Does one step after another in the program's own loop, each in a turn of its own."""
+class DayRun(QObject):
+    """Runs one step after another in the event loop of the program, each in a separate turn."""
 
-    def __init__(self, window, steps, leave):
+    def __init__(self, window, steps, finish):
         super().__init__(window)
-        self._window, self._steps, self._leave = window, steps, leave
+        self._window, self._steps, self._finish = window, steps, finish
         self._meter = LoopMeter()
         self._meter.label = "start"
         self._is_reached, self._reached = True, lambda: True
         self._begin_s = self._settled_s = time.monotonic()
         self._timer = QTimer(self, interval=20)
-        self._timer.timeout.connect(self._go_on)
+        self._timer.timeout.connect(self._check_step)
         self._timer.start()
 
-    def _go_on(self):
+    def _check_step(self):
         now_s = time.monotonic()
         try:
             if not self._is_reached:
                 self._is_reached, self._settled_s = bool(self._reached()), now_s
-                if now_s - self._begin_s > LONG_S:
-                    raise TimeoutError(f"no end after {LONG_S:.0f} s")
-            elif now_s - self._settled_s >= SETTLED_S:
-                self._do_next()
+                if now_s - self._begin_s > MAX_STEP_S:
+                    raise TimeoutError(f"not finished after {MAX_STEP_S:.0f} s")
+            elif now_s - self._settled_s >= SETTLING_S:
+                self._start_next_step()
         except Exception:
             self._end(traceback.format_exc())
 
-    def _do_next(self):
+    def _start_next_step(self):
         step = next(self._steps, None)
         if step is None:
             self._end("")
@@ -73,13 +75,13 @@ class Day(QObject):
         self._meter.close()
         if failure:
             bench = self._window.workbench
-            messages = [one.line for one in self._window.log.messages()[-5:]]
-            failure += f"{self._meter.label}; {bench.session.snapshot().locked}; {messages}"
-        self._leave({"turns": [asdict(one) for one in self._meter.turns], "failure": failure})
+            messages = [message.line for message in self._window.log.messages()[-5:]]
+            failure += f"{self._meter.label}; {bench.session.snapshot().lock_reason}; {messages}"
+        self._finish({"turns": [asdict(turn) for turn in self._meter.turns], "failure": failure})
 
 
 class FirstPaint(QObject):
-    """Calls something after a window was painted for the first time."""
+    """Calls a function after the first paint of a window."""
 
     def __init__(self, window, call):
         super().__init__(window)
@@ -100,22 +102,23 @@ def main(folder, part):
     gc.disable()
     QDesktopServices.openUrl = staticmethod(lambda _: True)
     splash = show_splash()
-    settings = Settings(folder / "config" / "settings.json")
+    settings = UserSettings(folder / "config" / "settings.json")
     session = MotionSession(Simulator(robot, {}))
     make_window = window_run.make_window
 
-    def leave(found):
+    def finish(result):
         session.stop("the day is over")
-        (folder / f"{part}.json").write_text(json.dumps(found), "utf-8")
-        os._exit(0)  # how it ends is tested elsewhere
+        (folder / f"{part}.json").write_text(json.dumps(result), "utf-8")
+        # The end of the program is tested elsewhere.
+        os._exit(0)
 
-    def make(session, settings, **_):
-        window = make_window(session, settings, folder / "data" / "played", speaks="en")
+    def make_observed_window(session, settings, **_):
+        window = make_window(session, settings, folder / "data" / "played", ui_language="en")
         operator = Operator(window, folder)
-        FirstPaint(window, lambda: Day(window, PARTS[part](operator), leave))
+        FirstPaint(window, lambda: DayRun(window, PARTS[part](operator), finish))
         return window
 
-    window_run.make_window = make
+    window_run.make_window = make_observed_window
     window_run.run(session, settings, splash=splash)
 
 

@@ -1,4 +1,4 @@
-"""All text of all panels has room, nothing overlaps: three themes, two sizes, two languages."""
+"""No text of any panel is cut and nothing overlaps, in all themes, sizes and languages."""
 
 import re
 
@@ -21,14 +21,15 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.shell import language
-from rotemina.app.shell.layouts import BUILT_IN, OPERATE
-from rotemina.app.shell.theme import THEMES
-from rotemina.app.widgets.labels import ElidedLabel
+from rotemina.app.language import language
+from rotemina.app.shell.window import BUILT_IN, OPERATE
+from rotemina.app.widgets.style import THEMES
+from rotemina.app.widgets.text import ElidedLabel
 
 pytestmark = [pytest.mark.slow, pytest.mark.every_panel]
 SIZES = ((1280, 800), (1920, 1080))
-_SLACK = 1  # px of rounding
+#: Rounding tolerance, px.
+_SLACK = 1
 
 
 def settle():
@@ -36,56 +37,56 @@ def settle():
         QApplication.processEvents()
 
 
-def room_of(button):
+def get_text_width(check_button):
     """Return the width that the style leaves for a button's text."""
     option = QStyleOptionButton()
-    button.initStyleOption(option)
+    check_button.initStyleOption(option)
     element = {
         QCheckBox: QStyle.SubElement.SE_CheckBoxContents,
         QRadioButton: QStyle.SubElement.SE_RadioButtonContents,
-    }.get(type(button), QStyle.SubElement.SE_PushButtonContents)
-    return button.style().subElementRect(element, option, button).width()
+    }.get(type(check_button), QStyle.SubElement.SE_PushButtonContents)
+    return check_button.style().subElementRect(element, option, check_button).width()
 
 
-def label(widget):
-    """Tell of a label without room, of plain or of rich text."""
+def check_label(widget):
+    """Describe a label, plain or rich text, whose text is cut, or return None."""
     if isinstance(widget, ElidedLabel) or not widget.text():
-        return None  # the tooltip of an elided one has all of it
-    rect, wraps = widget.contentsRect(), widget.wordWrap()
-    plain = widget.textFormat() == Qt.TextFormat.PlainText or not re.search(
+        return None  # the tooltip of an elided label has its full text
+    rect, is_wrapped = widget.contentsRect(), widget.wordWrap()
+    is_plain = widget.textFormat() == Qt.TextFormat.PlainText or not re.search(
         r"<[a-z]+", widget.text()
     )
-    if plain:
-        several = wraps or "\n" in widget.text()
-        flags = Qt.TextFlag.TextWordWrap if several else Qt.TextFlag.TextSingleLine
+    if is_plain:
+        has_lines = is_wrapped or "\n" in widget.text()
+        flags = Qt.TextFlag.TextWordWrap if has_lines else Qt.TextFlag.TextSingleLine
         needed = widget.fontMetrics().boundingRect(rect, int(flags), widget.text()).size()
     else:
-        page = QTextDocument()
-        page.setDefaultFont(widget.font())
-        page.setDocumentMargin(0)
-        page.setHtml(widget.text())
-        page.setTextWidth(rect.width() if wraps else -1)
-        needed = page.size().toSize()
+        document = QTextDocument()
+        document.setDefaultFont(widget.font())
+        document.setDocumentMargin(0)
+        document.setHtml(widget.text())
+        document.setTextWidth(rect.width() if is_wrapped else -1)
+        needed = document.size().toSize()
     if needed.width() > rect.width() + _SLACK or needed.height() > rect.height() + _SLACK:
         room = f"{needed.toTuple()} in {rect.size().toTuple()}"
         return f"label {widget.text()[:50]!r} of {type(widget.parent()).__name__}: {room}"
     return None
 
 
-def button(widget):
-    """Tell of a button or a check box without room."""
+def check_button(widget):
+    """Describe a button or check box whose text is cut, or return None."""
     text = widget.text().replace("&", "")
     lines = text.split("\n")
     needed = max(map(widget.fontMetrics().horizontalAdvance, lines))
-    room = widget.width() if isinstance(widget, QToolButton) else room_of(widget)
-    high = len(lines) * widget.fontMetrics().height() > widget.height() + _SLACK
-    if text and (needed > room + _SLACK or high):
+    room = widget.width() if isinstance(widget, QToolButton) else get_text_width(widget)
+    is_too_high = len(lines) * widget.fontMetrics().height() > widget.height() + _SLACK
+    if text and (needed > room + _SLACK or is_too_high):
         return f"{type(widget).__name__} {text!r}: {needed} in {room}"
     return None
 
 
-def tabs(widget):
-    """Tell of a tab without room."""
+def check_tabs(widget):
+    """Describe a tab whose text is cut, or return None."""
     for number in range(widget.count()):
         text, room = widget.tabText(number).replace("&", ""), widget.tabRect(number).width()
         needed = widget.fontMetrics().horizontalAdvance(text)
@@ -94,140 +95,141 @@ def tabs(widget):
     return None
 
 
-def group(widget):
-    """Tell of a group's title without room."""
+def check_group(widget):
+    """Describe a group box whose title is cut, or return None."""
     needed = widget.fontMetrics().horizontalAdvance(widget.title())
     return f"group {widget.title()!r}: {needed}" if needed > widget.width() else None
 
 
-KINDS = (
-    (QLabel, label),
-    ((QPushButton, QCheckBox, QRadioButton, QToolButton), button),
-    (QTabBar, tabs),
-    (QGroupBox, group),
+CHECKS = (
+    (QLabel, check_label),
+    ((QPushButton, QCheckBox, QRadioButton, QToolButton), check_button),
+    (QTabBar, check_tabs),
+    (QGroupBox, check_group),
 )
 
 
-def cut(widget):
-    """Return what text of a widget is cut off, or None."""
-    return next((told(widget) for kinds, told in KINDS if isinstance(widget, kinds)), None)
+def find_cut_text(widget):
+    """Describe the cut text of a widget, or return None."""
+    return next((describe(widget) for kinds, describe in CHECKS if isinstance(widget, kinds)), None)
 
 
-def overlaps(parent):
-    """Yield children of a layout that stand on each other."""
+def find_overlaps(parent):
+    """Yield descriptions of children of a layout that overlap."""
     if parent.layout() is None:
         return
     layout = parent.layout()
-    laid = {item for item in all_widgets(layout) if item.isVisible()}
-    children = sorted(laid, key=lambda one: (one.y(), one.x()))
-    for number, one in enumerate(children):
-        for other in children[number + 1 :]:
-            both = one.geometry().intersected(other.geometry())
-            if both.width() > _SLACK and both.height() > _SLACK:
-                yield f"{name_of(one)} on {name_of(other)} by {both.size().toTuple()}"
+    visible = {item for item in iterate_widgets(layout) if item.isVisible()}
+    children = sorted(visible, key=lambda widget: (widget.y(), widget.x()))
+    for number, first in enumerate(children):
+        for second in children[number + 1 :]:
+            overlap = first.geometry().intersected(second.geometry())
+            if overlap.width() > _SLACK and overlap.height() > _SLACK:
+                names = f"{describe_widget(first)} on {describe_widget(second)}"
+                yield f"{names} by {overlap.size().toTuple()}"
 
 
-def all_widgets(layout):
+def iterate_widgets(layout):
     for number in range(layout.count()):
         item = layout.itemAt(number)
         if item.widget() is not None:
             if type(layout).__name__ != "QStackedLayout":
                 yield item.widget()
         elif item.layout() is not None:
-            yield from all_widgets(item.layout())
+            yield from iterate_widgets(item.layout())
 
 
-def name_of(widget):
+def describe_widget(widget):
     text = getattr(widget, "text", None)
     return f"{type(widget).__name__}({text()[:30] if callable(text) else widget.objectName()})"
 
 
-def faults_of(panel):
-    seen = [one for one in (panel, *panel.findChildren(QWidget)) if one.isVisible()]
-    for widget in seen:
-        told = cut(widget)
-        if told is not None:
-            yield told
-        yield from overlaps(widget)
+def find_panel_faults(panel):
+    visible = [widget for widget in (panel, *panel.findChildren(QWidget)) if widget.isVisible()]
+    for widget in visible:
+        fault = find_cut_text(widget)
+        if fault is not None:
+            yield fault
+        yield from find_overlaps(widget)
 
 
-def pages(panel):
-    """Bring up each tab of a panel in turn."""
+def open_pages(panel):
+    """Open each tab of a panel in turn and yield its title."""
     yield ""
-    for book in panel.findChildren(QTabWidget):
-        before = book.currentIndex()
-        for number in range(book.count()):
-            if book.isTabEnabled(number):
-                book.setCurrentIndex(number)
+    for tab_widget in panel.findChildren(QTabWidget):
+        before = tab_widget.currentIndex()
+        for number in range(tab_widget.count()):
+            if tab_widget.isTabEnabled(number):
+                tab_widget.setCurrentIndex(number)
                 settle()
-                yield f" ▸ {book.tabText(number)}"
-        book.setCurrentIndex(before)
+                yield f" ▸ {tab_widget.tabText(number)}"
+        tab_widget.setCurrentIndex(before)
 
 
 @pytest.fixture
-def speaking(settings, make_robot_window):
-    """Make a window that speaks a language."""
+def make_translated_window(settings, make_robot_window):
+    """Return a function that makes a window in a language."""
 
-    def make(name):
-        settings.set(language.SETTING, name)
+    def make_window(language_name):
+        settings.set(language.LANGUAGE_KEY, language_name)
         return make_robot_window()
 
-    yield make
-    language.use(QApplication.instance(), "en")
+    yield make_window
+    language.use_language(QApplication.instance(), "en")
 
 
-def faults_in(window):
-    """Return what is cut or stands on something, of every page of every panel."""
-    found = []
+def find_window_faults(window):
+    """Return all cut texts and overlaps of every page of every panel."""
+    faults = []
     for name in window.panels:
         window.bring_up(name)
         settle()
-        for page in pages(window.panels[name]):
-            found += [f"{name}{page}: {fault}" for fault in faults_of(window.panels[name])]
+        for page in open_pages(window.panels[name]):
+            faults += [f"{name}{page}: {fault}" for fault in find_panel_faults(window.panels[name])]
     for bar in window.findChildren(QTabBar):
         if bar.isVisible() and bar.parent() is window:
-            found += filter(None, [cut(bar)])
+            faults += filter(None, [find_cut_text(bar)])
     for part in (window.layout_row, *window.findChildren(QToolBar)):
-        found += faults_of(part)
-    return list(dict.fromkeys(found))
+        faults += find_panel_faults(part)
+    return list(dict.fromkeys(faults))
 
 
 @pytest.mark.parametrize("name", language.LANGUAGES)
 @pytest.mark.parametrize("size", SIZES, ids=lambda size: "x".join(map(str, size)))
 @pytest.mark.parametrize("theme", sorted(THEMES))
-def test_every_text_has_room(speaking, theme, size, name):
-    window = speaking(name)
+def test_every_text_has_room(make_translated_window, theme, size, name):
+    window = make_translated_window(name)
     window.use_theme(theme)
     window.panels.make_all()
     window.arrangement.arrange(OPERATE)
     window.resize(*size)
     settle()
-    assert window.size().toTuple() == size  # it does not need more
-    assert "\n".join(faults_in(window)) == ""
+    assert window.size().toTuple() == size  # the window fits into this size
+    assert "\n".join(find_window_faults(window)) == ""
 
 
 @pytest.mark.parametrize("name", language.LANGUAGES)
-def test_every_layout_fits_a_small_screen(speaking, name):
-    window = speaking(name)
+def test_every_layout_fits_a_small_screen(make_translated_window, name):
+    window = make_translated_window(name)
     window.panels.make_all()
     for layout in BUILT_IN:
         window.arrangement.arrange(layout)
         window.resize(*SIZES[0])
         settle()
-        assert (layout.word, window.size().toTuple()) == (layout.word, SIZES[0])
+        assert (layout.plain_title, window.size().toTuple()) == (layout.plain_title, SIZES[0])
     window.reset_layout()  # all panels
     window.resize(*SIZES[0])
     settle()
     assert window.size().toTuple() == SIZES[0]
-    assert "\n".join(faults_in(window)) == ""
+    assert "\n".join(find_window_faults(window)) == ""
 
 
 @pytest.mark.parametrize("name", language.LANGUAGES)
-def test_large_text_has_room(speaking, settings, name):
+def test_large_text_has_room(make_translated_window, settings, name):
     settings.set("window.scale", 1.5)
-    window = speaking(name)
+    window = make_translated_window(name)
     window.panels.make_all()
     window.arrangement.arrange(OPERATE)
     window.resize(*SIZES[1])
     settle()
-    assert "\n".join(faults_in(window)) == ""
+    assert "\n".join(find_window_faults(window)) == ""

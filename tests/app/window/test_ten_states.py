@@ -1,13 +1,12 @@
-"""Ten states of real machines and simulators: header, badge and help as an operator sees them."""
+"""Header, badge and remedy in ten states of machines and simulators."""
 
 import pytest
 from PySide6.QtCore import Qt
 
 from rotemina.app.motion.playback import PlaybackPhase
-from rotemina.drivers.mc68hc11.driver import MC68HC11
-from rotemina.drivers.samples import DeviceState
-from rotemina.sim.trajectory.first_trajectory import example_for
-from rotemina.sim.trajectory.worn_machine_demo import worn_effects
+from rotemina.drivers.contract import DeviceState
+from rotemina.drivers.mc68hc11.driver import MC68HC11Driver
+from rotemina.sim.trajectory import load_worn_effects, make_example
 
 PANELS = ("control", "trajectory", "faults", "connection")
 LONG_MS = 60_000
@@ -19,13 +18,13 @@ def click(qtbot, button):
     qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
 
 
-def wait_for_headword(qtbot, window, words):
-    qtbot.waitUntil(lambda: window._bar.phase.text().startswith(words), timeout=LONG_MS)
+def wait_for_headword(qtbot, window, headword):
+    qtbot.waitUntil(lambda: window._bar.phase.text().startswith(headword), timeout=LONG_MS)
 
 
 def play(qtbot, window):
     bench = window.workbench
-    bench.plan_trajectory("example", example_for(bench.robot))
+    bench.plan_trajectory("example", make_example(bench.robot))
     qtbot.waitUntil(lambda: bench.plan is not None and not bench.busy, timeout=LONG_MS)
     click(qtbot, window.panels["trajectory"].transport.play)
     qtbot.waitUntil(lambda: bench.session.snapshot().progress > 0.1, timeout=LONG_MS)
@@ -42,20 +41,20 @@ def move_during_a_pause(qtbot, window):
     pause(qtbot, window)
     qtbot.waitUntil(lambda: window.workbench.session.at_rest, timeout=LONG_MS)
     window.workbench.jog("x", 2.7e-3)
-    qtbot.waitUntil(lambda: "since the pause" in window._bar.doing.text(), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: "since the pause" in window._bar.reason_label.text(), timeout=LONG_MS)
     qtbot.waitUntil(lambda: window.workbench.session.at_rest, timeout=LONG_MS)
 
 
 def connect_boards(qtbot, window, *, homed=True):
     injection = window.panels["faults"].injection
     injection.homed.setChecked(homed)
-    click(qtbot, injection.start)
+    click(qtbot, injection.start_button)
     qtbot.waitUntil(lambda: len(injection.board.ports) == 2, timeout=LONG_MS)
     ports = dict(
         zip(("port", "second_port"), (port for port, _ in injection.board.ports), strict=True)
     )
     bench = window.workbench
-    assert bench.use_driver(MC68HC11, ports)
+    assert bench.use_driver(MC68HC11Driver, ports)
     qtbot.waitUntil(
         lambda: (
             bool(bench.session.snapshot().measured) and window._bar.badge.words == "VIRTUAL BOARDS"
@@ -86,7 +85,7 @@ def cut_the_link(qtbot, window):
 
 def wear(qtbot, window):
     bench = window.workbench
-    bench.session.service.set_effects(worn_effects(bench.robot))
+    bench.session.service.set_effects(load_worn_effects(bench.robot))
     qtbot.waitUntil(lambda: window._bar.badge.port.startswith("worn"), timeout=LONG_MS)
 
 
@@ -94,11 +93,11 @@ SIMULATOR, BOARDS = "SIMULATOR", "VIRTUAL BOARDS"
 
 
 @pytest.mark.parametrize(
-    ("bring_about", "machine", "headword", "reason", "remedy", "tone"),
+    ("enter_state", "machine", "headword", "reason", "remedy", "tone"),
     [
         (lambda *_: None, SIMULATOR, "Ready", "every axis can be moved", "", "good"),
         (play, SIMULATOR, "Playing", "moves all axes", "", "busy"),
-        (pause, SIMULATOR, "Paused at row", "Resume goes on from here", "", "warning"),
+        (pause, SIMULATOR, "Paused at row", "Resume continues from here", "", "warning"),
         (
             lambda _, window: window.workbench.emergency_stop(),
             *(SIMULATOR, "Locked", "Release it to move", "Release", "danger"),
@@ -124,13 +123,13 @@ SIMULATOR, BOARDS = "SIMULATOR", "VIRTUAL BOARDS"
         *("homing", "worn-simulator", "virtual-boards"),
     ),
 )
-def test_the_header_shows_what_the_machine_does_and_what_helps(
-    qtbot, window, bring_about, machine, headword, reason, remedy, tone
+def test_the_header_shows_the_state_and_its_remedy(
+    qtbot, window, enter_state, machine, headword, reason, remedy, tone
 ):
     bar = window._bar
-    bring_about(qtbot, window)
+    enter_state(qtbot, window)
     wait_for_headword(qtbot, window, headword)
     assert bar.badge.words == machine
-    assert reason in bar.doing.text()
+    assert reason in bar.reason_label.text()
     assert bar.phase.property("tone") == tone
-    assert (bar.help.text() if bar.help.isVisible() else "") == remedy
+    assert (bar.remedy_button.text() if bar.remedy_button.isVisible() else "") == remedy

@@ -1,21 +1,26 @@
-"""The stops stay in the window, and nothing in it is cut: every size of text, language, layout."""
+"""The stop buttons stay in the window, and nothing is cut, in every scale, language and layout."""
 
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication
 from tests.app.window.window_geometry import (
-    SMALLEST,
-    faults_of_geometry,
+    SMALLEST_SIZE,
+    find_geometry_faults,
     settle,
     show_everything,
 )
 
+from rotemina.app.language import language
 from rotemina.app.panel import Panel
-from rotemina.app.shell import language
-from rotemina.app.shell.layouts import BUILT_IN, DIAGNOSE, OPERATE, SET_UP, TUNE
-from rotemina.app.shell.theme import SCALES
+from rotemina.app.shell.window import (
+    BUILT_IN,
+    DIAGNOSE,
+    OPERATE,
+)
+from rotemina.app.shell.window.layouts import SET_UP, TUNE
+from rotemina.app.widgets.style.theme import TEXT_SCALES
 
-SIZES = (SMALLEST, (1280, 800), (1920, 1080))
+SIZES = (SMALLEST_SIZE, (1280, 800), (1920, 1080))
 THEMES = (
     ("light", "en", 2.0, OPERATE),
     ("light", "de", 1.3, TUNE),
@@ -24,37 +29,37 @@ THEMES = (
 
 
 @pytest.fixture
-def speaking(settings, make_robot_window):
-    """Make a window that speaks a language."""
+def make_translated_window(settings, make_robot_window):
+    """Return a function that makes a window in a language."""
 
-    def make(name):
-        settings.set(language.SETTING, name)
+    def make_window(language_name):
+        settings.set(language.LANGUAGE_KEY, language_name)
         return make_robot_window()
 
-    yield make
-    language.use(QApplication.instance(), "en")
+    yield make_window
+    language.use_language(QApplication.instance(), "en")
 
 
 def use_scale(window, settings, scale):
-    """Change the size of text by steps, as an operator does."""
-    steps = SCALES.index(scale) - SCALES.index(window.arrangement.text_scale)
+    """Change the text scale in steps, as an operator does."""
+    steps = TEXT_SCALES.index(scale) - TEXT_SCALES.index(window.arrangement.text_scale)
     window.arrangement.step_scale(steps)
     settle()
 
 
-def look_at(window, size):
-    """Return what is wrong in a window of a size, which it must be able to take."""
+def find_faults_at_size(window, size):
+    """Resize a window and return its faults, including a size that it does not take."""
     window.resize(*size)
     settle()
-    taken = [] if window.size().toTuple() == size else [f"the window has {window.size()}"]
-    return [f"{size}: {fault}" for fault in (*taken, *faults_of_geometry(window))]
+    size_faults = [] if window.size().toTuple() == size else [f"the window has {window.size()}"]
+    return [f"{size}: {fault}" for fault in (*size_faults, *find_geometry_faults(window))]
 
 
-def arrangements(window):
-    """Use each layout in turn, and at last every dock; yield its name."""
+def iterate_layouts(window):
+    """Use each layout in turn, finally all docks, and yield its name."""
     for layout in BUILT_IN:
         window.arrangement.arrange(layout)
-        yield layout.word
+        yield layout.plain_title
     window.reset_layout()
     yield "every dock"
 
@@ -62,47 +67,55 @@ def arrangements(window):
 @pytest.mark.slow
 @pytest.mark.every_panel
 @pytest.mark.parametrize("name", language.LANGUAGES)
-@pytest.mark.parametrize("full", [False, True], ids=["plain", "full"])
-def test_the_stops_stay_at_every_size_of_text_in_every_layout(speaking, settings, name, full):
-    window = speaking(name)
+@pytest.mark.parametrize("is_full", [False, True], ids=["plain", "full"])
+def test_the_stops_stay_at_every_text_scale_in_every_layout(
+    make_translated_window, settings, name, is_full
+):
+    window = make_translated_window(name)
     window.panels.make_all()
-    if full:
+    if is_full:
         show_everything(window)
-    found = []
-    for scale in SCALES:
+    faults = []
+    for scale in TEXT_SCALES:
         use_scale(window, settings, scale)
-        for layout in arrangements(window):
+        for layout in iterate_layouts(window):
             for size in SIZES:
-                found += [f"{scale}, {layout}, {fault}" for fault in look_at(window, size)]
-    assert "\n".join(found) == ""
+                faults += [
+                    f"{scale}, {layout}, {fault}" for fault in find_faults_at_size(window, size)
+                ]
+    assert "\n".join(faults) == ""
 
 
 @pytest.mark.slow
 @pytest.mark.every_panel
 @pytest.mark.parametrize(("theme", "name", "scale", "layout"), THEMES)
-def test_the_stops_stay_in_every_theme(speaking, settings, theme, name, scale, layout):
-    window = speaking(name)
+def test_the_stops_stay_in_every_theme(
+    make_translated_window, settings, theme, name, scale, layout
+):
+    window = make_translated_window(name)
     window.panels.make_all()
     window.use_theme(theme)
     use_scale(window, settings, scale)
     window.arrangement.arrange(layout)
-    assert [fault for size in SIZES for fault in look_at(window, size)] == []
+    assert [fault for size in SIZES for fault in find_faults_at_size(window, size)] == []
 
 
-def test_the_stops_stay_with_the_largest_text_and_all_that_can_be_shown(speaking, settings):
-    window = speaking("de")
+def test_the_stops_stay_with_the_largest_text_and_all_optional_parts(
+    make_translated_window, settings
+):
+    window = make_translated_window("de")
     before = window.size()
     window.arrangement.arrange(DIAGNOSE)
     show_everything(window)
     use_scale(window, settings, 2.0)
     assert window.size() == before
-    assert window.minimumSize().width() <= SMALLEST[0]
-    assert window.minimumSize().height() <= SMALLEST[1]
-    assert look_at(window, SMALLEST) == []
+    assert window.minimumSize().width() <= SMALLEST_SIZE[0]
+    assert window.minimumSize().height() <= SMALLEST_SIZE[1]
+    assert find_faults_at_size(window, SMALLEST_SIZE) == []
 
 
 class HugePanel(Panel):
-    """A panel of a careless author."""
+    """A panel with a minimum size larger than the screen."""
 
     title = "huge"
 
@@ -111,10 +124,10 @@ class HugePanel(Panel):
         self.setMinimumSize(3000, 3000)
 
 
-@pytest.mark.parametrize("layout", BUILT_IN, ids=lambda layout: layout.word)
-def test_a_panel_that_asks_for_more_than_the_screen_is_scrolled(window, layout):
+@pytest.mark.parametrize("layout", BUILT_IN, ids=lambda layout: layout.plain_title)
+def test_a_panel_larger_than_the_screen_is_scrolled(window, layout):
     before = window.size()
-    window.panels.kinds["huge"] = HugePanel
+    window.panels.panel_types["huge"] = HugePanel
     window._add_dock("huge", HugePanel)
     window.arrangement.arrange(layout)
     window.bring_up("huge")
@@ -123,25 +136,25 @@ def test_a_panel_that_asks_for_more_than_the_screen_is_scrolled(window, layout):
     assert window.size() == before
     assert dock.widget().widget().size().toTuple() == (3000, 3000)
     assert dock.widget().verticalScrollBar().maximum() > 2000
-    assert look_at(window, SMALLEST) == []
+    assert find_faults_at_size(window, SMALLEST_SIZE) == []
 
 
-def sizes_of_docks(window):
+def get_dock_sizes(window):
     docks = window.docks.items()
     return {name: dock.size() for name, dock in docks if not dock.visibleRegion().isEmpty()}
 
 
-@pytest.mark.parametrize("layout", BUILT_IN, ids=lambda layout: layout.word)
-def test_docks_have_their_former_sizes_when_the_size_of_text_is_reset(window, settings, layout):
+@pytest.mark.parametrize("layout", BUILT_IN, ids=lambda layout: layout.plain_title)
+def test_docks_regain_their_sizes_when_the_text_scale_is_reset(window, settings, layout):
     window.arrangement.arrange(layout)
     window.resizeDocks([window.docks["control"]], [400], Qt.Orientation.Horizontal)
     settle()
-    before = sizes_of_docks(window)
+    before = get_dock_sizes(window)
     use_scale(window, settings, 2.0)
-    assert sizes_of_docks(window) != before
+    assert get_dock_sizes(window) != before
     use_scale(window, settings, 1.0)
-    after = sizes_of_docks(window)
+    after = get_dock_sizes(window)
     assert after.keys() == before.keys()
-    for name, size in after.items():  # all but what separators, which grow too, round away
+    for name, size in after.items():  # up to the rounding of separators, which are scaled too
         assert abs(size.width() - before[name].width()) <= 2
         assert abs(size.height() - before[name].height()) <= 2

@@ -1,4 +1,4 @@
-"""Every kind of camera in tests, each over a fake of what lies below its driver."""
+"""Every kind of camera, each with a fake of the library that its driver calls."""
 
 # ruff: noqa: N802 (the names are those of OpenCV and Micro-Manager)
 
@@ -12,40 +12,49 @@ from typing import Any
 import cv2
 import numpy as np
 
-from rotemina.drivers.cameras.camera import Camera, CameraIdentity, Picture
-from rotemina.drivers.cameras.micromanager import MicroManager
+from rotemina.drivers.cameras import (
+    Camera,
+    CameraDescription,
+    CameraIdentity,
+    CameraSettings,
+    CameraSource,
+    PixelType,
+    RawFrame,
+    SimulatedMicroscope,
+)
+from rotemina.drivers.cameras.micromanager import MicroManagerSource
 from rotemina.drivers.cameras.opencv import OpenCvSource
-from rotemina.drivers.cameras.sequence import ImageSequences
-from rotemina.drivers.cameras.settings import CameraDescription, CameraSettings, PixelType
-from rotemina.drivers.cameras.simulated import SimulatedMicroscope
-from rotemina.drivers.cameras.source import CameraSource
-from rotemina.drivers.simulator.driver import Simulator
-from rotemina.sim.microscope.renderer import Renderer
-from rotemina.sim.robot.file import load_robot
+from rotemina.drivers.cameras.sequence import ImageSequenceSource
+from rotemina.drivers.simulator import Simulator
+from rotemina.sim.microscope import SceneRenderer
+from rotemina.sim.robot_files import load_robot
 
 RAW_TEXT = "(-215:Assertion failed) !_src.empty()"
 
 
 class Fault(StrEnum):
-    """What a library does to one picture."""
+    """A fault of a library in one picture."""
 
-    FAILS = "fails"  # in the library's own way, such as False
-    RAISES = "raises"  # anything at all
+    # The library reports the failure as usual, for example by False.
+    FAILS = "fails"
+    # The library raises an unexpected exception.
+    RAISES = "raises"
     EMPTY = "empty"
     OTHER_SHAPE = "other shape"
     OTHER_TYPE = "other type"
 
 
 class LibraryError(RuntimeError):
-    """A failed read, for libraries that say so by an exception."""
+    """A failed read, for libraries that report it by an exception."""
 
 
 class Tap:
-    """What a library's pictures come through: faults, or the same few buffers again and again."""
+    """Filter for the pictures of a library: adds faults, or repeats a few buffers."""
 
     def __init__(self):
-        self.faults: list[Fault] = []  # of the next pictures
-        self.forever: Fault | None = None  # of all that follow
+        # Faults of the next pictures, then of all further ones.
+        self.faults: list[Fault] = []
+        self.forever: Fault | None = None
         self.buffers: list[Any] = []
         self.read = 0
 
@@ -53,9 +62,9 @@ class Tap:
         self.read += 1
         if self.buffers:
             return self.buffers[self.read % len(self.buffers)].copy()
-        return self._spoilt(pixels, self.faults.pop(0) if self.faults else self.forever)
+        return self._apply_fault(pixels, self.faults.pop(0) if self.faults else self.forever)
 
-    def _spoilt(self, pixels, fault):
+    def _apply_fault(self, pixels, fault):
         match fault:
             case Fault.FAILS:
                 raise LibraryError("buffer read failed")
@@ -70,21 +79,21 @@ class Tap:
         return pixels
 
     def freeze(self, pixels, buffers, seed=0):
-        """Give noisy pictures like ``pixels`` from now on, from so many buffers."""
-        top = 4096 if pixels.dtype == np.uint16 else 256
+        """Return only noise from now on: ``buffers`` pictures like ``pixels``, in turns."""
+        full_scale = 4096 if pixels.dtype == np.uint16 else 256
         rng = np.random.default_rng(seed)
         self.buffers = [
-            rng.integers(top // 4, top // 2, pixels.shape).astype(pixels.dtype)
+            rng.integers(full_scale // 4, full_scale // 2, pixels.shape).astype(pixels.dtype)
             for _ in range(buffers)
         ]
 
 
 class FakeCapture:
-    """A USB camera as OpenCV shows it; ``there`` False: unplugged."""
+    """A USB camera as seen through OpenCV. ``is_connected`` is False when it is unplugged."""
 
     def __init__(self, shape=(48, 64, 3)):
-        self.there, self.shape, self.count, self.taken = True, shape, 0, {}
-        self.refuses = set()
+        self.is_connected, self.shape, self.count, self.properties = True, shape, 0, {}
+        self.rejected_properties = set()
         self.arguments = None
         self.tap = Tap()
 
@@ -93,20 +102,20 @@ class FakeCapture:
         return self
 
     def isOpened(self):
-        return self.there
+        return self.is_connected
 
     def getBackendName(self):
         return "V4L2"
 
-    def get(self, which):
-        return self.taken.get(which, 1.0)
+    def get(self, property_id):
+        return self.properties.get(property_id, 1.0)
 
-    def set(self, which, value):
-        self.taken[which] = value
-        return which not in self.refuses
+    def set(self, property_id, value):
+        self.properties[property_id] = value
+        return property_id not in self.rejected_properties
 
     def read(self):
-        if not self.there:
+        if not self.is_connected:
             return False, None
         self.count += 1
         try:
@@ -119,20 +128,20 @@ class FakeCapture:
 
 
 class FakeCore:
-    """Micro-Manager's core with one camera of 12 bits, which takes a picture at every look."""
+    """The core of Micro-Manager with a 12-bit camera, which takes a picture at every query."""
 
     def __init__(self):
-        self.there, self.roi, self.sequence, self.buffer = True, (0, 0, 64, 48), False, 0
+        self.is_connected, self.roi, self.sequence, self.buffer = True, (0, 0, 64, 48), False, 0
         self.count, self.exposure_ms, self.properties, self.camera = 0, 10.0, {"Gain": 1.0}, "HRm"
-        self.components, self.size, self.loaded = 1, 2, None
+        self.components, self.bytes_per_pixel, self.loaded = 1, 2, None
         self.tap = Tap()
 
-    def _ask(self):
-        if not self.there:
+    def _check_connection(self):
+        if not self.is_connected:
             raise RuntimeError("Device is not responding")
 
     def loadSystemConfiguration(self, file):
-        self._ask()
+        self._check_connection()
         self.loaded = file
 
     def unloadAllDevices(self):
@@ -142,13 +151,14 @@ class FakeCore:
         return self.camera
 
     def clearROI(self):
-        self._ask()
+        self._check_connection()
         assert not self.sequence, "Micro-Manager refuses a region while a sequence runs"
         self.roi = (0, 0, 64, 48)
 
     def setROI(self, *roi):
         assert not self.sequence
-        self.roi = (roi[0] // 4 * 4, *roi[1:])  # columns begin at multiples of 4
+        # The first column is a multiple of 4.
+        self.roi = (roi[0] // 4 * 4, *roi[1:])
 
     def getROI(self):
         return list(self.roi)
@@ -163,7 +173,7 @@ class FakeCore:
         return self.components
 
     def getBytesPerPixel(self):
-        return self.size
+        return self.bytes_per_pixel
 
     def getImageBitDepth(self):
         return 12
@@ -181,41 +191,41 @@ class FakeCore:
         return 8.0
 
     def setProperty(self, label, name, value):
-        self._ask()
+        self._check_connection()
         if value == 3.0:
             raise RuntimeError("Gain: invalid value")
         self.properties[name] = value
 
     def setExposure(self, ms):
-        self._ask()
+        self._check_connection()
         self.exposure_ms = ms
 
     def getExposure(self):
         return self.exposure_ms
 
     def startContinuousSequenceAcquisition(self, interval_ms):
-        self._ask()
+        self._check_connection()
         self.sequence = True
 
     def stopSequenceAcquisition(self):
-        self._ask()
+        self._check_connection()
         self.sequence = False
         self.buffer = 0
 
     def isSequenceRunning(self):
-        return self.sequence and self.there
+        return self.sequence and self.is_connected
 
     def getRemainingImageCount(self):
-        self.buffer += self.there and self.sequence
+        self.buffer += self.is_connected and self.sequence
         return self.buffer
 
     def popNextImage(self):
-        assert self.buffer, "nothing is there"
+        assert self.buffer, "the buffer is empty"
         self.buffer -= 1
         return self.getImage()
 
     def snapImage(self):
-        self._ask()
+        self._check_connection()
         assert not self.sequence
 
     def getImage(self):
@@ -223,8 +233,8 @@ class FakeCore:
         return self.tap(np.full((self.roi[3], self.roi[2]), self.count, np.uint16))
 
 
-class TappedFilm:
-    """OpenCV's reader of a real file."""
+class TappedVideo:
+    """The video file reader of OpenCV, with a tap on its pictures."""
 
     def __init__(self, tap, *arguments):
         self._tap, self._stream = tap, cv2.VideoCapture(*arguments)
@@ -233,17 +243,17 @@ class TappedFilm:
         return getattr(self._stream, name)
 
     def read(self):
-        there, pixels = self._stream.read()
-        if not there:
-            return there, pixels
+        is_read, pixels = self._stream.read()
+        if not is_read:
+            return is_read, pixels
         try:
             return True, self._tap(pixels)
         except LibraryError:
             return False, None
 
 
-def write_film(path, count=6, size=(64, 48), rate_hz=25.0):
-    """Write grey pictures, each brighter than the one before by 20, as Motion JPEG."""
+def write_video(path, count=6, size=(64, 48), rate_hz=25.0):
+    """Write grey pictures, each brighter by 20 than the previous one, as Motion JPEG."""
     writer = cv2.VideoWriter(str(path), cv2.VideoWriter_fourcc(*"MJPG"), rate_hz, size)
     for number in range(count):
         writer.write(np.full((size[1], size[0], 3), 20 * number + 20, np.uint8))
@@ -252,7 +262,7 @@ def write_film(path, count=6, size=(64, 48), rate_hz=25.0):
 
 
 def write_sequence(folder, numbers, size=(64, 48), dtype=np.uint16, kind="png"):
-    """Write pictures 1.png, 2.png, … into a folder, each full of its number."""
+    """Write pictures such as 1.png and 2.png into a folder; all pixels are the number."""
     folder.mkdir(exist_ok=True)
     for number in numbers:
         assert cv2.imwrite(str(folder / f"{number}.{kind}"), np.full(size[::-1], number, dtype))
@@ -260,7 +270,7 @@ def write_sequence(folder, numbers, size=(64, 48), dtype=np.uint16, kind="png"):
 
 
 class PluginSource(CameraSource):
-    """A third party's source, over a library that is but a function."""
+    """A third-party source, whose library is a function."""
 
     def __init__(self, library, *, noise_free=False, **host):
         super().__init__(**host)
@@ -289,12 +299,12 @@ class PluginCamera(Camera):
 
     def _grab(self, timeout_s):
         self.wait(min(timeout_s, 0.04))
-        return Picture(self._source.library(), 8, self.clock())
+        return RawFrame(self._source.library(), 8, self.clock())
 
 
 @dataclass
 class Bench:
-    """A camera, how it is unplugged, and what its library's pictures come through."""
+    """A camera, a function that unplugs it, and the tap for its pictures."""
 
     camera: Camera
     unplug: Callable[[], object]
@@ -304,8 +314,10 @@ class Bench:
 def simulated_bench(clock, folder, monkeypatch):
     drivers = [Simulator(load_robot("rotemina"), clock=clock)]
     source = SimulatedMicroscope(lambda: drivers[0], clock=clock, wait=clock.advance)
-    tap, draw = Tap(), Renderer.frame
-    monkeypatch.setattr(Renderer, "frame", lambda *args, **options: tap(draw(*args, **options)))
+    tap, render_frame = Tap(), SceneRenderer.render_frame
+    monkeypatch.setattr(
+        SceneRenderer, "render_frame", lambda *args, **options: tap(render_frame(*args, **options))
+    )
 
     def unplug():
         drivers[0] = Simulator(load_robot("fsm"), clock=clock)
@@ -316,20 +328,21 @@ def simulated_bench(clock, folder, monkeypatch):
 def device_bench(clock, folder, monkeypatch):
     capture = FakeCapture()
     source = OpenCvSource(
-        clock=clock, wait=clock.advance, listed=lambda: {"0": "Cam"}, capture=capture
+        clock=clock, wait=clock.advance, list_cameras=lambda: {"0": "Cam"}, capture=capture
     )
     camera = source.camera(source.devices()[0])
-    return Bench(camera, lambda: setattr(capture, "there", False), capture.tap)
+    return Bench(camera, lambda: setattr(capture, "is_connected", False), capture.tap)
 
 
 def film_bench(clock, folder, monkeypatch):
     tap = Tap()
     source = OpenCvSource(
-        clock=clock, wait=clock.advance, capture=lambda *arguments: TappedFilm(tap, *arguments)
+        clock=clock, wait=clock.advance, capture=lambda *arguments: TappedVideo(tap, *arguments)
     )
-    camera = source.camera(source.addressed(str(write_film(folder / "v.avi"))))
+    camera = source.camera(source.parse_address(str(write_video(folder / "v.avi"))))
 
-    def unplug():  # a file ends
+    def unplug():
+        # A file cannot be unplugged, but it ends.
         camera.configure(CameraSettings(repeat=False))
 
     return Bench(camera, unplug, tap)
@@ -339,37 +352,37 @@ def sequence_bench(clock, folder, monkeypatch):
     files = write_sequence(folder / "sequence", range(1, 12))
     tap, read = Tap(), cv2.imreadmulti
 
-    def tapped(*arguments, **options):
-        there, pages = read(*arguments, **options)
+    def read_through_tap(*arguments, **options):
+        is_read, pages = read(*arguments, **options)
         try:
-            return there, [tap(page) for page in pages]
+            return is_read, [tap(page) for page in pages]
         except LibraryError:
             return False, ()
 
-    monkeypatch.setattr(cv2, "imreadmulti", tapped)
-    source = ImageSequences(clock=clock, wait=clock.advance)
-    camera = source.camera(source.addressed(str(files)))
+    monkeypatch.setattr(cv2, "imreadmulti", read_through_tap)
+    source = ImageSequenceSource(clock=clock, wait=clock.advance)
+    camera = source.camera(source.parse_address(str(files)))
     return Bench(camera, lambda: shutil.rmtree(files), tap)
 
 
 def micromanager_bench(clock, folder, monkeypatch):
     core = FakeCore()
     (folder / "axiocam.cfg").write_text("Device,HRm,AxioCam,HRm")
-    source = MicroManager(clock=clock, wait=clock.advance, core=lambda: core)
-    camera = source.camera(source.addressed(str(folder / "axiocam.cfg")))
-    return Bench(camera, lambda: setattr(core, "there", False), core.tap)
+    source = MicroManagerSource(clock=clock, wait=clock.advance, core=lambda: core)
+    camera = source.camera(source.parse_address(str(folder / "axiocam.cfg")))
+    return Bench(camera, lambda: setattr(core, "is_connected", False), core.tap)
 
 
 def plugin_bench(clock, folder, monkeypatch):
-    tap, number, there = Tap(), cycle(range(1, 250)), [True]
+    tap, number, connected = Tap(), cycle(range(1, 250)), [True]
 
     def library():
-        if not there:
+        if not connected:
             raise OSError("no such device")
         return tap(np.full((48, 64), next(number), np.uint8))
 
     source = PluginSource(library, clock=clock, wait=clock.advance)
-    return Bench(source.camera(source.devices()[0]), there.clear, tap)
+    return Bench(source.camera(source.devices()[0]), connected.clear, tap)
 
 
 BENCHES = [

@@ -1,4 +1,4 @@
-"""What tests of cameras share: each kind of camera, and fakes of what lies below it."""
+"""Fixtures for tests of cameras: each kind of camera, and fakes of the libraries."""
 
 from functools import partial
 
@@ -18,8 +18,8 @@ def core():
 
 
 @pytest.fixture
-def write_film():
-    return camera_benches.write_film
+def write_video():
+    return camera_benches.write_video
 
 
 @pytest.fixture
@@ -27,11 +27,12 @@ def write_sequence(tmp_path):
     return partial(camera_benches.write_sequence, tmp_path / "sequence")
 
 
-@pytest.fixture(params=BENCHES, ids=lambda make: make.__name__)
+@pytest.fixture(params=BENCHES, ids=lambda make_bench: make_bench.__name__)
 def bench(request, clock, tmp_path, monkeypatch):
-    make = request.param
-    make = getattr(camera_benches, make) if isinstance(make, str) else make
-    return make(clock, tmp_path, monkeypatch)
+    make_bench = request.param
+    if isinstance(make_bench, str):
+        make_bench = getattr(camera_benches, make_bench)
+    return make_bench(clock, tmp_path, monkeypatch)
 
 
 @pytest.fixture

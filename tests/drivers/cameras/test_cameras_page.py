@@ -1,4 +1,4 @@
-"""The pages about cameras: their examples work, and what they name is there."""
+"""The examples on the pages about cameras work."""
 
 import re
 from pathlib import Path
@@ -6,24 +6,24 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rotemina.drivers.cameras.errors import CameraLostError
-from rotemina.drivers.cameras.hub import CameraHub
+from rotemina.drivers.cameras import CameraHub
+from rotemina.drivers.contract import CameraLostError
 
 DOCS = Path(__file__).parents[3] / "docs"
 
 
-def blocks(page):
+def code_blocks(page):
     return re.findall(r"```python\n(.*?)```", (DOCS / page).read_text("utf-8"), re.DOTALL)
 
 
 def test_the_example_source_works(tmp_path, clock):
     names = {}
-    exec(blocks("cameras.md")[0], names)  # noqa: S102 - the page's own code
+    exec(code_blocks("cameras.md")[0], names)  # noqa: S102 - the page's own code
     names["FILE"] = file = tmp_path / "picture.npy"
     hub = CameraHub({"shown": names["Shown"](clock=clock, wait=clock.advance)})
-    assert hub.look() == ()
+    assert hub.find_cameras() == ()
     np.save(file, np.full((6, 8), 7, np.uint8))
-    camera = hub.camera(hub.look()[0])
+    camera = hub.make_camera(hub.find_cameras()[0])
     camera.open()
     assert camera.grab(1.0).pixels.tolist() == [[7] * 8] * 6
     file.unlink()
@@ -33,7 +33,7 @@ def test_the_example_source_works(tmp_path, clock):
 
 def test_the_example_of_the_microscope_works():
     names = {}
-    (example,) = (block for block in blocks("microscope.md") if "Renderer" in block)
+    (example,) = (block for block in code_blocks("microscope.md") if "Renderer" in block)
     exec(example, names)  # noqa: S102 - the page's own code
     assert names["picture"].shape == (1030, 1300)
     np.testing.assert_allclose([names["u"], names["v"]], [649.5, 514.5])

@@ -1,45 +1,52 @@
-"""Reads that fail, over every kind of camera: one is a lost picture, a second of them the end."""
+"""Failed reads of every kind of camera.
+
+One failed read is a lost picture. After one second of failed reads, the camera is lost.
+"""
 
 import numpy as np
 import pytest
 from tests.drivers.cameras.camera_benches import RAW_TEXT, Fault
 
-from rotemina.drivers.cameras.errors import CameraLostError, CameraReadError, CameraRefusedError
-from rotemina.drivers.cameras.settings import CameraSettings, Trigger
-from rotemina.drivers.errors import StateError
+from rotemina.drivers.cameras import CameraSettings, CameraTrigger
+from rotemina.drivers.contract import (
+    CameraLostError,
+    CameraReadError,
+    CameraRefusedError,
+    StateError,
+)
 
-LONG_S, SHORT_S = 1.0, 0.1
+LONG_TIMEOUT_S, SHORT_TIMEOUT_S = 1.0, 0.1
 ADVICE = r"open it again|convert it|truncated or missing"
 
 
 def grab_until_lost(camera):
     for _ in range(40):
-        camera.grab(SHORT_S)
+        camera.grab(SHORT_TIMEOUT_S)
 
 
 @pytest.mark.parametrize("fault", Fault)
-def test_one_bad_picture_is_passed_over_and_counted(bench, camera, fault):
-    before = camera.grab(LONG_S)
+def test_one_bad_picture_is_skipped_and_counted(bench, camera, fault):
+    first_frame = camera.grab(LONG_TIMEOUT_S)
     bench.tap.faults = [fault]
-    after = [camera.grab(LONG_S) for _ in range(3)]
-    assert [frame.lost - before.lost for frame in after] == [1, 1, 1]
-    assert [frame.number - before.number for frame in after] == [2, 3, 4]
-    assert {frame.pixels.shape for frame in after} == {before.pixels.shape}
-    assert {frame.pixels.dtype for frame in after} == {before.pixels.dtype}
+    later_frames = [camera.grab(LONG_TIMEOUT_S) for _ in range(3)]
+    assert [frame.lost - first_frame.lost for frame in later_frames] == [1, 1, 1]
+    assert [frame.number - first_frame.number for frame in later_frames] == [2, 3, 4]
+    assert {frame.pixels.shape for frame in later_frames} == {first_frame.pixels.shape}
+    assert {frame.pixels.dtype for frame in later_frames} == {first_frame.pixels.dtype}
 
 
 @pytest.mark.parametrize("fault", [Fault.FAILS, Fault.RAISES, Fault.EMPTY])
-def test_the_very_first_reads_may_fail(bench, fault):
+def test_the_first_reads_may_fail(bench, fault):
     bench.tap.faults = [fault, fault]
     bench.camera.open()
-    frame = bench.camera.grab(LONG_S)
+    frame = bench.camera.grab(LONG_TIMEOUT_S)
     assert (frame.lost, frame.number) == (2, 2)
     bench.camera.close()
 
 
 @pytest.mark.parametrize("fault", Fault)
-def test_a_second_of_nothing_but_bad_pictures_loses_the_camera(bench, camera, clock, fault, caplog):
-    camera.grab(LONG_S)
+def test_a_second_without_good_pictures_loses_the_camera(bench, camera, clock, fault, caplog):
+    camera.grab(LONG_TIMEOUT_S)
     bench.tap.forever = fault
     began_s = clock()
     with pytest.raises(CameraLostError, match=ADVICE) as lost:
@@ -50,18 +57,18 @@ def test_a_second_of_nothing_but_bad_pictures_loses_the_camera(bench, camera, cl
 
 
 @pytest.mark.parametrize("fault", [Fault.FAILS, Fault.RAISES, Fault.EMPTY])
-def test_bad_pictures_for_less_than_a_second_do_not(bench, camera, clock, fault):
-    camera.grab(LONG_S)
+def test_bad_pictures_for_less_than_a_second_do_not_lose_the_camera(bench, camera, clock, fault):
+    camera.grab(LONG_TIMEOUT_S)
     for _ in range(3):
         bench.tap.forever, until_s = fault, clock() + 0.8
         while clock() < until_s:
-            assert camera.grab(SHORT_S) is None
+            assert camera.grab(SHORT_TIMEOUT_S) is None
         bench.tap.forever = None
-        assert camera.grab(LONG_S) is not None
+        assert camera.grab(LONG_TIMEOUT_S) is not None
 
 
 @pytest.mark.parametrize("fault", [Fault.FAILS, Fault.RAISES, Fault.EMPTY])
-def test_a_camera_that_gives_nothing_from_the_first_read_on_is_lost(bench, clock, fault):
+def test_a_camera_without_any_good_picture_is_lost(bench, clock, fault):
     bench.tap.forever = fault
     began_s = clock()
     with pytest.raises((CameraLostError, CameraRefusedError), match=rf"{ADVICE}|another file"):
@@ -73,26 +80,26 @@ def test_a_camera_that_gives_nothing_from_the_first_read_on_is_lost(bench, clock
 
 
 def test_a_trigger_gives_the_next_good_picture(bench, camera):
-    if Trigger.SOFTWARE not in camera.description.triggers:
-        assert camera.grab(LONG_S) is not None
+    if CameraTrigger.SOFTWARE not in camera.description.triggers:
+        assert camera.grab(LONG_TIMEOUT_S) is not None
         return
-    camera.configure(CameraSettings(trigger=Trigger.SOFTWARE))
+    camera.configure(CameraSettings(trigger=CameraTrigger.SOFTWARE))
     bench.tap.faults = [Fault.FAILS, Fault.EMPTY]
     camera.trigger()
-    assert camera.grab(LONG_S).lost == 2
-    assert camera.grab(SHORT_S) is None
+    assert camera.grab(LONG_TIMEOUT_S).lost == 2
+    assert camera.grab(SHORT_TIMEOUT_S) is None
 
 
 @pytest.mark.parametrize("bench", ["plugin_bench"], indirect=True, ids=str)
-def test_one_read_that_times_out_is_not_the_end_however_long_it_took(bench, camera, clock):
+def test_one_long_read_without_a_picture_does_not_lose_the_camera(bench, camera, clock):
     camera._source.library = lambda: clock.advance(10.0)
-    assert camera.grab(SHORT_S) is None
+    assert camera.grab(SHORT_TIMEOUT_S) is None
     camera._source.library = lambda: np.full((48, 64), 9, np.uint8)
-    assert camera.grab(SHORT_S).lost == 1
+    assert camera.grab(SHORT_TIMEOUT_S).lost == 1
 
 
 @pytest.mark.parametrize("bench", ["plugin_bench"], indirect=True, ids=str)
-def test_the_last_failure_says_what_happened(bench, camera):
+def test_the_error_contains_the_message_of_the_last_failure(bench, camera):
     def library():
         raise CameraReadError("Plugin: the shutter is closed; open it")
 

@@ -1,21 +1,20 @@
-"""Micro-Manager's cameras, over a fake of its core."""
+"""Micro-Manager's cameras, with a fake of its core."""
 
 import pytest
 
-from rotemina.drivers.cameras.errors import CameraLostError, CameraRefusedError, CameraSettingError
-from rotemina.drivers.cameras.frame import Region
-from rotemina.drivers.cameras.micromanager import MicroManager
-from rotemina.drivers.cameras.settings import CameraSettings
+from rotemina.drivers.cameras import CameraSettings, SensorRegion
+from rotemina.drivers.cameras.micromanager import MicroManagerSource
+from rotemina.drivers.contract import CameraLostError, CameraRefusedError, CameraSettingError
 
 
 @pytest.fixture
 def camera(clock, core, tmp_path):
     (tmp_path / "axiocam.cfg").write_text("")
-    source = MicroManager(clock=clock, wait=clock.advance, core=lambda: core)
-    return source.camera(source.addressed(str(tmp_path / "axiocam.cfg")))
+    source = MicroManagerSource(clock=clock, wait=clock.advance, core=lambda: core)
+    return source.camera(source.parse_address(str(tmp_path / "axiocam.cfg")))
 
 
-def test_the_newest_picture_and_how_many_were_lost(camera, core):
+def test_grab_returns_the_newest_picture_and_counts_the_lost_ones(camera, core):
     camera.open()
     core.buffer = 4
     frame = camera.grab(1.0)
@@ -25,15 +24,15 @@ def test_the_newest_picture_and_how_many_were_lost(camera, core):
 
 def test_settings_reach_the_camera(camera, core):
     camera.open()
-    camera.configure(CameraSettings(exposure_s=0.025, gain=2.0, region=Region(6, 8, 20, 10)))
+    camera.configure(CameraSettings(exposure_s=0.025, gain=2.0, region=SensorRegion(6, 8, 20, 10)))
     assert (core.exposure_ms, core.properties["Gain"]) == (25.0, 2.0)
     frame = camera.grab(1.0)
-    # Where the camera has moved the region to what it can.
-    assert frame.region == camera.settings.region == Region(4, 8, 20, 10)
+    # The camera has moved the region to a column that it supports.
+    assert frame.region == camera.settings.region == SensorRegion(4, 8, 20, 10)
     assert frame.exposure_s == 0.025
 
 
-def test_what_the_camera_refuses_changes_nothing(camera, core, caplog):
+def test_settings_that_the_camera_rejects_change_nothing(camera, core, caplog):
     camera.open()
     camera.configure(CameraSettings(gain=2.0))
     with pytest.raises(CameraSettingError, match=r"rejected the settings.*Choose other values"):
@@ -43,7 +42,7 @@ def test_what_the_camera_refuses_changes_nothing(camera, core, caplog):
     assert camera.grab(1.0) is not None
 
 
-def test_no_picture_in_time(camera, core, clock):
+def test_grab_returns_none_after_its_timeout(camera, core, clock):
     camera.open()
     core.getRemainingImageCount = lambda: 0
     before_s = clock()
@@ -54,12 +53,12 @@ def test_no_picture_in_time(camera, core, clock):
 @pytest.mark.parametrize(
     ("change", "error", "reason"),
     [
-        ({"there": False}, CameraLostError, "cannot open it; the log has the cause"),
+        ({"is_connected": False}, CameraLostError, "cannot open it; see the log for the cause"),
         ({"camera": ""}, CameraRefusedError, "names no camera"),
-        ({"size": 4}, CameraRefusedError, "pixels of 4 bytes"),
+        ({"bytes_per_pixel": 4}, CameraRefusedError, "pixels of 4 bytes"),
     ],
 )
-def test_what_cannot_be_opened(camera, core, change, error, reason):
+def test_a_camera_that_cannot_be_opened_says_why(camera, core, change, error, reason):
     for name, value in change.items():
         setattr(core, name, value)
     with pytest.raises(error, match=reason):
@@ -67,16 +66,16 @@ def test_what_cannot_be_opened(camera, core, change, error, reason):
     assert core.loaded is None
 
 
-def test_the_extra_is_missing(monkeypatch, tmp_path):
+def test_a_missing_micromanager_package_is_reported(monkeypatch, tmp_path):
     monkeypatch.setattr("rotemina.drivers.cameras.micromanager.find_spec", lambda name: None)
-    assert "pip install" in MicroManager().problem
+    assert "pip install" in MicroManagerSource().problem
     monkeypatch.setitem(__import__("sys").modules, "pymmcore_plus", None)
     (tmp_path / "a.cfg").write_text("")
-    source = MicroManager()
+    source = MicroManagerSource()
     with pytest.raises(CameraRefusedError, match="pip install"):
-        source.camera(source.addressed(str(tmp_path / "a.cfg"))).open()
+        source.camera(source.parse_address(str(tmp_path / "a.cfg"))).open()
 
 
-def test_a_configuration_has_to_be_named():
+def test_an_address_must_name_a_configuration_file():
     with pytest.raises(CameraRefusedError, match="configuration file"):
-        MicroManager().addressed("AxioCam")
+        MicroManagerSource().parse_address("AxioCam")

@@ -4,9 +4,10 @@ import cv2
 import numpy as np
 import pytest
 
-from rotemina.drivers.cameras.errors import CameraLostError, CameraRefusedError, CameraSettingError
-from rotemina.drivers.cameras.opencv import OpenCvSource, plugged_in
-from rotemina.drivers.cameras.settings import CameraSettings
+from rotemina.drivers.cameras import CameraSettings
+from rotemina.drivers.cameras.opencv import OpenCvSource, list_v4l_cameras
+from rotemina.drivers.contract import CameraLostError, CameraRefusedError, CameraSettingError
+from rotemina.sim.messages import Message
 
 
 @pytest.fixture
@@ -17,22 +18,22 @@ def source(clock):
 @pytest.fixture
 def device(clock, capture):
     source = OpenCvSource(clock=clock, wait=clock.advance, capture=capture)
-    camera = source.camera(source.addressed("2"))
+    camera = source.camera(source.parse_address("2"))
     camera.open()
     return camera
 
 
-def film(source, path):
-    camera = source.camera(source.addressed(str(path)))
+def open_video(source, path):
+    camera = source.camera(source.parse_address(str(path)))
     camera.open()
     return camera
 
 
-def test_a_film_plays_in_order_at_its_rate_and_begins_anew(source, write_film, tmp_path, clock):
-    camera = film(source, write_film(tmp_path / "v.avi", count=5, rate_hz=20.0))
+def test_a_video_plays_in_order_at_its_rate_and_repeats(source, write_video, tmp_path, clock):
+    camera = open_video(source, write_video(tmp_path / "v.avi", count=5, rate_hz=20.0))
     began_s = clock()
-    shown = [camera.grab(1.0) for _ in range(7)]
-    assert [round(int(frame.pixels[0, 0, 0]) / 20.0) for frame in shown] == [1, 2, 3, 4, 5, 1, 2]
+    frames = [camera.grab(1.0) for _ in range(7)]
+    assert [round(int(frame.pixels[0, 0, 0]) / 20.0) for frame in frames] == [1, 2, 3, 4, 5, 1, 2]
     assert clock() - began_s == pytest.approx(6 / 20.0)
     camera.configure(CameraSettings(rate_hz=2.0))
     camera.grab(1.0)
@@ -42,20 +43,20 @@ def test_a_film_plays_in_order_at_its_rate_and_begins_anew(source, write_film, t
     camera.close()
 
 
-def test_a_slow_reader_misses_nothing_of_a_film(source, write_film, tmp_path, clock):
-    camera = film(source, write_film(tmp_path / "v.avi", count=5))
-    shown = []
+def test_a_slow_reader_gets_every_picture_of_a_video(source, write_video, tmp_path, clock):
+    camera = open_video(source, write_video(tmp_path / "v.avi", count=5))
+    frames = []
     for _ in range(4):
-        shown.append(camera.grab(1.0))
+        frames.append(camera.grab(1.0))
         clock.advance(1.0)
-    assert [round(int(frame.pixels[0, 0, 0]) / 20.0) for frame in shown] == [1, 2, 3, 4]
+    assert [round(int(frame.pixels[0, 0, 0]) / 20.0) for frame in frames] == [1, 2, 3, 4]
     camera.close()
 
 
 @pytest.mark.parametrize(
     ("name", "content", "reason"),
     [
-        ("notes.txt", b"no film\n" * 300, "no video but a text"),
+        ("notes.txt", b"no film\n" * 300, "a text file, not a video"),
         ("broken.avi", b"RIFF garbage" * 100, "not a video"),
         ("empty.mp4", b"", "not a video"),
     ],
@@ -64,52 +65,62 @@ def test_a_file_that_is_no_video_is_refused(source, tmp_path, capfd, name, conte
     path = tmp_path / name
     path.write_bytes(content)
     with pytest.raises(CameraRefusedError, match=f"{name}.*{reason}.*choose another file"):
-        film(source, path)
+        open_video(source, path)
     assert capfd.readouterr() == ("", "")
 
 
-def test_one_picture_is_no_video(source, tmp_path):
+def test_a_single_picture_is_refused(source, tmp_path):
     path = tmp_path / "one.png"
     cv2.imwrite(str(path), np.zeros((8, 8), np.uint8))
-    with pytest.raises(CameraRefusedError, match="image sequence"):
-        film(source, path)
+    with pytest.raises(CameraRefusedError, match="image sequence") as refusal:
+        open_video(source, path)
+    assert isinstance(dict(refusal.value.args[0].fields)["reason"], Message)
 
 
-def test_a_file_that_is_not_there(source, tmp_path):
+def test_a_refusal_of_a_text_file_can_be_translated(source, tmp_path):
+    path = tmp_path / "notes.txt"
+    path.write_bytes(b"no film\n" * 300)
+    with pytest.raises(CameraRefusedError) as refusal:
+        open_video(source, path)
+    assert isinstance(dict(refusal.value.args[0].fields)["reason"], Message)
+
+
+def test_a_missing_file_is_reported(source, tmp_path):
     with pytest.raises(CameraLostError, match="file not found"):
-        film(source, tmp_path / "gone.avi")
+        open_video(source, tmp_path / "gone.avi")
 
 
-def test_a_device_that_is_not_there(clock, capture, capfd):
-    capture.there = False
+def test_a_missing_device_is_reported(clock, capture, capfd):
+    capture.is_connected = False
     source = OpenCvSource(clock=clock, wait=clock.advance, capture=capture)
     with pytest.raises(CameraLostError, match="no camera 3"):
-        source.camera(source.addressed(" 3 ")).open()
+        source.camera(source.parse_address(" 3 ")).open()
     assert capture.arguments == (3,)
 
 
 def test_a_device_has_a_short_buffer_and_a_manual_exposure(device, capture):
-    assert capture.taken[cv2.CAP_PROP_BUFFERSIZE] == 1
+    assert capture.properties[cv2.CAP_PROP_BUFFERSIZE] == 1
     device.configure(CameraSettings(exposure_s=0.02, gain=4.0))
-    assert capture.taken[cv2.CAP_PROP_EXPOSURE] == 200  # in 100 µs
-    assert capture.taken[cv2.CAP_PROP_GAIN] == 4.0
+    # OpenCV's unit of exposure is 100 µs.
+    assert capture.properties[cv2.CAP_PROP_EXPOSURE] == 200
+    assert capture.properties[cv2.CAP_PROP_GAIN] == 4.0
     assert device.grab(1.0).exposure_s == 0.02
 
 
-def test_a_device_that_takes_no_exposure(device, capture):
-    capture.refuses.add(cv2.CAP_PROP_EXPOSURE)
+def test_a_device_that_rejects_an_exposure_keeps_its_settings(device, capture):
+    capture.rejected_properties.add(cv2.CAP_PROP_EXPOSURE)
     with pytest.raises(CameraSettingError, match=r"exposure of 0\.02 s"):
         device.configure(CameraSettings(exposure_s=0.02))
     assert device.settings == CameraSettings()
 
 
-def test_another_resolution_is_no_picture_of_this_camera(device, capture):
+def test_a_change_of_resolution_loses_the_camera(device, capture):
     capture.shape = (24, 64, 3)
     with pytest.raises(CameraLostError, match="64 × 24 px, expected 64 × 48"):
         device.grab(1.0)
 
 
-def test_red_stays_red(tmp_path, clock):
+def test_colours_are_converted_from_bgr_to_rgb(tmp_path, clock):
     class RedCapture:
         def __call__(self, *_):
             return self
@@ -127,29 +138,29 @@ def test_red_stays_red(tmp_path, clock):
             return -1.0
 
         def read(self):
-            return True, np.full((4, 4, 3), (0, 0, 255), np.uint8)  # blue, green, red
+            return True, np.full((4, 4, 3), (0, 0, 255), np.uint8)  # BGR
 
         def release(self):
             pass
 
     source = OpenCvSource(clock=clock, wait=clock.advance, capture=RedCapture())
-    camera = source.camera(source.addressed("0"))
+    camera = source.camera(source.parse_address("0"))
     camera.open()
     assert camera.grab(1.0).pixels[0, 0].tolist() == [255, 0, 0]
     assert camera.description.exposure_s is None
     assert camera.description.gain is None
 
 
-def test_what_linux_lists(tmp_path):
+def test_v4l_cameras_are_listed_in_order_without_their_metadata_nodes(tmp_path):
     for number, index, name in ((10, 0, "Late"), (2, 0, "Cam"), (3, 1, "Cam: what comes with it")):
         folder = tmp_path / f"video{number}"
         folder.mkdir()
         (folder / "index").write_text(f"{index}\n")
         (folder / "name").write_text(f"{name}\n")
     (tmp_path / "video4").mkdir()
-    assert list(plugged_in(tmp_path).items()) == [("2", "Cam"), ("10", "Late")]
+    assert list(list_v4l_cameras(tmp_path).items()) == [("2", "Cam"), ("10", "Late")]
 
 
-def test_nothing_named(source):
+def test_an_empty_address_is_refused(source):
     with pytest.raises(CameraRefusedError, match="no address"):
-        source.addressed("  ")
+        source.parse_address("  ")

@@ -1,24 +1,22 @@
-"""The simulated microscope over the simulator: it shows where the machine truly is."""
+"""The simulated microscope shows the true position of the simulated machine."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from rotemina.drivers.cameras.errors import CameraLostError, CameraSettingError
-from rotemina.drivers.cameras.settings import CameraSettings
-from rotemina.drivers.cameras.simulated import SimulatedMicroscope
-from rotemina.drivers.simulator.driver import Simulator
-from rotemina.sim.kinematics.chain import Chain
-from rotemina.sim.kinematics.forward import tip_position
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.robot.model import AxisEffect, Tool
+from rotemina.drivers.cameras import CameraSettings, SimulatedMicroscope
+from rotemina.drivers.contract import CameraLostError, CameraSettingError
+from rotemina.drivers.simulator import Simulator
+from rotemina.sim.kinematics import KinematicChain, compute_tip_position
+from rotemina.sim.robot import AxisEffect, RobotTool
+from rotemina.sim.robot_files import load_robot
 
 ROBOT = load_robot("rotemina")
 
 
 class Bench:
-    """A simulator, its microscope, and the clock of both."""
+    """A simulator, its microscope, and their common clock."""
 
     def __init__(self, clock, robot=ROBOT, **options):
         self.clock = clock
@@ -30,20 +28,20 @@ class Bench:
         self.camera.open()
 
     def settle(self, **targets):
-        """Send axes there and let them come to rest."""
+        """Move axes to targets and wait until they are at rest."""
         self.driver.move_to(targets)
         for _ in range(20):
             self.clock.advance(0.1)
             self.driver.read()
 
 
-def true_tip(driver):
-    chain = Chain.of(driver.robot)
-    return tip_position(chain, chain.joints_of(np.array(driver.true_positions)))
+def true_tip_position(driver):
+    chain = KinematicChain.of(driver.robot)
+    return compute_tip_position(chain, chain.select_joints(np.array(driver.true_positions)))
 
 
-def dark_centre(frame):
-    """Return the centroid (u, v) of an upright pin's spot."""
+def find_spot_centre(frame):
+    """Return the centroid (u, v) of the dark spot of an upright pin, in px."""
     pixels = frame.pixels.astype(float)
     level = np.median(pixels)
     v, u = np.unravel_index(np.argmin(pixels), pixels.shape)
@@ -52,49 +50,53 @@ def dark_centre(frame):
     return np.array([(part * columns).sum(), (part * rows).sum()]) / part.sum() + [u - 9, v - 9]
 
 
-def test_it_follows_effects_and_not_commands(clock):
-    upright = replace(ROBOT, tool=Tool(approach_angle=np.pi / 2))
+def test_the_picture_shows_effects_and_not_commands(clock):
+    upright = replace(ROBOT, tool=RobotTool(approach_angle=np.pi / 2))
     play = AxisEffect(axis="x", id="backlash", parameters={"width": 2e-6})
     bench = Bench(clock, replace(upright, effects=(play,)))
     bench.driver.open()
     for x in (0.0276, 0.0275):
         bench.settle(x=x)
-    seen = dark_centre(bench.camera.grab(1.0))
+    spot_px = find_spot_centre(bench.camera.grab(1.0))
     optics = bench.camera.scene.optics
     commanded = np.array([0.0275, *bench.driver.true_positions[1:]])
-    chain = Chain.of(upright)
-    said = optics.pixel_of(tip_position(chain, commanded))
-    np.testing.assert_allclose(seen, optics.pixel_of(true_tip(bench.driver)), atol=0.15)
-    assert abs(seen[0] - said[0]) > 1.0  # backlash, in px
+    chain = KinematicChain.of(upright)
+    commanded_px = optics.pixel_of(compute_tip_position(chain, commanded))
+    np.testing.assert_allclose(spot_px, optics.pixel_of(true_tip_position(bench.driver)), atol=0.15)
+    assert abs(spot_px[0] - commanded_px[0]) > 1.0  # px, backlash
 
 
-def test_the_cell_is_drawn_where_the_tip_feels_it(clock):
+def test_the_cell_is_drawn_at_the_contact_of_the_tip(clock):
     bench = Bench(clock)
     bench.driver.open()
     bench.camera.grab(1.0)
-    beside = bench.camera.scene.cell
-    low, at = ROBOT.axes["zn"].range[0], bench.driver.true_positions[bench.driver.axes.index("zn")]
-    values = {"place": at - low - 5e-6, "stiffness": -0.1}
+    initial_cell = bench.camera.scene.cell
+    lower_limit = ROBOT.axes["zn"].range[0]
+    position = bench.driver.true_positions[bench.driver.axes.index("zn")]
+    values = {"place": position - lower_limit - 5e-6, "stiffness": -0.1}
     bench.driver.set_effects((AxisEffect(axis="zn", id="contact", parameters=values),))
     bench.camera.grab(1.0)
     cell = bench.camera.scene.cell
-    assert cell.level(true_tip(bench.driver)) > 1.05
-    bench.settle(zn=at - 4.9e-6)
-    assert cell.level(true_tip(bench.driver)) == pytest.approx(1.0, abs=0.02)  # 5 µm ahead
+    assert cell.radius_ratio_at(true_tip_position(bench.driver)) > 1.05
+    bench.settle(zn=position - 4.9e-6)
+    # The cell is 5 µm ahead of the tip.
+    assert cell.radius_ratio_at(true_tip_position(bench.driver)) == pytest.approx(1.0, abs=0.02)
     assert bench.camera.grab(1.0).metadata["pierced"] is False
     bench.driver.set_effects(())
     bench.camera.grab(1.0)
-    assert bench.camera.scene.cell == beside  # it is taken away
+    # The cell at the tip is taken away.
+    assert bench.camera.scene.cell == initial_cell
 
     bench.driver.set_effects((AxisEffect(axis="zn", id="contact", parameters=values),))
-    bench.settle(zn=at - 7e-6)
+    bench.settle(zn=position - 7e-6)
     bench.camera.grab(1.0)
-    bench.driver.set_effects(())  # while the tip is inside: the membrane gives way
+    # The effect ends while the tip is inside, so the membrane is pierced.
+    bench.driver.set_effects(())
     assert bench.camera.grab(1.0).metadata["pierced"] is True
-    assert bench.camera.scene.cell != beside
+    assert bench.camera.scene.cell != initial_cell
 
 
-def test_the_true_position_is_what_the_plant_says_and_may_be_had_of_a_closed_machine(clock):
+def test_the_true_position_comes_from_the_plant_and_can_be_read_after_closing(clock):
     driver = Simulator(ROBOT, clock=clock)
     assert driver.true_positions[:3] == (0.0275, 0.0275, 0.04)
     driver.open()
@@ -106,20 +108,21 @@ def test_the_true_position_is_what_the_plant_says_and_may_be_had_of_a_closed_mac
     assert driver.true_positions[0] == pytest.approx(0.0276, abs=1e-9)
 
 
-def test_a_machine_that_is_disconnected_stays_where_it_was(clock):
+def test_a_disconnected_machine_stays_at_its_last_position(clock):
     bench = Bench(clock)
     bench.driver.open()
     bench.settle(x=0.02745)
-    before = bench.camera.grab(1.0)
+    first_frame = bench.camera.grab(1.0)
     bench.driver = None
-    after = bench.camera.grab(1.0)
-    assert abs(after.pixels.astype(int) - before.pixels.astype(int)).mean() < 40.0
+    second_frame = bench.camera.grab(1.0)
+    assert abs(second_frame.pixels.astype(int) - first_frame.pixels.astype(int)).mean() < 40.0
     np.testing.assert_allclose(bench.camera._joints[0], 0.02745, atol=1e-8)
-    bench.driver = Simulator(load_robot("rotemina"), clock=clock)  # the same robot, connected anew
+    # The same robot is connected again.
+    bench.driver = Simulator(load_robot("rotemina"), clock=clock)
     assert bench.camera.grab(1.0) is not None
 
 
-def test_only_a_simulated_machine_can_be_seen(clock):
+def test_only_a_simulated_machine_can_be_shown(clock):
     source = SimulatedMicroscope(lambda: None, clock=clock, wait=clock.advance)
     assert (source.devices(), source.problem) == ((), None)
     bench = Bench(clock)
@@ -131,22 +134,22 @@ def test_only_a_simulated_machine_can_be_seen(clock):
         bench.camera.open()
 
 
-def test_another_robot_is_another_machine(clock):
+def test_a_change_of_robot_loses_the_camera(clock):
     bench = Bench(clock)
     bench.driver = Simulator(load_robot("fsm"), clock=clock)
     with pytest.raises(CameraLostError, match="close it and open it again"):
         bench.camera.grab(1.0)
 
 
-def test_frames_come_at_their_rate_and_those_nobody_took_are_counted(clock):
+def test_frames_come_at_their_rate_and_missed_frames_are_counted(clock):
     bench = Bench(clock)
     began_s = clock()
-    shown = [bench.camera.grab(1.0) for _ in range(5)]
+    frames = [bench.camera.grab(1.0) for _ in range(5)]
     assert clock() - began_s == pytest.approx(4 / 30.0)
-    assert [frame.number for frame in shown] == [0, 1, 2, 3, 4]
+    assert [frame.number for frame in frames] == [0, 1, 2, 3, 4]
     clock.advance(10.5 / 30.0)
-    late = bench.camera.grab(1.0)
-    assert (late.number, late.lost) == (14, 9)
+    late_frame = bench.camera.grab(1.0)
+    assert (late_frame.number, late_frame.lost) == (14, 9)
     bench.camera.configure(CameraSettings(exposure_s=0.5))
     bench.camera.grab(1.0)
     before_s = clock()
@@ -154,7 +157,7 @@ def test_frames_come_at_their_rate_and_those_nobody_took_are_counted(clock):
     assert clock() - before_s == pytest.approx(0.5)
 
 
-def test_exposure_and_gain_brighten(clock):
+def test_exposure_and_gain_brighten_the_picture(clock):
     bench = Bench(clock)
     levels = []
     for settings in (
@@ -168,13 +171,13 @@ def test_exposure_and_gain_brighten(clock):
     assert levels[2] / levels[1] == pytest.approx(2.0, rel=0.01)
 
 
-def test_the_focus_drive(clock):
+def test_the_focus_drive_blurs_the_picture_within_its_range(clock):
     bench = Bench(clock)
-    sharp = np.abs(np.diff(bench.camera.grab(1.0).pixels[505:525, 655].astype(float))).max()
+    sharp_step = np.abs(np.diff(bench.camera.grab(1.0).pixels[505:525, 655].astype(float))).max()
     bench.camera.move_focus(40e-6)
     frame = bench.camera.grab(1.0)
     assert frame.metadata["focus_m"] == bench.camera.focus_m == 40e-6
-    assert np.abs(np.diff(frame.pixels[505:525, 655].astype(float))).max() < 0.6 * sharp
+    assert np.abs(np.diff(frame.pixels[505:525, 655].astype(float))).max() < 0.6 * sharp_step
     with pytest.raises(CameraSettingError, match="focus at 600 µm"):
         bench.camera.move_focus(600e-6)
     with pytest.raises(CameraSettingError, match="focus at nan"):
@@ -188,10 +191,10 @@ def test_a_penetration_leaves_a_hole_until_the_cell_is_replaced(clock):
     bench.camera.grab(1.0)
     centre = bench.camera.scene.cell.centre_m
     joints = np.array(bench.driver.true_positions)
-    way = np.array(centre) - true_tip(bench.driver)
-    bench.settle(y=joints[1] + way[1])
+    offset_m = np.array(centre) - true_tip_position(bench.driver)
+    bench.settle(y=joints[1] + offset_m[1])
     assert not bench.camera.grab(1.0).metadata["pierced"]
-    bench.settle(x=joints[0] + way[0])
+    bench.settle(x=joints[0] + offset_m[0])
     assert bench.camera.grab(1.0).metadata["pierced"]
     bench.settle(x=joints[0])
     assert bench.camera.grab(1.0).metadata["pierced"]
@@ -200,12 +203,14 @@ def test_a_penetration_leaves_a_hole_until_the_cell_is_replaced(clock):
 
 
 def test_the_same_seed_gives_the_same_frames(clock):
-    one, other, third = (Bench(clock, seed=seed).camera.grab(1.0).pixels for seed in (3, 3, 4))
-    np.testing.assert_array_equal(one, other)
-    assert (one != third).mean() > 0.9
+    first, same_seed, other_seed = (
+        Bench(clock, seed=seed).camera.grab(1.0).pixels for seed in (3, 3, 4)
+    )
+    np.testing.assert_array_equal(first, same_seed)
+    assert (first != other_seed).mean() > 0.9
 
 
-def test_how_the_camera_is_mounted_is_part_of_the_scene(clock):
+def test_the_mounting_of_the_camera_is_part_of_the_scene(clock):
     bench = Bench(clock, mounting={"rotation_rad": 0.3, "mirrored": True})
     assert bench.camera.scene.optics.rotation_rad == 0.3
     assert bench.camera.scene.optics.mirrored

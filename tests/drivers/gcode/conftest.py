@@ -1,63 +1,61 @@
-"""What tests of the G-code stage share: the driver over a line in memory to an emulated stage."""
+"""Fixtures for tests of the G-code stage: the driver, connected in memory to an emulated stage."""
 
 import threading
 
 import pytest
 
-from rotemina.drivers.clock import VirtualClock
-from rotemina.drivers.conformance.bench import Bench as KitBench
-from rotemina.drivers.errors import ConnectionLostError
+from rotemina.drivers.conformance import DriverBench as ConformanceBench
+from rotemina.drivers.contract import ConnectionLostError, DeviceSamples, DeviceState, VirtualClock
+from rotemina.drivers.gcode import EmulatedStage
 from rotemina.drivers.gcode.driver import GcodeStage
-from rotemina.drivers.gcode.emulator import EmulatedStage
-from rotemina.drivers.samples import DeviceState, Samples
-from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot_files import load_robot
 
 
 class MemoryPort:
-    """A line in memory; threads may write to it while another one reads.
+    """A serial line in memory. Several threads may write to it while another thread reads.
 
-    ``delay_s`` passes each way; ``alter`` changes what the controller says; with ``echo`` what is
-    sent comes back too.
+    The line delays bytes by ``delay_s`` in each direction. ``alter`` changes the replies of the
+    controller. With ``echo``, sent bytes also come back.
     """
 
     def __init__(self, stage, clock, began_s, delay_s=0.0, alter=None, echo=False):
         self._stage, self._clock, self._began_s = stage, clock, began_s
         self.delay_s, self._echo = delay_s, echo
         self.alter = alter
-        self._turn = threading.Lock()
-        self._to, self._back = [], []
-        self.cut = self.gone = False
+        self._lock = threading.Lock()
+        self._sent, self._replies = [], []
+        self.is_cut = self.is_removed = False
         self.written = b""
 
     def read(self):
-        if self.gone:
+        if self.is_removed:
             raise ConnectionLostError("memory: the port is gone")
-        with self._turn:
+        with self._lock:
             now_s = self._deliver()
             data = b""
-            while self._back and self._back[0][0] <= now_s:
-                data += self._back.pop(0)[1]
-        if self.cut:
+            while self._replies and self._replies[0][0] <= now_s:
+                data += self._replies.pop(0)[1]
+        if self.is_cut:
             return b""
         return self.alter(data) if self.alter is not None else data
 
     def write(self, data):
-        with self._turn:
+        with self._lock:
             self.written += data
-            if not self.cut:
-                self._to.append((self._clock() - self._began_s + self.delay_s, data))
+            if not self.is_cut:
+                self._sent.append((self._clock() - self._began_s + self.delay_s, data))
             self._deliver()
 
     def _deliver(self):
         now_s = self._clock() - self._began_s
-        while self._to and self._to[0][0] <= now_s:
-            at_s, data = self._to.pop(0)
+        while self._sent and self._sent[0][0] <= now_s:
+            at_s, data = self._sent.pop(0)
             self._stage.receive(data, at_s)
             if self._echo:
-                self._back.append((at_s + self.delay_s, data))
+                self._replies.append((at_s + self.delay_s, data))
         reply = self._stage.advance(now_s)
         if reply:
-            self._back.append((now_s + self.delay_s, reply))
+            self._replies.append((now_s + self.delay_s, reply))
         return now_s
 
     def waiting(self):
@@ -68,7 +66,7 @@ class MemoryPort:
 
 
 class Bench:
-    """A driver that is joined to an emulated stage, whatever drivers come and go."""
+    """A driver connected to an emulated stage. Several drivers can use the stage in turn."""
 
     def __init__(self, robot="xyz", settings=None, *, stage=EmulatedStage, line=None, **options):
         self.robot = load_robot(robot) if isinstance(robot, str) else robot
@@ -85,11 +83,11 @@ class Bench:
             self.robot,
             {**self.settings, **settings},
             clock=self.clock,
-            open_port=self._opened,
+            open_port=self._open_port,
             pause=self.clock.advance,
         )
 
-    def _opened(self, _url, _baud):
+    def _open_port(self, _url, _baud):
         self.ports.append(MemoryPort(self.stage, self.clock, self.began_s, **self.line))
         return self.ports[-1]
 
@@ -98,7 +96,7 @@ class Bench:
         return self.ports[-1]
 
     def alter_once(self, change):
-        """Change the next status, and only that."""
+        """Change the next status report only."""
 
         def alter(data):
             if b"MPos:" not in data:
@@ -108,9 +106,9 @@ class Bench:
 
         self.port.alter = alter
 
-    def lines_sent(self, since=0):
-        """Return the lines that were written, without single bytes."""
-        written = self.port.written[since:]
+    def lines_sent(self, first_byte=0):
+        """Return the written lines, without real-time command bytes."""
+        written = self.port.written[first_byte:]
         for byte in (b"?", b"!", b"\x18", b"\x85"):
             written = written.replace(byte, b"")
         return [line.decode() for line in written.split(b"\n") if line]
@@ -120,50 +118,50 @@ class Bench:
         for port in self.ports:
             port.delay_s = seconds
 
-    def cut(self, is_cut):
+    def set_cut(self, is_cut):
         for port in self.ports:
-            port.cut = is_cut
+            port.is_cut = is_cut
 
     def run(self, seconds, round_s=0.01):
-        parts = []
+        portions = []
         for _ in range(round(seconds / round_s)):
             self.clock.advance(round_s)
-            parts.append(self.driver.read())
-        return Samples.joined(parts, len(self.driver.axes))
+            portions.append(self.driver.read())
+        return DeviceSamples.join(portions, len(self.driver.axes))
 
-    def rest(self, limit_s=60.0):
+    def wait_for_rest(self, limit_s=60.0):
         busy = (DeviceState.MOVING, DeviceState.HOMING)
-        parts = [self.run(0.05)]
+        portions = [self.run(0.05)]
         for _ in range(round(limit_s / 0.05)):
             if self.driver.status().state not in busy:
-                return Samples.joined(parts, len(self.driver.axes))
-            parts.append(self.run(0.05))
+                return DeviceSamples.join(portions, len(self.driver.axes))
+            portions.append(self.run(0.05))
         raise AssertionError(f"still {self.driver.status()} after {limit_s} s")
 
-    def homed(self):
+    def open_and_home(self):
         self.driver.open()
         self.driver.home(self.driver.homing_axes)
-        self.rest()
+        self.wait_for_rest()
         assert self.driver.status().position_known
         return self.driver
 
-    def at(self):
+    def read_position(self):
         return self.run(0.1).command[-1]
 
-    def kit(self):
-        return KitBench(
+    def make_conformance_bench(self):
+        return ConformanceBench(
             make=self.make,
             advance=self.clock.advance,
-            cut_link=lambda: self.cut(True),
-            restore_link=lambda: self.cut(False),
+            cut_link=lambda: self.set_cut(True),
+            restore_link=lambda: self.set_cut(False),
             misreport=lambda: self.alter_once(lambda data: data.replace(b".", b"", 1)),
             delay_line=self.delay,
             cause_fault=lambda _: self.stage.hit_limit(),
-            touched=lambda: bool(self.ports),
+            was_device_contacted=lambda: bool(self.ports),
         )
 
 
 @pytest.fixture
-def joined():
-    """Return the class of joined benches."""
+def make_bench():
+    """Return the class of benches."""
     return Bench

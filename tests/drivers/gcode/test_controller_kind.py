@@ -1,26 +1,25 @@
-"""The emulated controller says itself that it is a program; without that word it is a real one."""
+"""The emulated controller reports that it is virtual. Any other controller counts as real."""
 
 import pytest
 
-from rotemina.drivers.driver import MachineKind
-from rotemina.drivers.errors import ConnectionLostError
+from rotemina.drivers.contract import ConnectionLostError, MachineKind
 
 
 @pytest.fixture
-def opened(joined):
-    """Return a driver that was opened while what its controller says was altered."""
+def open_with_altered_replies(make_bench):
+    """Return a function that opens a driver and replaces bytes in its controller's replies."""
 
-    def opened(old=b"", new=b""):
-        bench = joined()
+    def open_driver(old=b"", new=b""):
+        bench = make_bench()
         bench.line = {"alter": lambda data: data.replace(old, new)}
         bench.driver.open()
         return bench.driver
 
-    return opened
+    return open_driver
 
 
-def test_the_emulated_stage_says_that_it_is_virtual(joined):
-    driver = joined().driver
+def test_the_emulated_stage_reports_that_it_is_virtual(make_bench):
+    driver = make_bench().driver
     assert not driver.is_identified
     driver.open()
     assert driver.machine_kind is MachineKind.VIRTUAL
@@ -35,16 +34,16 @@ def test_the_emulated_stage_says_that_it_is_virtual(joined):
         (b"[MACHINE:virtual]", b"[VER:1.1h.20190830:MACHINE:virtual]"),
         (b"[MACHINE:virtual]", b"[MSG:Machine: virtual]"),
     ],
-    ids=["plain GRBL", "a letter lost", "a bracket lost", "text of a user", "name of a machine"],
+    ids=["plain GRBL", "lost letter", "lost bracket", "text of a user", "name of a machine"],
 )
-def test_a_controller_that_does_not_say_so_undamaged_is_a_real_machine(opened, old, new):
-    assert opened(old, new).machine_kind is MachineKind.REAL
+def test_a_controller_without_an_intact_virtual_report_is_real(open_with_altered_replies, old, new):
+    assert open_with_altered_replies(old, new).machine_kind is MachineKind.REAL
 
 
-def test_a_lost_stage_stays_what_it_said(joined):
-    bench = joined()
+def test_a_lost_stage_keeps_its_reported_kind(make_bench):
+    bench = make_bench()
     bench.driver.open()
-    bench.cut(True)
+    bench.set_cut(True)
     with pytest.raises(ConnectionLostError):
         bench.run(10.0)
     bench.driver.close()

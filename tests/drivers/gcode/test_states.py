@@ -1,23 +1,22 @@
-"""State words of controllers: each has a meaning, and an unknown one locks motion."""
+"""Each state word of a controller has a meaning, and an unknown word locks motion."""
 
 import pytest
 
-from rotemina.drivers.errors import StateError
-from rotemina.drivers.gcode.emulator import EmulatedStage
-from rotemina.drivers.gcode.error_texts import Firmware, describe_alarm, describe_error
-from rotemina.drivers.gcode.grbl_reports import Status, parse_report
+from rotemina.drivers.contract import DeviceState, StateError
+from rotemina.drivers.gcode import EmulatedStage
+from rotemina.drivers.gcode.error_texts import ControllerFirmware, describe_alarm, describe_error
+from rotemina.drivers.gcode.grbl_reports import StatusReport, parse_report
 from rotemina.drivers.gcode.machine_states import interpret_state
-from rotemina.drivers.samples import DeviceState
 
 
-class Worded(EmulatedStage):
-    """Reports another state word while it has one."""
+class OtherStateStage(EmulatedStage):
+    """A stage that reports ``word`` as its state, if it is set."""
 
     word = None
 
-    def _report_if_asked(self):
+    def _report_if_requested(self):
         state, self._state = self._state, self.word or self._state
-        super()._report_if_asked()
+        super()._report_if_requested()
         self._state = state
 
 
@@ -48,16 +47,16 @@ class Worded(EmulatedStage):
         ("", True, False, False),
     ],
 )
-def test_each_word_says_whether_axes_move_and_whether_they_may(word, moving, may_move, lost):
+def test_each_word_says_whether_axes_move_and_whether_they_may_move(word, moving, may_move, lost):
     status = parse_report(f"<{word}|MPos:0.000,0.000,0.000|FS:0,0>")
-    assert isinstance(status, Status)
+    assert isinstance(status, StatusReport)
     state = interpret_state(status)
-    assert (state.moving, state.fault is None, state.position_lost) == (moving, may_move, lost)
+    assert (state.is_moving, state.fault is None, state.position_lost) == (moving, may_move, lost)
 
 
-def test_a_door_that_opens_in_mid_move_is_a_fault_and_keeps_the_position(joined):
-    bench = joined()
-    driver = bench.homed()
+def test_a_door_that_opens_during_a_move_is_a_fault_and_keeps_the_position(make_bench):
+    bench = make_bench()
+    driver = bench.open_and_home()
     driver.move_to({"x": 0.04})
     bench.run(1.0)
     bench.stage.open_door()
@@ -74,21 +73,21 @@ def test_a_door_that_opens_in_mid_move_is_a_fault_and_keeps_the_position(joined)
     assert "the safety door is open" in driver.status().fault
     bench.stage.close_door()
     driver.clear_fault()
-    bench.rest()
+    bench.wait_for_rest()
     assert driver.status().fault is None
     assert driver.status().position_known
     assert bench.stage.events == []
-    held = bench.stage.true[0]
+    held_position = bench.stage.true_positions[0]
     bench.run(1.0)
-    assert bench.stage.true[0] == held
+    assert bench.stage.true_positions[0] == held_position
     driver.move_to({"x": 0.02})
-    bench.rest()
-    assert bench.stage.true[0] == pytest.approx(20.0, abs=1e-3)
+    bench.wait_for_rest()
+    assert bench.stage.true_positions[0] == pytest.approx(20.0, abs=1e-3)
 
 
-def test_a_stop_while_the_door_is_open_does_not_reset_before_the_axes_rest(joined):
-    bench = joined()
-    driver = bench.homed()
+def test_a_stop_while_the_door_is_open_does_not_reset_before_the_axes_rest(make_bench):
+    bench = make_bench()
+    driver = bench.open_and_home()
     driver.move_to({"x": 0.04})
     bench.run(1.0)
     bench.stage.open_door()
@@ -98,41 +97,42 @@ def test_a_stop_while_the_door_is_open_does_not_reset_before_the_axes_rest(joine
     assert driver.status().position_known
 
 
-def test_a_controller_that_sleeps_has_lost_its_position(joined):
-    bench = joined()
-    driver = bench.homed()
+def test_a_sleeping_controller_has_lost_its_position(make_bench):
+    bench = make_bench()
+    driver = bench.open_and_home()
     bench.stage.receive(b"$SLP\n", bench.clock() - bench.began_s)
     bench.run(0.3)
     status = driver.status()
     assert "sleeps" in status.fault
     assert status.unhomed == ("x", "y", "z")
     driver.clear_fault()
-    bench.rest()
+    bench.wait_for_rest()
     driver.home(driver.homing_axes)
-    bench.rest()
+    bench.wait_for_rest()
     assert driver.status().position_known
 
 
 @pytest.mark.parametrize("word", ["Tool", "Check", "Parking"])
-def test_a_state_in_which_nothing_may_move_is_named_and_stops_a_move(joined, word):
-    bench = joined(stage=Worded)
-    driver = bench.homed()
+def test_a_state_without_motion_is_reported_and_stops_a_move(make_bench, word):
+    bench = make_bench(stage=OtherStateStage)
+    driver = bench.open_and_home()
     driver.move_to({"x": 0.045})
     bench.run(0.5)
     bench.stage.word = word
     bench.run(2.0)
     fault = driver.status().fault
     assert {"Tool": "tool change", "Check": "only checks", "Parking": "'Parking'"}[word] in fault
-    assert bench.stage.true[0] < 20.0
-    driver.clear_fault()  # the count stands still, so it may be reset
+    assert bench.stage.true_positions[0] < 20.0
+    # The count does not change, so the controller may be reset.
+    driver.clear_fault()
     bench.stage.word = None
-    bench.rest()
+    bench.wait_for_rest()
     assert driver.status().fault is None
 
 
-def test_an_alarm_that_nobody_announced_is_a_fault_that_wants_homing(joined):
-    bench = joined(stage=Worded)
-    driver = bench.homed()
+def test_an_unannounced_alarm_is_a_fault_that_requires_homing(make_bench):
+    bench = make_bench(stage=OtherStateStage)
+    driver = bench.open_and_home()
     bench.stage.word = "Alarm"
     bench.run(0.2)
     status = driver.status()
@@ -140,51 +140,52 @@ def test_an_alarm_that_nobody_announced_is_a_fault_that_wants_homing(joined):
     assert not status.position_known
 
 
-def test_a_pause_by_a_button_of_the_controller_is_a_fault(joined):
-    bench = joined()
-    driver = bench.homed()
+def test_a_pause_by_a_button_on_the_controller_is_a_fault(make_bench):
+    bench = make_bench()
+    driver = bench.open_and_home()
     bench.stage.receive(b"!", bench.clock() - bench.began_s)
     bench.run(0.2)
     assert "was paused (feed hold)" in driver.status().fault
     driver.clear_fault()
-    bench.rest()
+    bench.wait_for_rest()
     assert driver.status().position_known
 
 
-@pytest.mark.parametrize("stopped", [False, True])
-def test_a_controller_is_left_idle_with_its_settings_as_they_were(joined, stopped):
-    bench = joined()
-    before = dict(bench.stage.settings)
-    driver = bench.homed()
+@pytest.mark.parametrize("with_stop", [False, True])
+def test_closing_leaves_the_controller_idle_with_its_settings_unchanged(make_bench, with_stop):
+    bench = make_bench()
+    settings_before = dict(bench.stage.settings)
+    driver = bench.open_and_home()
     driver.move_to({"x": 0.045})
     bench.run(0.5)
-    if stopped:
+    if with_stop:
         driver.stop()
     driver.close()
     assert bench.stage.state == "Idle"
-    assert bench.stage.settings == before
-    reply = bench.stage.advance(bench.clock() - bench.began_s)
+    assert bench.stage.settings == settings_before
+    bench.stage.advance(bench.clock() - bench.began_s)
     bench.stage.receive(b"$G\n", bench.clock() - bench.began_s)
     bench.clock.advance(0.1)
     reply = bench.stage.advance(bench.clock() - bench.began_s)
-    assert reply  # the next program gets an answer
+    # The next program gets an answer.
+    assert reply
 
 
-def test_a_controller_that_homes_is_reset_when_it_is_left(joined):
-    bench = joined()
+def test_closing_resets_a_homing_controller(make_bench):
+    bench = make_bench()
     bench.driver.open()
     bench.driver.home(("y",))
     bench.run(0.5)
     bench.driver.close()
-    at = list(bench.stage.true)
+    positions = list(bench.stage.true_positions)
     bench.clock.advance(2.0)
     bench.stage.advance(bench.clock() - bench.began_s)
-    assert bench.stage.true == at
+    assert bench.stage.true_positions == positions
 
 
-def test_a_controller_that_an_alarm_has_locked_can_be_left(joined):
-    bench = joined()
-    driver = bench.homed()
+def test_a_controller_locked_by_an_alarm_can_be_closed(make_bench):
+    bench = make_bench()
+    driver = bench.open_and_home()
     bench.stage.hit_limit()
     bench.run(0.2)
     began_s = bench.clock()
@@ -195,41 +196,41 @@ def test_a_controller_that_an_alarm_has_locked_can_be_left(joined):
 @pytest.mark.parametrize(
     ("describe", "numbers"),
     [
-        (describe_error, {Firmware.GRBL: [*range(1, 18), *range(20, 39)]}),
+        (describe_error, {ControllerFirmware.GRBL: [*range(1, 18), *range(20, 39)]}),
         (
             describe_error,
-            {Firmware.GRBL_HAL: [*range(1, 59), *range(60, 67), *range(70, 93), 253]},
+            {ControllerFirmware.GRBL_HAL: [*range(1, 59), *range(60, 67), *range(70, 93), 253]},
         ),
         (
             describe_error,
             {
-                Firmware.FLUID_NC: [
+                ControllerFirmware.FLUID_NC: [
                     *range(1, 41), *range(60, 71), *range(80, 84), 90, 100, 101, *range(110, 115),
                     120, 130, *range(150, 153), *range(160, 163), *range(170, 182),
                 ]
             },
         ),
-        (describe_alarm, {Firmware.GRBL: range(1, 11)}),
-        (describe_alarm, {Firmware.GRBL_HAL: range(1, 23)}),
-        (describe_alarm, {Firmware.FLUID_NC: range(1, 19)}),
+        (describe_alarm, {ControllerFirmware.GRBL: range(1, 11)}),
+        (describe_alarm, {ControllerFirmware.GRBL_HAL: range(1, 23)}),
+        (describe_alarm, {ControllerFirmware.FLUID_NC: range(1, 19)}),
     ],
 )  # fmt: skip
 def test_every_documented_number_is_explained(describe, numbers):
-    for firmware, known in numbers.items():
-        for number in known:
+    for firmware, known_numbers in numbers.items():
+        for number in known_numbers:
             assert "does not document" not in describe(number, firmware), number
         assert "does not document" in describe(999, firmware)
 
 
-def test_the_firmware_decides_what_a_number_means(joined):
-    class Hal(EmulatedStage):
-        def _tell_or_set(self, text):
+def test_the_firmware_decides_the_meaning_of_an_alarm_number(make_bench):
+    class GrblHalStage(EmulatedStage):
+        def _report_or_set(self, text):
             if text == "I":
-                self._say("[FIRMWARE:grblHAL]")
-            super()._tell_or_set(text)
+                self._send("[FIRMWARE:grblHAL]")
+            super()._report_or_set(text)
 
-    bench = joined(stage=Hal)
-    driver = bench.homed()
-    bench.stage._alarm(10)
+    bench = make_bench(stage=GrblHalStage)
+    driver = bench.open_and_home()
+    bench.stage._raise_alarm(10)
     bench.run(0.1)
-    assert "ALARM:10, its emergency stop is pressed" in driver.status().fault
+    assert "ALARM:10, the emergency stop is pressed" in driver.status().fault

@@ -1,20 +1,20 @@
-"""What tests of input devices share: descriptors as devices send them, and a fake hidapi."""
+"""Fixtures for tests of input devices: real report descriptors, and a fake hidapi."""
 
 from collections import deque
 
 import pytest
 
-from rotemina.drivers.inputs.hid.hid_discovery import HidSource
+from rotemina.drivers.inputs import HidSource
 
 
-def described(text):
-    """Bytes in hex; what follows a ``#`` in a line is a comment."""
+def parse_hex(text):
+    """Return the bytes of a hex text; ``#`` starts a comment."""
     return bytes.fromhex("".join(line.partition("#")[0] for line in text.splitlines()))
 
 
 DESCRIPTORS = {
-    # Two 10-bit axes, a hat, a twist, a throttle, twelve buttons; no report number.
-    "joystick": described("""
+    # Two 10-bit axes, a hat, a twist, a throttle, and twelve buttons, without a report number.
+    "joystick": parse_hex("""
         05 01 09 04 A1 01 A1 02
         75 0A 95 02 15 00 26 FF 03 35 00 46 FF 03 09 30 09 31 81 02
         75 04 95 01 25 07 46 3B 01 66 14 00 09 39 81 42  # hat with a null state, in degrees
@@ -24,8 +24,8 @@ DESCRIPTORS = {
         05 09 19 09 29 0C 95 04 75 01 25 01 45 01 81 02 75 04 95 01 81 01
         C0 A1 02 06 00 FF 09 01 15 00 26 FF 00 75 08 95 07 B1 02 C0 C0
     """),
-    # Numbered, 14 buttons, vendor's bits in the middle and 54 bytes of them at the end.
-    "gamepad": described("""
+    # Numbered reports, 14 buttons, vendor-defined bits in the middle and 54 such bytes at the end.
+    "gamepad": parse_hex("""
         05 01 09 05 A1 01 85 01
         09 30 09 31 09 32 09 35 15 00 26 FF 00 75 08 95 04 81 02
         09 39 15 00 25 07 35 00 46 3B 01 65 14 75 04 95 01 81 42 65 00
@@ -36,7 +36,7 @@ DESCRIPTORS = {
         85 05 09 22 95 1F 91 02 85 04 09 23 95 24 B1 02 C0
     """),
     # 16-bit sticks, 10-bit triggers on the simulation page, hat from 1 to 8, force feedback.
-    "triggers": described("""
+    "triggers": parse_hex("""
         05 01 09 05 A1 01 85 01
         09 01 A1 00 09 30 09 31 15 00 27 FF FF 00 00 95 02 75 10 81 02 C0
         09 01 A1 00 09 32 09 35 15 00 27 FF FF 00 00 95 02 75 10 81 02 C0
@@ -49,8 +49,8 @@ DESCRIPTORS = {
         05 0F 09 21 85 03 A1 02 09 97 15 00 25 01 75 04 95 01 91 02 15 00 25 00 91 03
         09 70 15 00 25 64 75 08 95 04 91 02 C0 C0
     """),
-    # Six axes of -350 to 350 that call themselves relative, in two reports; buttons in a third.
-    "six axes": described("""
+    # Six axes from -350 to 350 that are declared relative, in two reports. Buttons in a third.
+    "six axes": parse_hex("""
         05 01 09 08 A1 01
         A1 00 85 01 16 A2 FE 26 5E 01 36 88 FA 46 78 05 55 0C 65 11
         09 30 09 31 09 32 75 10 95 03 81 06 C0
@@ -59,9 +59,9 @@ DESCRIPTORS = {
         95 0E 81 03 C0
         A1 02 85 04 05 08 09 4B 15 00 25 01 95 01 75 01 91 02 95 01 75 07 91 03 C0 C0
     """),
-    # A list of up to three buttons of ten, before the axes; Push and Pop; a maximum of 255 in one
-    # byte; a minimum of 0 in no byte at all; a keyboard in the same interface.
-    "list": described("""
+    # A list of up to three of ten buttons before the axes, Push and Pop, a maximum of 255 in one
+    # byte, a minimum of 0 without a byte, and a keyboard in the same interface.
+    "list": parse_hex("""
         05 01 09 06 A1 01 85 02 05 07 19 E0 29 E7 14 25 01 75 01 95 08 81 02 C0
         05 01 09 04 A1 01 85 01
         05 09 19 01 29 0A 15 01 25 0A 75 04 95 03 81 00 95 01 81 01
@@ -70,8 +70,8 @@ DESCRIPTORS = {
 }
 
 
-class Plugged:
-    """A device at the bus: what it sends waits until a handle reads it."""
+class PluggedDevice:
+    """A device on the bus, whose reports wait until a handle reads them."""
 
     def __init__(self, path, descriptor, **entry):
         self.path, self.descriptor = path, descriptor
@@ -92,22 +92,22 @@ class Plugged:
 
 
 class FakeHidapi:
-    """The library's module, of bytes alone; errors are worded as the real one's."""
+    """A fake of the hidapi module, with the error texts of the real one."""
 
     def __init__(self):
         self.bus = {}
-        self.opened = []
+        self.open_handles = []
         self.failure = None
 
     def plug(self, path, descriptor, **entry):
-        self.bus[path] = Plugged(path, descriptor, **entry)
+        self.bus[path] = PluggedDevice(path, descriptor, **entry)
         return self.bus[path]
 
     def enumerate(self):
         if self.failure is not None:
             raise self.failure
         keyboard = {"path": b"/dev/hidraw9", "usage_page": 1, "usage": 6}
-        return [keyboard, *(one.entry for one in self.bus.values())]
+        return [keyboard, *(device.entry for device in self.bus.values())]
 
     def device(self):
         return FakeHandle(self)
@@ -115,41 +115,46 @@ class FakeHidapi:
 
 class FakeHandle:
     def __init__(self, library):
-        self.library, self.device, self.said, self.waits = library, None, "Success", True
+        self.library, self.device, self.error_text, self.is_blocking = (
+            library,
+            None,
+            "Success",
+            True,
+        )
 
     def open_path(self, path):
         device = self.library.bus.get(path)
         reason = "No such file or directory" if device is None else device.refusal
         if reason is not None:
-            self.said = f"Failed to open a device with path '{path.decode()}': {reason}"
+            self.error_text = f"Failed to open a device with path '{path.decode()}': {reason}"
             raise OSError("open failed")
         self.device = device
-        self.library.opened.append(self)
+        self.library.open_handles.append(self)
 
-    def set_nonblocking(self, on):
-        self.waits = not on
+    def set_nonblocking(self, is_nonblocking):
+        self.is_blocking = not is_nonblocking
         return 0
 
     def get_report_descriptor(self, max_length=4096):
-        descriptor = self._there().descriptor
+        descriptor = self._connected_device().descriptor
         if descriptor is None:
             raise OSError("read error")
         return list(descriptor[:max_length])
 
     def read(self, max_length):
-        waiting = self._there().waiting
-        assert not self.waits, "a read would wait for ever"
+        waiting = self._connected_device().waiting
+        assert not self.is_blocking, "a read would wait for ever"
         return list(waiting.popleft()[:max_length]) if waiting else []
 
     def error(self):
-        return self.said
+        return self.error_text
 
     def close(self):
         if self.device is not None:
-            self.library.opened.remove(self)
+            self.library.open_handles.remove(self)
         self.device = None
 
-    def _there(self):
+    def _connected_device(self):
         if self.device is None:
             raise ValueError("not open")
         if self.library.bus.get(self.device.path) is not self.device:
@@ -169,7 +174,7 @@ def hidapi():
 
 @pytest.fixture
 def ports():
-    """Where paths are plugged in; a path that is not among them is its own port."""
+    """Return the USB port of each path. A path that is not listed is its own port."""
     return {}
 
 

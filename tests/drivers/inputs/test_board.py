@@ -1,30 +1,30 @@
-"""The controller's joystick is lost with its driver, and asks nothing of the device."""
+"""The controller's joystick is lost with its driver, and sends no requests to the device."""
 
 import pytest
 
-from rotemina.drivers.inputs.board import BoardInputs
-from rotemina.drivers.inputs.device import CONFIRM_S, InputLostError
-from rotemina.drivers.samples import DeviceState, DeviceStatus
-from rotemina.drivers.simulator.driver import Simulator
-from rotemina.sim.robot.file import load_robot
+from rotemina.drivers.contract import DeviceState, DeviceStatus, InputLostError
+from rotemina.drivers.inputs import BoardJoystickSource
+from rotemina.drivers.inputs.device import KEEPALIVE_PERIOD_S
+from rotemina.drivers.simulator import Simulator
+from rotemina.sim.robot_files import load_robot
 
 
-class Troubled(Simulator):
-    """A simulator whose status a test gives."""
+class SimulatorWithStatus(Simulator):
+    """A simulator whose status a test can set."""
 
-    told = None
+    given_status = None
 
     def _status(self):
-        return self.told or super()._status()
+        return self.given_status or super()._status()
 
 
-class Plain:
-    """A driver without a joystick."""
+class DriverWithoutJoystick:
+    pass
 
 
 @pytest.fixture
 def driver(clock):
-    driver = Troubled(load_robot("rotemina"), clock=clock)
+    driver = SimulatorWithStatus(load_robot("rotemina"), clock=clock)
     driver.open()
     driver.set_analog_inputs([0.0, 0.5, 1.0], [True])
     yield driver
@@ -32,13 +32,14 @@ def driver(clock):
 
 
 @pytest.fixture
-def in_use(driver):
+def driver_holder(driver):
+    """Return a list that contains only the driver in use."""
     return [driver]
 
 
 @pytest.fixture
-def source(in_use, clock):
-    return BoardInputs(lambda: in_use[0], clock=clock)
+def source(driver_holder, clock):
+    return BoardJoystickSource(lambda: driver_holder[0], clock=clock)
 
 
 @pytest.fixture
@@ -54,68 +55,72 @@ def test_readings_of_0_to_1_become_deflections(joystick, clock):
     assert joystick.axes == ("Potentiometer 1", "Potentiometer 2", "Potentiometer 3")
 
 
-def test_nothing_new_is_no_reading_until_it_is_confirmed(joystick, driver, clock):
+def test_an_unchanged_state_is_read_again_only_as_a_confirmation(joystick, driver, clock):
     (first,) = joystick.read()
     driver.set_analog_inputs([0.0, 0.5, 1.0], [True])
     assert joystick.read() == ()
-    clock.advance(1.1 * CONFIRM_S)
-    (again,) = joystick.read()
-    assert (again.axes, again.buttons) == (first.axes, first.buttons)
-    assert again.host_time_s == clock()
-    assert joystick.streams  # so that no confirmation is a failure
+    clock.advance(1.1 * KEEPALIVE_PERIOD_S)
+    (confirmation,) = joystick.read()
+    assert (confirmation.axes, confirmation.buttons) == (first.axes, first.buttons)
+    assert confirmation.host_time_s == clock()
+    # A stream that confirms its state regularly has failed when a confirmation is missing.
+    assert joystick.streams
 
 
 @pytest.mark.parametrize(
     ("status", "reason"),
     [
         (DeviceStatus(DeviceState.FAULT, fault="limit switch"), "clear the fault"),
-        (DeviceStatus(DeviceState.IDLE, silent_s=0.2), "have been silent"),
+        (DeviceStatus(DeviceState.IDLE, silent_s=0.2), "do not respond"),
     ],
 )
-def test_a_driver_in_trouble_is_not_trusted(source, joystick, driver, status, reason):
-    driver.told = status
+def test_a_joystick_is_lost_while_its_driver_has_a_problem(
+    source, joystick, driver, status, reason
+):
+    driver.given_status = status
     with pytest.raises(InputLostError, match=reason):
         joystick.read()
     assert source.devices() == ()
     with pytest.raises(InputLostError, match=reason):
         source.open(joystick.identity)
-    driver.told = None
+    driver.given_status = None
     assert source.devices() == (joystick.identity,)
 
 
-def test_another_driver_is_another_joystick(source, joystick, in_use, clock):
-    other = Simulator(load_robot("rotemina"), clock=clock)
-    in_use[0] = other
+def test_a_change_of_driver_loses_the_joystick(source, joystick, driver_holder, clock):
+    other_driver = Simulator(load_robot("rotemina"), clock=clock)
+    driver_holder[0] = other_driver
     with pytest.raises(InputLostError, match="another driver"):
         joystick.read()
-    assert source.devices() == ()  # it has told nothing yet
-    other.open()
-    other.set_analog_inputs([0.5], [])
+    # The other driver has no readings yet.
+    assert source.devices() == ()
+    other_driver.open()
+    other_driver.set_analog_inputs([0.5], [])
     assert len(source.open(source.devices()[0]).axes) == 1
-    other.close()
+    other_driver.close()
 
 
-@pytest.mark.parametrize("driver_in_use", [None, Plain()])
-def test_a_driver_without_a_joystick_has_none(source, joystick, in_use, driver_in_use):
-    in_use[0] = driver_in_use
+@pytest.mark.parametrize("driver_in_use", [None, DriverWithoutJoystick()])
+def test_a_driver_without_a_joystick_offers_no_device(
+    source, joystick, driver_holder, driver_in_use
+):
+    driver_holder[0] = driver_in_use
     assert source.devices() == ()
     assert source.problem is None
     with pytest.raises(InputLostError):
         source.open(joystick.identity)
 
 
-def test_a_joystick_that_changes_its_size_is_lost(joystick, driver):
+def test_a_joystick_whose_number_of_controls_changes_is_lost(joystick, driver):
     driver.set_analog_inputs([0.5], [True])
     with pytest.raises(InputLostError, match="now has 1 axes and 1 buttons instead of 3 and 1"):
         joystick.read()
 
 
-def test_a_driver_that_is_closed_in_the_middle_of_the_question_is_lost(
-    joystick, driver, monkeypatch
-):
-    def closing():
+def test_a_driver_that_is_closed_during_a_reading_loses_the_joystick(joystick, driver, monkeypatch):
+    def raise_attribute_error():
         raise AttributeError("'NoneType' object has no attribute 'boards'")
 
-    monkeypatch.setattr(driver, "analog_inputs", closing)
+    monkeypatch.setattr(driver, "analog_inputs", raise_attribute_error)
     with pytest.raises(InputLostError, match="cannot be read"):
         joystick.read()

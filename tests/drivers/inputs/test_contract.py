@@ -1,4 +1,4 @@
-"""One suite over every kind of input device; what is faked lies below the driver."""
+"""Rules that every kind of input device follows. Only the layer below the driver is faked."""
 
 from dataclasses import dataclass, replace
 from importlib.metadata import entry_points
@@ -7,43 +7,43 @@ from typing import Any
 
 import pytest
 
-from rotemina.app.motion.teleoperation.input_devices import InputDevices
-from rotemina.app.motion.teleoperation.intent import Action
-from rotemina.app.motion.teleoperation.profile import (
+from rotemina.app.motion.inputs import (
     ActionMapping,
     AxisMapping,
     DeviceMapping,
-    Profile,
+    InputDevices,
+    InputProfile,
+    OperatorAction,
 )
-from rotemina.drivers.errors import StateError
-from rotemina.drivers.inputs.board import BoardInputs
-from rotemina.drivers.inputs.device import (
+from rotemina.drivers.contract import DeviceState, DeviceStatus, InputLostError, StateError
+from rotemina.drivers.inputs import (
+    BoardJoystickSource,
     InputDevice,
+    InputHub,
     InputIdentity,
-    InputLostError,
+    InputPad,
     InputReading,
     InputSource,
 )
-from rotemina.drivers.inputs.hub import INPUTS, InputHub
-from rotemina.drivers.inputs.pad import Pad
-from rotemina.drivers.inputs.script import Moment, Script
-from rotemina.drivers.inputs.scripted import Scripted
-from rotemina.drivers.samples import DeviceState, DeviceStatus
-from rotemina.drivers.simulator.driver import Simulator
-from rotemina.sim.robot.file import load_robot
+from rotemina.drivers.inputs.hub import INPUT_GROUP
+from rotemina.drivers.inputs.script import InputScript, ScriptMoment
+from rotemina.drivers.inputs.scripted import ScriptedSource
+from rotemina.drivers.simulator import Simulator
+from rotemina.sim.robot_files import load_robot
 
 
 @dataclass
 class Bench:
-    """A device with two axes and two buttons, and what a hand can do with it."""
+    """A device with two axes and two buttons, and functions that operate it."""
 
     source: Any
-    act: Any  # (axes, buttons): move it
+    # Set the axes and buttons.
+    act: Any
     unplug: Any
     plug: Any
-    # Let its link fail unnoticed, beyond that no hand does anything; and mend it.
-    fail: Any = lambda: None
-    mend: Any = lambda: None
+    # Break the link of the device unnoticed, if it has one, and restore it.
+    break_link: Any = lambda: None
+    restore_link: Any = lambda: None
 
 
 def hid_bench(request, clock):
@@ -54,7 +54,7 @@ def hid_bench(request, clock):
     )
 
     def act(axes, buttons):
-        bits = sum(held << number for number, held in enumerate(buttons))
+        bits = sum(is_held << number for number, is_held in enumerate(buttons))
         report = [round(127 * axis) & 0xFF for axis in axes]
         hidapi.bus[b"/dev/hidraw0"].waiting.append(bytes([*report, bits]))
 
@@ -66,24 +66,28 @@ def hid_bench(request, clock):
 
 
 def pad_bench(request, clock):
-    pad = Pad("pad", ("x", "y"), ("start", "mode"), clock=clock)
+    pad = InputPad("pad", ("x", "y"), ("start", "mode"), clock=clock)
 
     def act(axes, buttons):
         for name, deflection in zip(pad.axes, axes, strict=True):
             pad.deflect(name, deflection)
-        for name, held in zip(pad.buttons, buttons, strict=True):
-            pad.hold(name, held)
+        for name, is_held in zip(pad.buttons, buttons, strict=True):
+            pad.hold(name, is_held)
 
-    return Bench(pad, act, pad.withdraw, pad.offer)
+    return Bench(pad, act, pad.unplug, pad.plug_in)
 
 
 class SilentBoard(Simulator):
-    """A simulator whose line may fail."""
+    """A simulator whose link can break."""
 
-    failed = False
+    is_link_broken = False
 
     def _status(self):
-        return DeviceStatus(DeviceState.IDLE, silent_s=0.2) if self.failed else super()._status()
+        return (
+            DeviceStatus(DeviceState.IDLE, silent_s=0.2)
+            if self.is_link_broken
+            else super()._status()
+        )
 
 
 def board_bench(request, clock):
@@ -92,42 +96,42 @@ def board_bench(request, clock):
     request.addfinalizer(driver.close)
     driver.set_analog_inputs([0.5, 0.5], [False, False])
 
-    def fail(failed=True):
-        driver.failed = failed
+    def break_link(is_broken=True):
+        driver.is_link_broken = is_broken
 
     return Bench(
-        BoardInputs(lambda: driver, clock=clock),
+        BoardJoystickSource(lambda: driver, clock=clock),
         lambda axes, buttons: driver.set_analog_inputs([(1 + axis) / 2 for axis in axes], buttons),
         driver.close,
         driver.open,
-        fail,
-        lambda: fail(False),
+        break_link,
+        lambda: break_link(False),
     )
 
 
 def scripted_bench(request, clock):
-    source = Scripted(Script(("x", "y"), ("start", "mode"), ()), clock=clock)
+    source = ScriptedSource(InputScript(("x", "y"), ("start", "mode"), ()), clock=clock)
 
-    def go_on(axes=(0.0, 0.0), buttons=(False, False), plugged=True):
-        # The script is written as the test goes.
+    def add_moment(axes=(0.0, 0.0), buttons=(False, False), plugged=True):
+        # The test extends the script while it plays.
         clock.advance(0.01)
-        moment = Moment(clock() - source.begun_s, tuple(axes), tuple(buttons), plugged)
+        moment = ScriptMoment(clock() - source.start_s, tuple(axes), tuple(buttons), plugged)
         source.script = replace(source.script, moments=(*source.script.moments, moment))
 
-    return Bench(source, go_on, lambda: go_on(plugged=False), go_on)
+    return Bench(source, add_moment, lambda: add_moment(plugged=False), add_moment)
 
 
-class Plain(InputSource):
-    """A source as a third party would write it first."""
+class PlainSource(InputSource):
+    """A simple source, as a third party would write it."""
 
     def __init__(self, *, clock):
         super().__init__(clock=clock)
         self.identity = InputIdentity("plain:1", "Plain stick", "plain")
-        self.there = True
+        self.is_plugged = True
         self.waiting = []
 
     def devices(self):
-        return (self.identity,) if self.there else ()
+        return (self.identity,) if self.is_plugged else ()
 
     def open(self, identity):
         if identity not in self.devices():
@@ -146,7 +150,7 @@ class PlainDevice(InputDevice):
     def read(self):
         if not self._is_open:
             raise StateError("closed; open it again")
-        if not self._source.there:
+        if not self._source.is_plugged:
             self._source.waiting.clear()
             raise InputLostError(f"{self.identity.name} has gone")
         readings = tuple(self._source.waiting)
@@ -158,13 +162,13 @@ class PlainDevice(InputDevice):
 
 
 def plugin_bench(request, clock):
-    source = Plain(clock=clock)
+    source = PlainSource(clock=clock)
 
     def act(axes, buttons):
         source.waiting.append(InputReading(clock(), tuple(axes), tuple(buttons)))
 
-    def plug(there=True):
-        source.there = there
+    def plug(is_plugged=True):
+        source.is_plugged = is_plugged
 
     return Bench(source, act, lambda: plug(False), plug)
 
@@ -199,12 +203,12 @@ def test_a_device_is_found_with_a_key_a_name_and_its_source(bench):
     assert bench.source.devices() == (identity,)
 
 
-def test_an_open_device_says_what_it_has(bench, device):
+def test_an_open_device_lists_its_controls(bench, device):
     assert bench.source.devices() == (device.identity,)
     assert len(set(device.axes)) == len(set(device.buttons)) == 2
 
 
-def test_readings_are_what_was_done_stamped_by_the_clock(bench, device, clock):
+def test_readings_match_the_actions_and_have_the_time_of_the_clock(bench, device, clock):
     clock.advance(1.0)
     before_s = clock()
     bench.act((1.0, -1.0), (True, False))
@@ -218,7 +222,7 @@ def test_readings_are_what_was_done_stamped_by_the_clock(bench, device, clock):
     assert latest.buttons == (False, True)
 
 
-def test_readings_come_once_oldest_first(bench, device, clock):
+def test_each_reading_comes_once_in_order(bench, device, clock):
     readings = []
     for axis in (0.0, 1.0, -1.0):
         clock.advance(0.1)
@@ -227,11 +231,11 @@ def test_readings_come_once_oldest_first(bench, device, clock):
     assert device.read() == ()
     times_s = [reading.host_time_s for reading in readings]
     assert times_s == sorted(times_s)
-    # A pad tells each key by itself, also where nothing changes by it.
+    # A pad reports each key separately, even if its state does not change.
     assert [axis for axis, _ in groupby(reading.axes[0] for reading in readings)][-2:] == [1, -1]
 
 
-def test_unplugging_is_an_error_that_stays(bench, device):
+def test_an_unplugged_device_stays_lost(bench, device):
     bench.act((1.0, 0.0), (True, True))
     bench.unplug()
     for _ in range(2):
@@ -243,18 +247,18 @@ def test_unplugging_is_an_error_that_stays(bench, device):
         bench.source.open(device.identity)
 
 
-def test_plugged_in_again_it_is_known_and_can_be_opened(bench, device):
+def test_a_device_plugged_in_again_has_its_identity_and_can_be_opened(bench, device):
     bench.unplug()
     bench.source.devices()
     bench.plug()
     assert bench.source.devices() == (device.identity,)
-    again = bench.source.open(device.identity)
+    reopened_device = bench.source.open(device.identity)
     bench.act((1.0, 1.0), (False, True))
-    assert again.read()[-1].axes == (1.0, 1.0)
-    assert (again.axes, again.buttons) == (device.axes, device.buttons)
+    assert reopened_device.read()[-1].axes == (1.0, 1.0)
+    assert (reopened_device.axes, reopened_device.buttons) == (device.axes, device.buttons)
 
 
-def test_closing_is_safe_twice_and_ends_reading(bench, device):
+def test_a_closed_device_cannot_be_read_and_may_be_closed_again(bench, device):
     device.close()
     device.close()
     bench.act((1.0, 0.0), (False, False))
@@ -263,17 +267,17 @@ def test_closing_is_safe_twice_and_ends_reading(bench, device):
     assert bench.source.open(device.identity).axes == device.axes
 
 
-def test_what_is_not_there_cannot_be_opened(bench):
+def test_an_unknown_device_cannot_be_opened(bench):
     bench.source.devices()
     with pytest.raises(InputLostError, match="stranger"):
         bench.source.open(InputIdentity("none:1", "stranger", "none"))
 
 
-# Silence is never consent: through what all sources have in common, whatever they are.
+# The following tests check, for every source, that a silent device counts as released.
 
 
 def test_every_installed_source_is_in_this_suite():
-    installed = {point.name for point in entry_points(group=INPUTS)}
+    installed = {point.name for point in entry_points(group=INPUT_GROUP)}
     assert installed
     assert installed <= BENCHES.keys()
 
@@ -284,48 +288,48 @@ STEP_S = 0.005
 
 
 class Operator:
-    """Who steers x by the first axis of a device, with its first button as the dead-man."""
+    """An operator who steers x with a device's first axis and its first button as dead-man."""
 
     def __init__(self, bench, clock, folder):
         self.bench, self.clock = bench, clock
         self.devices = InputDevices(InputHub({"bench": bench.source}), ("x", "y"), folder)
         (identity,) = bench.source.devices()
-        self.devices.look()
+        self.devices.detect_changes()
         self.intent = self.devices.step(clock()).intent
-        device = self.devices.device(identity.key)
+        device = self.devices.find_device(identity.key)
         axes = (AxisMapping(control=device.axes[0], drives="x"),)
-        actions = (ActionMapping(control=device.buttons[0], action=Action.DEAD_MAN),)
+        actions = (ActionMapping(control=device.buttons[0], action=OperatorAction.DEAD_MAN),)
         mapping = DeviceMapping(key=identity.key, axes=axes, actions=actions)
-        self.devices.use(Profile(name="Test", devices=(mapping,)))
+        self.devices.use_profile(InputProfile(name="Test", devices=(mapping,)))
 
     def run(self, seconds, states=()):
-        """Take the states in turn, one at each step; without any, do nothing."""
-        turns = cycle(states)
+        """Report the states in turn, one at each step. Without states, report nothing."""
+        states_in_turn = cycle(states)
         end_s = self.clock() + seconds - 1e-9
         while self.clock() < end_s:
             if states:
-                self.bench.act(*next(turns))
+                self.bench.act(*next(states_in_turn))
             self.clock.advance(STEP_S)
             self.intent = self.devices.step(self.clock()).intent
 
-    def do(self, state):
-        """Bring the device into a state, reported once."""
+    def report_once(self, state):
+        """Report a state of the device once."""
         self.bench.act(*state)
         self.run(0.2)
 
     def drive(self):
-        """Begin to steer as it should be done."""
+        """Begin to steer from rest, with the dead-man pressed first."""
         for state in (REST, PRESSED, DEFLECTED):
-            self.do(state)
-        assert self.moves
+            self.report_once(state)
+        assert self.is_moving
 
     @property
-    def moves(self):
+    def is_moving(self):
         return self.intent.deflections.get("x", 0.0) != 0.0
 
     @property
-    def consents(self):
-        return self.moves or Action.DEAD_MAN in self.intent.held
+    def is_consenting(self):
+        return self.is_moving or OperatorAction.DEAD_MAN in self.intent.held
 
 
 @pytest.fixture
@@ -335,38 +339,38 @@ def operator(bench, clock, tmp_path):
     operator.devices.close()
 
 
-def returns_only_from_rest(operator):
-    """Mend the device, and check that it acts again only from its centre and a new press."""
-    operator.bench.mend()
-    operator.devices.look()
-    operator.do(DEFLECTED)
+def check_return_from_rest(operator):
+    """Restore the link, and check that the device acts again only from rest and a new press."""
+    operator.bench.restore_link()
+    operator.devices.detect_changes()
+    operator.report_once(DEFLECTED)
     operator.run(0.3, [DEFLECTED])
-    assert not operator.consents
+    assert not operator.is_consenting
     operator.drive()
 
 
-def test_held_still_without_a_report_it_counts_as_released_within_a_second(operator):
+def test_a_device_without_reports_counts_as_released_within_a_second(operator):
     operator.drive()
-    operator.bench.fail()
+    operator.bench.break_link()
     operator.run(0.85)
-    assert not operator.consents
-    returns_only_from_rest(operator)
+    assert not operator.is_consenting
+    check_return_from_rest(operator)
 
 
 @pytest.mark.parametrize("noise", [(0.0,), (0.0, 0.008, -0.008), (0.0, 0.01, 0.02, 0.03)])
-def test_a_stream_that_breaks_off_counts_as_released_within_300_ms(operator, noise):
-    def noisy(state):
+def test_an_interrupted_stream_counts_as_released_within_300_ms(operator, noise):
+    def add_noise(state):
         (x, y), buttons = state
-        return [((x + stray, y), buttons) for stray in noise]
+        return [((x + offset, y), buttons) for offset in noise]
 
-    operator.run(1.5, noisy(REST))
-    operator.run(0.2, noisy(PRESSED))
-    operator.run(0.4, noisy(DEFLECTED))
-    assert operator.moves
-    operator.bench.fail()
+    operator.run(1.5, add_noise(REST))
+    operator.run(0.2, add_noise(PRESSED))
+    operator.run(0.4, add_noise(DEFLECTED))
+    assert operator.is_moving
+    operator.bench.break_link()
     operator.run(0.3)
-    assert not operator.consents
-    returns_only_from_rest(operator)
+    assert not operator.is_consenting
+    check_return_from_rest(operator)
 
 
 @pytest.mark.parametrize("reports", [(), (DEFLECTED,)])
@@ -376,5 +380,5 @@ def test_after_a_gap_in_the_programs_clock_the_old_deflection_does_not_act(opera
         operator.bench.act(*report)
     operator.clock.advance(30.0)
     operator.run(STEP_S)
-    assert not operator.consents
-    returns_only_from_rest(operator)
+    assert not operator.is_consenting
+    check_return_from_rest(operator)

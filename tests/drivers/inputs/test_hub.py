@@ -1,22 +1,25 @@
-"""The hub tells what came and went, and no bad source or device keeps it from the others."""
+"""The hub reports added and removed devices, and a bad source does not affect the others."""
 
 import logging
 from importlib.metadata import EntryPoint
 
 import pytest
 
-from rotemina.drivers import registry
-from rotemina.drivers.errors import DriverError
-from rotemina.drivers.inputs import hub as hub_module
-from rotemina.drivers.inputs.device import InputIdentity, InputLostError, InputSource
-from rotemina.drivers.inputs.hid.hid_discovery import HidSource
-from rotemina.drivers.inputs.hub import Changes, InputHub
-from rotemina.drivers.inputs.pad import Pad
+from rotemina.drivers.contract import DriverError, InputLostError, registry
+from rotemina.drivers.inputs import (
+    HidSource,
+    InputChanges,
+    InputHub,
+    InputIdentity,
+    InputPad,
+    InputSource,
+    hub as hub_module,
+)
 
 
 @pytest.fixture
 def pad(clock):
-    return Pad("pad", clock=clock)
+    return InputPad("pad", clock=clock)
 
 
 @pytest.fixture
@@ -24,7 +27,7 @@ def hub(hid, pad):
     return InputHub({"hid": hid, "keys": pad})
 
 
-class Bad(InputSource):
+class BrokenSource(InputSource):
     def devices(self):
         raise ZeroDivisionError("driver of the year 1999")
 
@@ -32,29 +35,29 @@ class Bad(InputSource):
         raise AssertionError("it has nothing to open")
 
 
-class Liar(InputSource):
-    def __init__(self, found):
+class WrongDevicesSource(InputSource):
+    def __init__(self, listed_devices):
         super().__init__()
-        self.found = found
+        self.listed_devices = listed_devices
 
     def devices(self):
-        return self.found
+        return self.listed_devices
 
     def open(self, identity):
         raise KeyError("handle")
 
 
-def test_it_tells_what_came_and_what_went(hub, hidapi, pad, descriptors):
+def test_added_and_removed_devices_are_reported(hub, hidapi, pad, descriptors):
     assert hub.devices == ()
-    assert hub.poll() == Changes(arrived=(pad.identity,))
+    assert hub.poll() == InputChanges(added=(pad.identity,))
     hidapi.plug(b"/dev/hidraw0", descriptors["joystick"])
-    (stick,) = hub.poll().arrived
+    (stick,) = hub.poll().added
     assert stick.key == "hid:046d:c215:0001"
-    assert hub.poll() == Changes()
+    assert hub.poll() == InputChanges()
     assert set(hub.devices) == {stick, pad.identity}
-    pad.withdraw()
+    pad.unplug()
     hidapi.bus.clear()
-    assert set(hub.poll().left) == {stick, pad.identity}
+    assert set(hub.poll().removed) == {stick, pad.identity}
     assert hub.devices == ()
 
 
@@ -65,52 +68,56 @@ def test_a_device_is_opened_by_its_key(hub, pad):
         hub.open("hid:1")
 
 
-def test_one_that_was_open_returns(hub, pad):
+def test_an_unplugged_device_can_return(hub, pad):
     hub.poll()
     hub.open("keys:pad")
-    pad.withdraw()
-    assert hub.poll() == Changes(left=(pad.identity,))
-    pad.offer()
-    assert hub.poll() == Changes(arrived=(pad.identity,))
-    assert hub.poll() == Changes()
+    pad.unplug()
+    assert hub.poll() == InputChanges(removed=(pad.identity,))
+    pad.plug_in()
+    assert hub.poll() == InputChanges(added=(pad.identity,))
+    assert hub.poll() == InputChanges()
 
 
-def test_one_that_was_away_between_two_polls_returns(hub, pad):
+def test_a_device_unplugged_between_two_polls_is_reported_again(hub, pad):
     hub.poll()
     device = hub.open("keys:pad")
-    pad.withdraw()
-    pad.offer()
+    pad.unplug()
+    pad.plug_in()
     with pytest.raises(InputLostError):
         device.read()
-    hub.lost("keys:pad")
-    assert hub.poll() == Changes(arrived=(pad.identity,))
-    assert hub.poll() == Changes()
+    hub.note_loss("keys:pad")
+    assert hub.poll() == InputChanges(added=(pad.identity,))
+    assert hub.poll() == InputChanges()
     hub.open("keys:pad")
-    hub.lost("keys:pad")
-    pad.withdraw()
-    assert hub.poll() == Changes(left=(pad.identity,))
+    hub.note_loss("keys:pad")
+    pad.unplug()
+    assert hub.poll() == InputChanges(removed=(pad.identity,))
 
 
 @pytest.mark.parametrize(
     ("source", "reason"),
     [
-        (Bad(), "ZeroDivisionError: driver of the year 1999"),
-        (Liar(["stick"]), "'stick' is no InputIdentity"),
-        (Liar(None), "TypeError"),
-        (Liar([InputIdentity("keys:pad", "thief", "liar")]), "another source already has"),
+        (BrokenSource(), "ZeroDivisionError: driver of the year 1999"),
+        (WrongDevicesSource(["stick"]), "'stick' is no InputIdentity"),
+        (WrongDevicesSource(None), "TypeError"),
+        (
+            WrongDevicesSource([InputIdentity("keys:pad", "thief", "liar")]),
+            "another source already has",
+        ),
     ],
 )
-def test_a_bad_source_is_named_and_left_out(pad, source, reason, caplog):
+def test_a_bad_source_is_reported_and_skipped(pad, source, reason, caplog):
     hub = InputHub({"keys": pad, "liar": source})
     with caplog.at_level(logging.WARNING):
         for _ in range(3):
             hub.poll()
     assert hub.devices == (pad.identity,)
     assert reason in hub.problems["liar"]
-    assert len(caplog.records) == 1  # told once, not every second
+    # The problem is logged once, not at each poll.
+    assert len(caplog.records) == 1
 
 
-def test_a_source_that_recovers_is_no_problem_any_more(hub, hidapi, monkeypatch):
+def test_the_problem_of_a_source_ends_when_it_recovers(hub, hidapi, monkeypatch):
     hidapi.failure = RuntimeError("no udev")
     hub.poll()
     assert "no udev" in hub.problems["hid"]
@@ -119,11 +126,11 @@ def test_a_source_that_recovers_is_no_problem_any_more(hub, hidapi, monkeypatch)
     assert hub.problems == {}
 
 
-def test_a_device_that_does_not_open_is_named_until_it_does(hub, hidapi, descriptors):
+def test_a_device_that_does_not_open_is_a_problem_until_it_opens(hub, hidapi, descriptors):
     stick = hidapi.plug(b"/dev/hidraw0", descriptors["joystick"])
     stick.refusal = "Permission denied"
     hub.poll()
-    (key,) = (one.key for one in hub.devices if one.source == "hid")
+    (key,) = (identity.key for identity in hub.devices if identity.source == "hid")
     with pytest.raises(DriverError, match="udev"):
         hub.open(key)
     assert "udev" in hub.problems[key]
@@ -138,38 +145,38 @@ def test_a_device_that_does_not_open_is_named_until_it_does(hub, hidapi, descrip
     assert hub.problems == {}
 
 
-def test_one_that_could_not_be_opened_is_told_again_but_not_for_ever(hub, hidapi, descriptors):
+def test_a_device_that_does_not_open_is_reported_four_times(hub, hidapi, descriptors):
     stick = hidapi.plug(b"/dev/hidraw0", descriptors["joystick"])
     stick.refusal = "Permission denied"
-    told = 0
+    report_count = 0
     for _ in range(10):
-        for identity in hub.poll().arrived:
+        for identity in hub.poll().added:
             if identity.source == "hid":
-                told += 1
+                report_count += 1
                 with pytest.raises(DriverError):
                     hub.open(identity.key)
-    assert told == 4
+    assert report_count == 4
     hidapi.bus.clear()
     hub.poll()
     hidapi.plug(b"/dev/hidraw0", descriptors["joystick"]).refusal = "Permission denied"
-    (identity,) = hub.poll().arrived
+    (identity,) = hub.poll().added
     with pytest.raises(DriverError):
         hub.open(identity.key)
-    hidapi.bus[b"/dev/hidraw0"].refusal = None  # the system is done with it
-    assert hub.poll().arrived == (identity,)
+    hidapi.bus[b"/dev/hidraw0"].refusal = None  # the system now permits it
+    assert hub.poll().added == (identity,)
     hub.open(identity.key)
-    assert hub.poll() == Changes()
+    assert hub.poll() == InputChanges()
 
 
-def test_what_a_plugin_raises_is_translated(pad):
-    hub = InputHub({"liar": Liar([InputIdentity("liar:1", "thing", "liar")])})
+def test_exceptions_of_a_plugin_become_driver_errors(pad):
+    hub = InputHub({"liar": WrongDevicesSource([InputIdentity("liar:1", "thing", "liar")])})
     hub.poll()
     with pytest.raises(DriverError, match=r"thing \(liar:1\) cannot be opened: KeyError"):
         hub.open("liar:1")
     assert "KeyError" in hub.problems["liar:1"]
 
 
-class Explodes(InputSource):
+class SourceWithoutLicence(InputSource):
     def __init__(self, *, clock):
         raise OSError("licence")
 
@@ -181,32 +188,32 @@ class Explodes(InputSource):
 
 
 @pytest.fixture
-def installed(monkeypatch):
+def install_sources(monkeypatch):
     def install(**values):
-        points = [EntryPoint(name, value, hub_module.INPUTS) for name, value in values.items()]
+        points = [EntryPoint(name, value, hub_module.INPUT_GROUP) for name, value in values.items()]
         monkeypatch.setattr(registry, "entry_points", lambda group: points)
 
     return install
 
 
-HID = "rotemina.drivers.inputs.hid.hid_discovery:HidSource"
+HID_ENTRY_POINT = "rotemina.drivers.inputs.hid_discovery:HidSource"
 
 
-def test_installed_sources_are_made_with_the_clock(installed, pad, clock):
-    installed(hid=HID, gone="no.such.module:Source", keys=HID)
-    hub = InputHub.installed({"keys": pad}, clock=clock)
+def test_installed_sources_get_the_clock(install_sources, pad, clock):
+    install_sources(hid=HID_ENTRY_POINT, gone="no.such.module:Source", keys=HID_ENTRY_POINT)
+    hub = InputHub.from_plugins({"keys": pad}, clock=clock)
     assert "ModuleNotFoundError" in hub.problems["gone"]
     assert "the program has a source of this name" in hub.problems["keys"]
     assert hub._sources["hid"].clock is clock
     assert isinstance(hub._sources["hid"], HidSource)
 
 
-def test_a_source_that_cannot_be_made_is_named(installed, monkeypatch):
-    installed(bad=HID)
-    monkeypatch.setattr(EntryPoint, "load", lambda self: Explodes)
-    assert "it cannot be made: OSError: licence" in InputHub.installed().problems["bad"]
+def test_a_source_that_cannot_be_created_is_reported(install_sources, monkeypatch):
+    install_sources(bad=HID_ENTRY_POINT)
+    monkeypatch.setattr(EntryPoint, "load", lambda self: SourceWithoutLicence)
+    assert "it cannot be created: OSError: licence" in InputHub.from_plugins().problems["bad"]
 
 
-def test_the_built_in_source_is_installed_as_any_other():
-    found = registry.discover(hub_module.INPUTS, InputSource).found
-    assert found["hid"] is HidSource
+def test_the_built_in_source_is_installed_like_a_plugin():
+    plugins = registry.discover_plugins(hub_module.INPUT_GROUP, InputSource).plugins
+    assert plugins["hid"] is HidSource

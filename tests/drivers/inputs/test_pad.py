@@ -1,27 +1,26 @@
-"""Keys and pads: what is held is released when told, and nothing is lost between two threads."""
+"""Keys and pads release their controls in time, and lose no change between two threads."""
 
 import threading
 
 import pytest
 
-from rotemina.drivers.errors import LimitError
-from rotemina.drivers.inputs.device import InputLostError
-from rotemina.drivers.inputs.pad import Pad
+from rotemina.drivers.contract import InputLostError, LimitError
+from rotemina.drivers.inputs import InputPad
 
 
 @pytest.fixture
 def pad(clock):
-    return Pad("keyboard", ("x", "y"), ("stop", "mode"), clock=clock)
+    return InputPad("keyboard", ("x", "y"), ("stop", "mode"), clock=clock)
 
 
-def test_it_first_tells_how_it_stands(pad):
+def test_the_first_reading_is_the_present_state(pad):
     pad.deflect("x", 1)
     (reading,) = pad.open(pad.identity).read()
     assert reading.axes == (1.0, 0.0)
     assert reading.buttons == (False, False)
 
 
-def test_each_press_is_told_however_short(pad, clock):
+def test_every_press_is_reported_even_a_short_one(pad, clock):
     device = pad.open(pad.identity)
     device.read()
     pad.hold("stop")
@@ -30,7 +29,7 @@ def test_each_press_is_told_however_short(pad, clock):
     assert [reading.buttons[0] for reading in device.read()] == [True, False]
 
 
-def test_all_is_released_at_once(pad):
+def test_release_all_is_a_single_reading(pad):
     device = pad.open(pad.identity)
     pad.deflect("x", 1.0)
     pad.deflect("y", -0.5)
@@ -42,24 +41,24 @@ def test_all_is_released_at_once(pad):
     assert reading.buttons == (False, False)
 
 
-def test_taken_away_it_is_released_too(pad):
+def test_unplugging_releases_all_controls(pad):
     pad.deflect("x", 1.0)
-    pad.withdraw()
-    pad.offer()
+    pad.unplug()
+    pad.plug_in()
     assert pad.open(pad.identity).read()[-1].axes == (0.0, 0.0)
 
 
-def test_taken_away_and_offered_again_the_old_one_stays_lost(pad):
+def test_a_device_opened_before_unplugging_stays_lost(pad):
     device = pad.open(pad.identity)
-    pad.withdraw()
-    pad.offer()
+    pad.unplug()
+    pad.plug_in()
     pad.deflect("x", 1.0)
     with pytest.raises(InputLostError):
         device.read()
 
 
 @pytest.mark.parametrize("deflection", [1.01, -2, float("nan"), float("inf")])
-def test_beyond_the_range_nothing_changes(pad, deflection):
+def test_a_deflection_beyond_the_range_changes_nothing(pad, deflection):
     device = pad.open(pad.identity)
     device.read()
     with pytest.raises(LimitError, match=r"x at .*: must be -1 to 1"):
@@ -67,14 +66,14 @@ def test_beyond_the_range_nothing_changes(pad, deflection):
     assert device.read() == ()
 
 
-def test_what_it_does_not_have_is_named(pad):
+def test_unknown_controls_are_rejected(pad):
     with pytest.raises(LimitError, match="no axis 'z'; it has x, y"):
         pad.deflect("z", 0.0)
     with pytest.raises(LimitError, match="no button 'fire'; it has stop, mode"):
         pad.hold("fire")
 
 
-def test_left_unread_the_newest_is_kept(pad):
+def test_the_newest_of_too_many_unread_readings_is_kept(pad):
     device = pad.open(pad.identity)
     for number in range(5000):
         pad.deflect("x", number / 5000)
@@ -83,7 +82,7 @@ def test_left_unread_the_newest_is_kept(pad):
     assert readings[-1].axes[0] == 4999 / 5000
 
 
-def test_set_by_two_threads_each_change_is_told_once_in_order(pad):
+def test_changes_of_two_threads_are_each_reported_once_in_order(pad):
     device = pad.open(pad.identity)
     device.read()
     names = ("x", "y")
@@ -103,20 +102,20 @@ def test_set_by_two_threads_each_change_is_told_once_in_order(pad):
     readings += device.read()
     assert len(readings) == 400
     for axis in range(2):
-        told = [reading.axes[axis] for reading in readings]
-        assert told == sorted(told)
-        assert told[-1] == 1.0
+        deflections = [reading.axes[axis] for reading in readings]
+        assert deflections == sorted(deflections)
+        assert deflections[-1] == 1.0
 
 
 @pytest.fixture
-def leased(clock):
-    return Pad("keyboard", ("x", "y"), ("fine",), lease_s=0.3, clock=clock)
+def leased_pad(clock):
+    return InputPad("keyboard", ("x", "y"), ("fine",), lease_s=0.3, clock=clock)
 
 
-def test_held_by_somebody_who_says_nothing_any_more_it_is_released(leased, clock):
-    device = leased.open(leased.identity)
-    leased.deflect("x", 1.0)
-    leased.hold("fine")
+def test_an_expired_lease_releases_the_pad(leased_pad, clock):
+    device = leased_pad.open(leased_pad.identity)
+    leased_pad.deflect("x", 1.0)
+    leased_pad.hold("fine")
     device.read()
     clock.advance(0.29)
     (reading,) = device.read()
@@ -125,41 +124,42 @@ def test_held_by_somebody_who_says_nothing_any_more_it_is_released(leased, clock
     (reading,) = device.read()
     assert reading.axes == (0.0, 0.0)
     assert reading.buttons == (False,)
-    assert not leased.renew()  # and stays so
+    # The pad stays released.
+    assert not leased_pad.renew()
     assert device.read() == ()
 
 
-def test_held_at_its_centre_it_is_held_all_the_same(leased, clock):
-    leased.deflect("x", 0.0)
+def test_a_pad_at_its_centre_can_be_renewed(leased_pad, clock):
+    leased_pad.deflect("x", 0.0)
     clock.advance(10.0)
-    assert leased.renew()
+    assert leased_pad.renew()
 
 
-def test_renewed_it_is_held_on(leased, clock):
-    device = leased.open(leased.identity)
-    leased.deflect("x", 1.0)
+def test_a_renewed_pad_stays_deflected(leased_pad, clock):
+    device = leased_pad.open(leased_pad.identity)
+    leased_pad.deflect("x", 1.0)
     device.read()
     for _ in range(10):
         clock.advance(0.2)
-        assert leased.renew()
+        assert leased_pad.renew()
         (reading,) = device.read()
         assert reading.axes == (1.0, 0.0)
         assert device.read() == ()
 
 
-def test_released_or_without_a_lease_it_confirms_nothing(leased, pad, clock):
-    leased.release_all()
+def test_a_released_pad_and_a_pad_without_lease_confirm_nothing(leased_pad, pad, clock):
+    leased_pad.release_all()
     pad.deflect("x", 1.0)
-    for one in (leased, pad):
-        device = one.open(one.identity)
+    for source in (leased_pad, pad):
+        device = source.open(source.identity)
         device.read()
         clock.advance(0.2)
         assert device.read() == ()
 
 
-def test_too_late_to_renew_it_is_released(leased, clock):
-    device = leased.open(leased.identity)
-    leased.deflect("x", 1.0)
+def test_a_late_renewal_releases_the_pad(leased_pad, clock):
+    device = leased_pad.open(leased_pad.identity)
+    leased_pad.deflect("x", 1.0)
     clock.advance(0.31)
-    assert not leased.renew()
+    assert not leased_pad.renew()
     assert device.read()[-1].axes == (0.0, 0.0)

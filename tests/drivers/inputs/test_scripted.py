@@ -1,13 +1,13 @@
-"""A script plays on the clock, from a list or a file; a bad one says where."""
+"""A script plays on the clock, from a list or a file. Errors in a file name the place."""
 
 import pytest
 
-from rotemina.drivers.errors import LimitError
-from rotemina.drivers.inputs.device import InputLostError, Rumbler
-from rotemina.drivers.inputs.script import Moment, Script, ScriptError
-from rotemina.drivers.inputs.scripted import Scripted
+from rotemina.drivers.contract import InputLostError, LimitError, ScriptError
+from rotemina.drivers.inputs import RumbleDevice
+from rotemina.drivers.inputs.script import InputScript, ScriptMoment
+from rotemina.drivers.inputs.scripted import ScriptedSource
 
-TEXT = """\
+SCRIPT_TEXT = """\
 time_s, axis x, axis y, button start, plugged
 0, 0, 0, 0, 1
 0.5, 1, -0.25, 0, 1
@@ -19,7 +19,7 @@ time_s, axis x, axis y, button start, plugged
 
 
 @pytest.fixture
-def written(tmp_path):
+def write_script(tmp_path):
     path = tmp_path / "script.csv"
 
     def write(text):
@@ -30,39 +30,39 @@ def written(tmp_path):
 
 
 @pytest.fixture
-def source(written, clock):
-    return Scripted(Script.load(written(TEXT)), clock=clock)
+def source(write_script, clock):
+    return ScriptedSource(InputScript.load(write_script(SCRIPT_TEXT)), clock=clock)
 
 
-def test_a_file_is_read(written):
-    script = Script.load(written(TEXT))
+def test_a_file_is_read(write_script):
+    script = InputScript.load(write_script(SCRIPT_TEXT))
     assert (script.axes, script.buttons) == (("x", "y"), ("start",))
     assert script.moments[1:3] == (
-        Moment(0.5, (1.0, -0.25), (False,)),
-        Moment(1.0, (1.0, 0.0), (True,)),
+        ScriptMoment(0.5, (1.0, -0.25), (False,)),
+        ScriptMoment(1.0, (1.0, 0.0), (True,)),
     )
     assert [moment.plugged for moment in script.moments] == [True, True, True, False, True]
 
 
-def test_a_file_of_a_spreadsheet_is_read(tmp_path):
+def test_a_file_from_a_spreadsheet_is_read(tmp_path):
     path = tmp_path / "script.csv"
     path.write_bytes("time_s,axis θx\r\n0,1\r\n".encode("utf-8-sig"))
-    assert Script.load(path).axes == ("θx",)
+    assert InputScript.load(path).axes == ("θx",)
 
 
-def test_it_plays_on_the_clock(source, clock):
-    begun_s = clock()
+def test_a_script_plays_on_the_clock(source, clock):
+    start_s = clock()
     device = source.open(source.identity)
     assert [reading.axes for reading in device.read()] == [(0.0, 0.0)]
     clock.advance(0.4)
     assert device.read() == ()
     clock.advance(0.7)
     readings = device.read()
-    assert [reading.host_time_s - begun_s for reading in readings] == [0.5, 1.0]
+    assert [reading.host_time_s - start_s for reading in readings] == [0.5, 1.0]
     assert [reading.buttons for reading in readings] == [(False,), (True,)]
 
 
-def test_it_is_unplugged_and_plugged_in_at_its_times(source, clock):
+def test_a_script_can_unplug_and_plug_in_the_device(source, clock):
     device = source.open(source.identity)
     clock.advance(2.5)
     assert source.devices() == ()
@@ -71,11 +71,13 @@ def test_it_is_unplugged_and_plugged_in_at_its_times(source, clock):
     with pytest.raises(InputLostError, match="not plugged in"):
         source.open(source.identity)
     clock.advance(1.5)
+    # The device that was opened before the unplugging stays lost.
     with pytest.raises(InputLostError):
-        device.read()  # the old one stays lost
+        device.read()
     (reading,) = source.open(source.identity).read()
     assert reading.axes == (0.0, 0.5)
-    assert reading.host_time_s == clock()  # not from before it was opened
+    # A reading is never older than the opening.
+    assert reading.host_time_s == clock()
 
 
 def test_a_short_unplugging_is_not_missed(source, clock):
@@ -85,19 +87,19 @@ def test_a_short_unplugging_is_not_missed(source, clock):
         device.read()
 
 
-def test_it_can_begin_anew(source, clock):
+def test_a_script_can_be_restarted(source, clock):
     clock.advance(2.5)
     source.start()
     assert source.open(source.identity).read()[0].axes == (0.0, 0.0)
 
 
-def test_it_remembers_how_it_shook(source, clock):
+def test_rumble_calls_are_recorded(source, clock):
     device = source.open(source.identity)
-    assert isinstance(device, Rumbler)
+    assert isinstance(device, RumbleDevice)
     device.rumble(0.5)
     clock.advance(1.0)
     device.rumble(0)
-    assert device.rumbled == [(clock() - 1.0, 0.5), (clock(), 0)]
+    assert device.rumble_calls == [(clock() - 1.0, 0.5), (clock(), 0)]
     for strength in (-0.1, 1.5, float("nan")):
         with pytest.raises(LimitError, match="must be 0 to 1"):
             device.rumble(strength)
@@ -120,19 +122,19 @@ def test_it_remembers_how_it_shook(source, clock):
         ("time_s,axis x\n0,nan\n", "moment 1: x at nan: must be -1 to 1"),
     ],
 )
-def test_a_bad_file_says_where(written, text, reason):
+def test_a_bad_file_is_refused_with_the_place_of_the_error(write_script, text, reason):
     with pytest.raises(ScriptError, match=f"script.csv.*{reason}"):
-        Script.load(written(text))
+        InputScript.load(write_script(text))
 
 
-def test_a_file_that_is_none_says_so(written, tmp_path):
+def test_a_missing_or_binary_file_is_refused(write_script, tmp_path):
     with pytest.raises(ScriptError, match="cannot be read"):
-        Script.load(tmp_path / "nowhere.csv")
+        InputScript.load(tmp_path / "nowhere.csv")
     (tmp_path / "script.csv").write_bytes(b"time_s\n\xff\n")
     with pytest.raises(ScriptError, match=r"not UTF-8 text \(byte 7\)"):
-        Script.load(tmp_path / "script.csv")
+        InputScript.load(tmp_path / "script.csv")
 
 
-def test_moments_of_another_size_are_refused():
+def test_moments_with_a_wrong_number_of_controls_are_refused():
     with pytest.raises(ScriptError, match="1 axes and 0 buttons: must be 2 and 0"):
-        Script(("x", "y"), (), (Moment(0.0, (1.0,)),))
+        InputScript(("x", "y"), (), (ScriptMoment(0.0, (1.0,)),))

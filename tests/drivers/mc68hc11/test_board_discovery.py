@@ -1,45 +1,55 @@
-"""Opening: what is said when the wrong thing, or nothing, is at the other end."""
+"""Opening fails with an explanation if the wrong device, or none, is connected."""
 
 import pytest
 
-from rotemina.drivers.clock import VirtualClock
-from rotemina.drivers.errors import DriverError, DriverTimeoutError, ProtocolError
-from rotemina.drivers.mc68hc11.board_messages import Identity, Refused, Telemetry
-from rotemina.drivers.mc68hc11.driver import MC68HC11
-from rotemina.drivers.mc68hc11.framing import Decoder, Frame, encoded
-from rotemina.drivers.mc68hc11.protocol_codes import Refusal
-from rotemina.drivers.samples import DeviceState
-from rotemina.sim.robot.file import load_robot
+from rotemina.drivers.contract import (
+    DeviceState,
+    DriverError,
+    DriverTimeoutError,
+    ProtocolError,
+    VirtualClock,
+)
+from rotemina.drivers.mc68hc11.driver import MC68HC11Driver
+from rotemina.drivers.mc68hc11.protocol import (
+    BoardIdentity,
+    FrameDecoder,
+    FrameRefused,
+    RefusalReason,
+    SerialFrame,
+    Telemetry,
+    encode_frame,
+)
+from rotemina.sim.robot_files import load_robot
 
 
-class Scripted:
-    """A port whose other end answers each frame as a function says."""
+class ScriptedPort:
+    """A port at which a function answers each frame."""
 
     def __init__(self, answer):
         self.answer = answer
-        self.decoder = Decoder(of_board=True)
-        self.said = b""
-        self.closed = False
+        self.decoder = FrameDecoder(is_board=True)
+        self.reply = b""
+        self.is_closed = False
 
     def read(self):
-        said, self.said = self.said, b""
-        return said
+        reply, self.reply = self.reply, b""
+        return reply
 
     def write(self, data):
         for frame in self.decoder.feed(data):
-            self.said += self.answer(frame)
+            self.reply += self.answer(frame)
 
     def waiting(self):
         return 0
 
     def close(self):
-        self.closed = True
+        self.is_closed = True
 
 
-def opened(robot, answer):
+def make_driver_with_answer(robot, answer):
     clock = VirtualClock()
-    port = Scripted(answer)
-    driver = MC68HC11(
+    port = ScriptedPort(answer)
+    driver = MC68HC11Driver(
         robot,
         {"port": "first"},
         clock=clock,
@@ -49,39 +59,51 @@ def opened(robot, answer):
     return driver, port, clock
 
 
-def identity(version=2, axes=3):
-    message = Identity(version, 0xFFFF, axes, 125_000, 24, 0, b"other")
-    return lambda frame: encoded(
-        Frame(frame.address, 0, Identity.TYPE, message.packed(), from_board=True)
+def answer_with_identity(version=2, axes=3):
+    message = BoardIdentity(version, 0xFFFF, axes, 125_000, 24, 0, b"other")
+    return lambda frame: encode_frame(
+        SerialFrame(frame.address, 0, BoardIdentity.TYPE, message.pack(), from_board=True)
     )
 
 
-def echo(frame):
-    return encoded(frame)
+def answer_with_echo(frame):
+    return encode_frame(frame)
 
 
-def older_identity(frame):
-    return encoded(Frame(frame.address, 0, Identity.TYPE, b"\x01\xff", from_board=True))
+def answer_with_older_identity(frame):
+    return encode_frame(
+        SerialFrame(frame.address, 0, BoardIdentity.TYPE, b"\x01\xff", from_board=True)
+    )
 
 
-def refusal(frame):
-    refused = Refused(frame.number, Refusal.WRONG_LENGTH)
-    return encoded(Frame(frame.address, 0, Refused.TYPE, refused.packed(), from_board=True))
+def answer_with_refusal(frame):
+    refused = FrameRefused(frame.number, RefusalReason.WRONG_LENGTH)
+    return encode_frame(
+        SerialFrame(frame.address, 0, FrameRefused.TYPE, refused.pack(), from_board=True)
+    )
 
 
-def board_3(_frame):
+def answer_as_board_3(_frame):
     telemetry = Telemetry(1, 0, 0, 0, 0, bytes(15))
-    return encoded(Frame(3, 0, Telemetry.TYPE, telemetry.packed(), from_board=True))
+    return encode_frame(SerialFrame(3, 0, Telemetry.TYPE, telemetry.pack(), from_board=True))
 
 
 @pytest.mark.parametrize(
     ("answer", "error", "match"),
     [
         (lambda _: b"Grbl", ProtocolError, r"\d+ bytes arrive at 125000 baud, but no valid"),
-        (echo, DriverTimeoutError, r"what this program sends comes back \(7 frames\)"),
-        (older_identity, ProtocolError, "not in version 2 of the protocol.*update the board's"),
-        (refusal, ProtocolError, "not in version 2 of the protocol.*update the board's"),
-        (board_3, ProtocolError, "board 3 answers there instead; exchange the cables"),
+        (answer_with_echo, DriverTimeoutError, r"this program receives its own frames \(7\)"),
+        (
+            answer_with_older_identity,
+            ProtocolError,
+            "not in version 2 of the protocol.*update the board's",
+        ),
+        (
+            answer_with_refusal,
+            ProtocolError,
+            "not in version 2 of the protocol.*update the board's",
+        ),
+        (answer_as_board_3, ProtocolError, "board 3 answers there instead; swap the cables"),
         (lambda _: b"", DriverTimeoutError, "no answer at 125000 baud.*9600"),
         (
             lambda _: b"\xf3\x81\x00\x9c\x1e\x00",
@@ -89,55 +111,59 @@ def board_3(_frame):
             r"\d+ bytes arrive at 125000 baud, but no valid frame",
         ),
         (lambda _: b"ok\r\n\x00ok\r\n\x00", ProtocolError, "whether an MC68HC11 board"),
-        (identity(version=3), ProtocolError, "version 3 .* this program 2; update the program"),
-        (identity(version=1), ProtocolError, "update the board's program"),
-        (identity(axes=2), DriverError, "has 2 axes.*has 3.*robot file"),
+        (
+            answer_with_identity(version=3),
+            ProtocolError,
+            "version 3 .* this program 2; update the program",
+        ),
+        (answer_with_identity(version=1), ProtocolError, "update the board's program"),
+        (answer_with_identity(axes=2), DriverError, "has 2 axes.*has 3.*robot file"),
     ],
 )
-def test_the_wrong_end_is_told_apart_and_the_port_let_go(robot, answer, error, match):
-    driver, port, clock = opened(robot, answer)
+def test_a_wrong_answer_is_explained_and_the_port_closed(robot, answer, error, match):
+    driver, port, clock = make_driver_with_answer(robot, answer)
     with pytest.raises(error, match=match):
         driver.open()
-    assert port.closed
+    assert port.is_closed
     assert driver.status().state is DeviceState.CLOSED
     assert clock() < 3.0
 
 
-def test_another_kind_of_axis_is_named(robot, joined_bench):
-    # The axes of the second board first: piezos where steppers are wanted.
-    bench = joined_bench(load_robot("rotemina"), ports=2)
-    bench.driver._open_port = lambda url, baud: _swapped(bench, url)
+def test_swapped_boards_are_refused(robot, make_bench):
+    # The axes of the second board come first, so that piezos take the place of steppers.
+    bench = make_bench(load_robot("rotemina"), ports=2)
+    bench.driver._open_port = lambda url, baud: _open_other_port(bench, url)
     with pytest.raises(DriverError, match=r"no answer at"):
         bench.driver.open()
-    assert all(port.closed for port in bench.ports)
+    assert all(port.is_closed for port in bench.ports)
 
 
-def _swapped(bench, url):
-    return bench._opened({"first": "second", "second": "first"}[url], 0)
+def _open_other_port(bench, url):
+    return bench._open_port({"first": "second", "second": "first"}[url], 0)
 
 
-def test_a_robot_that_no_board_moves_is_refused():
-    driver, _, _ = opened(load_robot("emps"), lambda _: b"")
+def test_a_robot_without_boards_is_refused():
+    driver, _, _ = make_driver_with_answer(load_robot("emps"), lambda _: b"")
     with pytest.raises(DriverError, match="boards"):
         driver.open()
 
 
-def test_it_opens_on_the_answers_of_the_second_try(robot, joined_bench):
-    bench = joined_bench(robot)
-    bench.driver._open_port = lambda url, baud: _deaf_at_first(bench._opened(url, baud))
+def test_opening_succeeds_at_the_second_attempt(robot, make_bench):
+    bench = make_bench(robot)
+    bench.driver._open_port = lambda url, baud: _drop_first_frames(bench._open_port(url, baud))
     bench.driver.open()
     assert bench.driver.status().state is DeviceState.IDLE
 
 
-def _deaf_at_first(port):
-    frames = iter((False, True, False, False))
-    port.to_board = lambda data: data if next(frames, True) else b""
+def _drop_first_frames(port):
+    is_delivered = iter((False, True, False, False))
+    port.to_board = lambda data: data if next(is_delivered, True) else b""
     return port
 
 
 @pytest.mark.parametrize("number", range(0, 256, 17))
-def test_whatever_number_the_board_had_last(robot, number, joined_bench):
-    bench = joined_bench(robot)
+def test_opening_works_after_any_frame_number(robot, number, make_bench):
+    bench = make_bench(robot)
     bench.clock.advance(number / 1e3)
     bench.begin_s = bench.clock()
     bench.driver.open()

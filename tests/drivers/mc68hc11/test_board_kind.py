@@ -1,61 +1,69 @@
-"""Boards say themselves that they are programs; without that word they are real ones."""
+"""Virtual boards report that they are virtual. All other boards count as real."""
 
 import pytest
 
-from rotemina.drivers.driver import MachineKind
-from rotemina.drivers.errors import ConnectionLostError
-from rotemina.drivers.mc68hc11.board_messages import BoardKind, Refused
-from rotemina.drivers.mc68hc11.framing import Decoder, Frame, encoded
-from rotemina.drivers.mc68hc11.host_messages import AskKind
-from rotemina.drivers.mc68hc11.protocol_codes import Refusal
+from rotemina.drivers.contract import ConnectionLostError, MachineKind
+from rotemina.drivers.mc68hc11.protocol import (
+    AskKind,
+    BoardKind,
+    FrameDecoder,
+    FrameRefused,
+    RefusalReason,
+    SerialFrame,
+    encode_frame,
+)
 
 
-def replaced(change):
-    """Return a filter of a line in which ``change`` replaces each message about the board's kind.
+def replace_kind_messages(change):
+    """Return a filter of a line that passes each message about the board's kind to ``change``.
 
-    It gets the frame and its bytes, and returns the bytes that arrive.
+    ``change`` gets the frame and its bytes, and returns the bytes that arrive.
     """
-    decoder = Decoder()
+    decoder = FrameDecoder()
 
     def alter(data):
         return b"".join(
-            change(frame, encoded(frame)) if frame.type == BoardKind.TYPE else encoded(frame)
+            change(frame, encode_frame(frame))
+            if frame.type == BoardKind.TYPE
+            else encode_frame(frame)
             for frame in decoder.feed(data)
         )
 
     return alter
 
 
-def older_firmware(frame, _data):
-    refused = Refused(frame.number, Refusal.UNKNOWN_TYPE)
-    return encoded(Frame(frame.address, frame.number, Refused.TYPE, refused.packed(), True))
+def refuse_as_older_firmware(frame, _data):
+    refused = FrameRefused(frame.number, RefusalReason.UNKNOWN_TYPE)
+    return encode_frame(
+        SerialFrame(frame.address, frame.number, FrameRefused.TYPE, refused.pack(), True)
+    )
 
 
-def other_word(frame, _data):
-    return encoded(frame._replace(payload=b"virtua"))
+def answer_with_other_kind(frame, _data):
+    return encode_frame(frame._replace(payload=b"virtua"))
 
 
-@pytest.fixture(params=[2, 1], ids=["a line each", "shared bus"])
-def bench(request, robot, joined_bench):
-    return joined_bench(robot, ports=request.param)
+@pytest.fixture(params=[2, 1], ids=["two lines", "shared bus"])
+def bench(request, robot, make_bench):
+    return make_bench(robot, ports=request.param)
 
 
-def opened_with(bench, change, *, lines=2):
-    """Open the driver while what boards say of their kind is changed on some lines."""
-    open_port = bench._opened
+def open_with_changed_kind(bench, change, *, lines=2):
+    """Open the driver while the messages about the kind of board are changed on some lines."""
+    open_port = bench._open_port
 
-    def altered(url, baud):
+    def open_altered_port(url, baud):
         port = open_port(url, baud)
         if lines == 2 or url == "second":
-            port.to_host = replaced(change)
+            port.to_host = replace_kind_messages(change)
         return port
 
-    bench.driver._open_port = altered
+    bench.driver._open_port = open_altered_port
     bench.driver.open()
     return bench.driver
 
 
-def test_the_shipped_boards_say_that_they_are_virtual(bench):
+def test_virtual_boards_report_that_they_are_virtual(bench):
     assert not bench.driver.is_identified
     bench.driver.open()
     assert bench.driver.machine_kind is MachineKind.VIRTUAL
@@ -64,48 +72,48 @@ def test_the_shipped_boards_say_that_they_are_virtual(bench):
 @pytest.mark.parametrize(
     "change",
     [
-        older_firmware,
+        refuse_as_older_firmware,
         lambda _frame, _data: b"",
         lambda _frame, data: data[:4] + data[5:],
         lambda _frame, data: data.replace(b"v", b"w"),
-        other_word,
+        answer_with_other_kind,
     ],
-    ids=["refused", "not answered", "a byte lost", "a byte changed", "another word"],
+    ids=["refused", "no answer", "lost byte", "changed byte", "other word"],
 )
-def test_boards_that_do_not_say_so_undamaged_are_a_real_machine(bench, change):
-    assert opened_with(bench, change).machine_kind is MachineKind.REAL
+def test_boards_without_an_intact_virtual_report_are_real(bench, change):
+    assert open_with_changed_kind(bench, change).machine_kind is MachineKind.REAL
 
 
-def test_one_real_board_makes_a_real_machine(robot, joined_bench):
-    driver = opened_with(joined_bench(robot, ports=2), older_firmware, lines=1)
+def test_one_real_board_makes_a_real_machine(robot, make_bench):
+    driver = open_with_changed_kind(make_bench(robot, ports=2), refuse_as_older_firmware, lines=1)
     assert driver.machine_kind is MachineKind.REAL
 
 
-def test_a_lost_answer_is_asked_for_again(bench):
-    lost = []
+def test_the_kind_is_requested_again_after_a_lost_answer(bench):
+    addresses_of_lost_answers = []
 
-    def lose_first(frame, data):
-        if frame.address in lost:
+    def lose_first_answer(frame, data):
+        if frame.address in addresses_of_lost_answers:
             return data
-        lost.append(frame.address)
+        addresses_of_lost_answers.append(frame.address)
         return b""
 
-    assert opened_with(bench, lose_first).machine_kind is MachineKind.VIRTUAL
-    assert sorted(lost) == [1, 2]
+    assert open_with_changed_kind(bench, lose_first_answer).machine_kind is MachineKind.VIRTUAL
+    assert sorted(addresses_of_lost_answers) == [1, 2]
 
 
-def test_lost_boards_stay_what_they_said_until_others_answer_at_their_port(bench):
+def test_lost_boards_keep_their_kind_until_other_boards_answer(bench):
     driver = bench.driver
     driver.open()
     for port in bench.ports:
-        port.cut = True
+        port.is_cut = True
     with pytest.raises(ConnectionLostError):
         bench.run(2.0)
     driver.close()
     assert driver.machine_kind is MachineKind.VIRTUAL
-    assert opened_with(bench, older_firmware).machine_kind is MachineKind.REAL
+    assert open_with_changed_kind(bench, refuse_as_older_firmware).machine_kind is MachineKind.REAL
 
 
-def test_a_board_is_asked_with_a_frame_of_its_own():
-    assert AskKind().packed() == b""
-    assert BoardKind(b"virtual").packed() == b"virtual"
+def test_the_messages_about_the_kind_have_the_expected_payload():
+    assert AskKind().pack() == b""
+    assert BoardKind(b"virtual").pack() == b"virtual"

@@ -1,37 +1,35 @@
-"""What frames reach the line after a stop: none that moves anything was asked for before it."""
+"""After a stop, no motion that was requested before it reaches the line."""
 
 import numpy as np
 import pytest
 
-from rotemina.drivers.errors import StateError
-from rotemina.drivers.gate import GateError
-from rotemina.drivers.mc68hc11.framing import Decoder
-from rotemina.drivers.mc68hc11.host_messages import (
+from rotemina.drivers.contract import DeviceState, GateError, StateError
+from rotemina.drivers.mc68hc11.protocol import (
     ArmProfile,
     BeginStream,
+    BoardFault,
     ClearFault,
-    Home,
+    FrameDecoder,
+    HomeAxes,
     MoveTo,
     MoveVelocity,
-    SetPoint,
     SetVoltage,
+    StreamSegment,
     TriggerProfile,
     WriteParameter,
 )
-from rotemina.drivers.mc68hc11.protocol_codes import Fault
-from rotemina.drivers.samples import DeviceState
-from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.records import Record, Tap
 
-MOVING = {
-    one.TYPE
-    for one in (
+MOTION_TYPES = {
+    message.TYPE
+    for message in (
         ArmProfile,
         BeginStream,
         ClearFault,
-        Home,
+        HomeAxes,
         MoveTo,
         MoveVelocity,
-        SetPoint,
+        StreamSegment,
         SetVoltage,
         TriggerProfile,
         WriteParameter,
@@ -41,20 +39,20 @@ IDLE = DeviceState.IDLE
 
 
 @pytest.fixture
-def bench(robot, joined_bench):
-    made = joined_bench(robot)
-    made.driver.open()
-    made.run(0.1)
-    yield made
-    made.driver.close()
+def bench(robot, make_bench):
+    bench = make_bench(robot)
+    bench.driver.open()
+    bench.run(0.1)
+    yield bench
+    bench.driver.close()
 
 
-class Line:
-    """The types of the frames that the host has written since, or ever."""
+class LineRecord:
+    """The types of the frames that the host has written, from now on or since the start."""
 
-    def __init__(self, bench, *, ever=False):
+    def __init__(self, bench, *, from_start=False):
         self._bench = bench
-        self._begin = [0 if ever else len(port.written) for port in bench.ports]
+        self._begin = [0 if from_start else len(port.written) for port in bench.ports]
 
     @property
     def types(self):
@@ -62,22 +60,22 @@ class Line:
             frame.type
             for port, begin in zip(self._bench.ports, self._begin, strict=True)
             for _, data in port.written[begin:]
-            for frame in Decoder().feed(data)
+            for frame in FrameDecoder().feed(data)
         }
 
 
 def stop_between_decision_and_write(bench, monkeypatch):
     """Let a stop reach the gate when the next frame has been chosen and is not written yet."""
-    for link in bench.driver._running.links:
-        inner = link._next
+    for link in bench.driver._open_session.links:
+        choose_next_frame = link._choose_next_frame
 
-        def later(now_s, inner=inner):
-            chosen = inner(now_s)
-            if chosen is not None and chosen[1].permit is not None:
+        def choose_and_stop(now_s, choose_next_frame=choose_next_frame):
+            choice = choose_next_frame(now_s)
+            if choice is not None and choice[1].permit is not None:
                 bench.driver.gate.stop()
-            return chosen
+            return choice
 
-        monkeypatch.setattr(link, "_next", later)
+        monkeypatch.setattr(link, "_choose_next_frame", choose_and_stop)
 
 
 REQUESTS = {
@@ -92,46 +90,48 @@ REQUESTS = {
 
 
 @pytest.mark.parametrize("name", REQUESTS)
-def test_a_frame_that_a_stop_overtakes_is_not_written(bench, monkeypatch, name):
-    line = Line(bench)
+def test_a_frame_requested_before_a_stop_is_not_written(bench, monkeypatch, name):
+    line = LineRecord(bench)
     stop_between_decision_and_write(bench, monkeypatch)
     REQUESTS[name](bench.driver)
     samples = bench.run(0.3)
-    assert not line.types & MOVING
+    assert not line.types & MOTION_TYPES
     assert (np.ptp(samples.command, axis=0) == 0.0).all()
 
 
-def test_no_set_point_follows_a_stop_not_even_before_the_driver_knows_of_it(bench):
+def test_no_set_point_follows_a_stop_of_the_gate(bench):
     time_s = np.arange(401) * 0.005
     path = 0.0275 + 2e-4 * np.sin(np.pi * time_s)
     bench.driver.play(Record.from_signals(time_s, {("x", Tap.CMD): path}, {"x": "m"}))
-    line = Line(bench)
+    line = LineRecord(bench)
     bench.run(0.6)
-    assert SetPoint.TYPE in line.types
-    bench.driver.gate.stop()  # the boards have yet to be told
-    line = Line(bench)
+    assert StreamSegment.TYPE in line.types
+    # The gate is closed, but the boards have not received the stop yet.
+    bench.driver.gate.stop()
+    line = LineRecord(bench)
     bench.run(0.05)
-    assert not line.types & MOVING
+    assert not line.types & MOTION_TYPES
     bench.driver.halt()
     bench.run_until(IDLE)
 
 
-def test_while_a_stop_is_latched_no_fault_is_cleared_and_nothing_moves(bench):
+def test_a_latched_stop_blocks_clearing_faults_and_motion(bench):
     driver = bench.driver
     driver.move_to({"x": 0.03})
     bench.run(0.1)
     driver.gate.stop("emergency stop")
     driver.halt()
-    line = Line(bench)
-    for request in (*REQUESTS.values(), lambda one: one.clear_fault()):
+    line = LineRecord(bench)
+    for request in (*REQUESTS.values(), lambda driver: driver.clear_fault()):
         with pytest.raises((GateError, StateError)):
             request(driver)
     bench.run(0.5)
-    assert not line.types & MOVING
+    assert not line.types & MOTION_TYPES
     driver.gate.release()
     driver.move_to({"x": 0.0285})
     samples = bench.run_until(IDLE)
-    assert ClearFault.TYPE in line.types  # of the stop, by the permit of what came after it
+    # The move after the release clears the fault of the stop.
+    assert ClearFault.TYPE in line.types
     assert samples.command[-1, 0] == pytest.approx(0.0285)
 
 
@@ -145,29 +145,29 @@ HALTS = {
     ("halt", "latch"), [("abort", None), ("abort", "emergency stop"), ("speed 0", None)]
 )
 def test_a_halt_after_a_stop_clears_no_fault(bench, halt, latch):
-    """Nobody who only lets go of a stick, or of a key, asks that the boards may move again."""
+    """Releasing a stick or a key must not enable motion again."""
     driver = bench.driver
     driver.move_to({"x": 0.03})
     bench.run(0.1)
     driver.gate.stop(latch)
     driver.halt()
     bench.run_until(IDLE)
-    line = Line(bench)
+    line = LineRecord(bench)
     HALTS[halt](driver)
     bench.run(0.5)
-    assert not line.types & MOVING
+    assert not line.types & MOTION_TYPES
 
 
-@pytest.mark.parametrize("fault", [Fault.STOPPED, Fault.WATCHDOG, Fault.RESET])
-def test_while_a_stop_is_latched_boards_are_connected_with_their_faults(robot, joined_bench, fault):
-    bench = joined_bench(robot)
+@pytest.mark.parametrize("fault", [BoardFault.STOPPED, BoardFault.WATCHDOG, BoardFault.RESET])
+def test_opening_with_a_latched_stop_keeps_the_faults_of_the_boards(robot, make_bench, fault):
+    bench = make_bench(robot)
     for board in bench.boards.boards:
         board.fault = fault
     driver = bench.driver
     driver.gate.stop("emergency stop")
     driver.open()
     bench.run(0.3)
-    assert ClearFault.TYPE not in Line(bench, ever=True).types
+    assert ClearFault.TYPE not in LineRecord(bench, from_start=True).types
     assert driver.status().state is DeviceState.FAULT
     with pytest.raises(GateError):
         driver.clear_fault()
@@ -179,11 +179,9 @@ def test_while_a_stop_is_latched_boards_are_connected_with_their_faults(robot, j
     driver.close()
 
 
-def test_a_stop_that_cuts_the_writing_of_parameters_off_leaves_them_to_be_written_again(
-    robot, joined_bench
-):
-    bench = joined_bench(robot)
-    bench.boards.boards[0].kept.write(2, 90_000)
+def test_parameters_must_be_written_again_after_a_stop_during_writing(robot, make_bench):
+    bench = make_bench(robot)
+    bench.boards.boards[0].parameters.write(2, 90_000)
     bench.driver.open()
     bench.driver.write_parameters()
     bench.driver.stop()

@@ -1,4 +1,4 @@
-"""What the firmware's hot paths do, instruction by instruction, beside the same in Python."""
+"""The firmware's hot paths, simulated by instruction, give the same results as Python."""
 
 import os
 import shutil
@@ -14,9 +14,10 @@ import pytest
 from rotemina.drivers.mc68hc11.firmware import cycles
 from rotemina.drivers.mc68hc11.firmware.chip_load import SOURCES
 
-sys.path.insert(0, str(Path(__file__).parent))  # no test module: the chip
+# The module of the chip is not a test module.
+sys.path.insert(0, str(Path(__file__).parent))
 
-from chip import built
+from chip import build_chip
 
 CODE, BYTE, CRC, IN, MARK, NEXT = 0x02, 0x03, 0x04, 0x06, 0x0B, 0x0D
 HEAD, TAIL, LEFT, OLDEST, SILENCE = 0x00, 0x01, 0x16, 0x18, 0x14
@@ -31,44 +32,45 @@ UNTIL, HOLD, LASTS = 0x78, 0x7A, 0x7C
 @pytest.fixture(scope="module")
 def firmware(tmp_path_factory):
     if shutil.which(cycles.ASSEMBLER) is None:
-        absent = f"no {cycles.ASSEMBLER}: `make test` installs {cycles.PACKAGE}"
+        message = f"no {cycles.ASSEMBLER}: `make test` installs {cycles.ASSEMBLER_PACKAGE}"
         if os.environ.get("CI") == "true":
-            pytest.fail(absent)
-        pytest.skip(absent)
+            pytest.fail(message)
+        pytest.skip(message)
     with as_file(files("rotemina.drivers.mc68hc11") / "firmware") as folder:
-        return built(folder, SOURCES, tmp_path_factory.mktemp("firmware"))
+        return build_chip(folder, SOURCES, tmp_path_factory.mktemp("firmware"))
 
 
 @pytest.fixture
 def chip(firmware):
-    made = deepcopy(firmware)
+    chip = deepcopy(firmware)
     for byte in range(256):
-        made.poke(made.symbols["table"] + 2 * byte, crc_hqx(bytes((byte,)), 0))
+        chip.poke(chip.symbols["table"] + 2 * byte, crc_hqx(bytes((byte,)), 0))
     for steps in range(151):
-        made.memory[made.symbols["shares"] + steps] = steps // 50
-        made.memory[made.symbols["shares"] + 160 + steps] = steps % 50
-    made.poke(SILENCE, 500)
-    made.poke(LEFT, 1000)
-    return made
+        chip.memory[chip.symbols["shares"] + steps] = steps // 50
+        chip.memory[chip.symbols["shares"] + 160 + steps] = steps % 50
+    chip.poke(SILENCE, 500)
+    chip.poke(LEFT, 1000)
+    return chip
 
 
-def stuffed(body):
-    """COBS, as `framing` has it."""
-    parts = body.split(b"\0")
-    return b"".join(bytes((len(part) + 1,)) + part for part in parts)
+def stuff_bytes(body):
+    """Encode by COBS, like `framing`."""
+    blocks = body.split(b"\0")
+    return b"".join(bytes((len(block) + 1,)) + block for block in blocks)
 
 
 @pytest.fixture(params=range(5))
 def body(request):
-    said = np.random.default_rng(request.param).integers(0, 4, 26).astype(np.uint8).tobytes()
-    return said + (crc_hqx(said, 0xFFFF) ^ 0xFFFF).to_bytes(2, "big")
+    content = np.random.default_rng(request.param).integers(0, 4, 26).astype(np.uint8).tobytes()
+    return content + (crc_hqx(content, 0xFFFF) ^ 0xFFFF).to_bytes(2, "big")
 
 
-def test_a_body_is_taken_apart_and_its_check_agrees(chip, body):
-    wire = stuffed(body)
+def test_a_body_is_unstuffed_and_its_check_agrees(chip, body):
+    wire = stuff_bytes(body)
     chip.poke(CRC, 0xFFFF)
     chip.poke(IN, FRAME)
-    chip.memory[CODE] = wire[0]  # the start of a frame is none of the hot path
+    # The hot path does not handle the start of a frame.
+    chip.memory[CODE] = wire[0]
     for byte in wire[1:]:
         chip.memory[RING + chip.memory[HEAD]] = byte
         chip.memory[HEAD] = chip.memory[HEAD] + 1 & 31
@@ -87,11 +89,11 @@ def test_a_body_is_stuffed_and_checked(chip, body):
         chip.a = byte
         chip.call("put_byte")
     chip.memory[chip.word(MARK)] = chip.memory[CODE]
-    assert bytes(chip.memory[FRAME_OUT : chip.word(IN)]) == stuffed(body)
+    assert bytes(chip.memory[FRAME_OUT : chip.word(IN)]) == stuff_bytes(body)
     assert chip.word(CRC) == 0x1D0F
 
 
-def test_a_segment_is_queued_and_begun_with_its_signs(chip):
+def test_a_segment_is_queued_and_loaded_with_its_signs(chip):
     first, second = (-70_000, 123_456_789, 5), (-3, 8_388_607, -8_388_608)
     chip.memory[NEXT] = 7
     chip.memory[FRAME : FRAME + 6] = bytes((1, 9, 0x12, 7, 0, 20))
@@ -104,65 +106,73 @@ def test_a_segment_is_queued_and_begun_with_its_signs(chip):
     chip.call("load_axes")
     assert chip.word(LEFT) == 20
     for axis in range(3):
-        at = AXES + SIZE * axis
-        assert signed(chip, at + FIRST, 4) == first[axis]
-        assert signed(chip, at + SECOND, 4) == second[axis]
+        address = AXES + SIZE * axis
+        assert read_signed(chip, address + FIRST, 4) == first[axis]
+        assert read_signed(chip, address + SECOND, 4) == second[axis]
     assert chip.word(OLDEST) == QUEUE + 26
 
 
-def signed(chip, at, size):
-    return int.from_bytes(chip.memory[at : at + size], "big", signed=True)
+def read_signed(chip, address, size):
+    return int.from_bytes(chip.memory[address : address + size], "big", signed=True)
 
 
-def prepared(chip, first, second, most=100):
+def add_lists(first, second):
+    return [left + right for left, right in zip(first, second, strict=True)]
+
+
+def prepare_axes(chip, first, second, max_steps=100):
     for axis in range(3):
-        at = AXES + SIZE * axis
-        chip.poke(at + FIRST, first[axis], 4)
-        chip.poke(at + SECOND, second[axis], 4)
-        chip.poke(at + MOST, most)
-        chip.poke(at + SPAN, 2 * most)
+        address = AXES + SIZE * axis
+        chip.poke(address + FIRST, first[axis], 4)
+        chip.poke(address + SECOND, second[axis], 4)
+        chip.poke(address + MOST, max_steps)
+        chip.poke(address + SPAN, 2 * max_steps)
 
 
-def test_ticks_add_differences_to_the_last_bit(chip):
-    chip.memory[chip.symbols["micro_out"]] = 0x3B  # what moves is looked at below
+def test_ticks_add_differences_exactly(chip):
+    chip.memory[chip.symbols["micro_out"]] = 0x3B  # RTI, so that no output is made
     first, second = [3 << 16, 40_000, 1_000_000], [-1500, 77, -9]
     position = [0, 0, 0]
-    prepared(chip, first, second)
+    prepare_axes(chip, first, second)
     for _ in range(200):
         chip.call("isr_tick")
-        first = [one + two for one, two in zip(first, second, strict=True)]
-        position = [one + two for one, two in zip(position, first, strict=True)]
+        first = add_lists(first, second)
+        position = add_lists(position, first)
         for axis in range(3):
-            at = AXES + SIZE * axis
-            assert signed(chip, at + POS, 4) == (position[axis] + (1 << 31)) % (1 << 32) - (1 << 31)
-            assert chip.word(at + TOLD) == position[axis] >> 16 & 0xFFFF
+            address = AXES + SIZE * axis
+            assert read_signed(chip, address + POS, 4) == (position[axis] + (1 << 31)) % (
+                1 << 32
+            ) - (1 << 31)
+            assert chip.word(address + TOLD) == position[axis] >> 16 & 0xFFFF
     assert chip.word(LEFT) == 800
     assert int.from_bytes(chip.memory[0x10:0x14], "big") == 200_000
 
 
-@pytest.mark.parametrize(("first", "made"), [(99, True), (101, False), (-99, True), (-102, False)])
-def test_more_steps_than_speed_times_tick_are_not_made(chip, first, made):
+@pytest.mark.parametrize(
+    ("first", "is_made"), [(99, True), (101, False), (-99, True), (-102, False)]
+)
+def test_steps_beyond_the_speed_limit_are_not_made(chip, first, is_made):
     chip.memory[chip.symbols["micro_out"]] = 0x3B
-    prepared(chip, [first << 16] * 3, [0] * 3)
+    prepare_axes(chip, [first << 16] * 3, [0] * 3)
     chip.call("isr_tick")
-    assert (chip.word(AXES + TOLD) == first & 0xFFFF) is made
+    assert (chip.word(AXES + TOLD) == first & 0xFFFF) is is_made
 
 
-def test_edges_come_one_in_50_steps_and_none_is_lost(chip):
-    prepared(chip, [(73 << 16) + 21_000, 10 << 16, 100 << 16], [0] * 3)
+def test_one_edge_is_made_per_50_steps_and_none_is_lost(chip):
+    prepare_axes(chip, [(73 << 16) + 21_000, 10 << 16, 100 << 16], [0] * 3)
     edges = [0, 0, 0]
     for _ in range(300):
         chip.call("isr_tick")
         for axis in range(3):
             edges[axis] += chip.memory[AXES + SIZE * axis + EDGES]
     for axis in range(3):
-        at = AXES + SIZE * axis
+        address = AXES + SIZE * axis
         steps = ((73 << 16) + 21_000, 10 << 16, 100 << 16)[axis] * 300 >> 16
-        assert edges[axis] * 50 + chip.memory[at + REST] == steps
+        assert edges[axis] * 50 + chip.memory[address + REST] == steps
 
 
-def held(chip, first, second, ticks=10, most=500):
-    prepared(chip, [0] * 3, [0] * 3, most)
+def prepare_held_rows(chip, first, second, ticks=10, max_steps=500):
+    prepare_axes(chip, [0] * 3, [0] * 3, max_steps)
     for axis in range(3):
         chip.poke(AXES + SIZE * axis + FIRST, first[axis])
         chip.poke(AXES + SIZE * axis + SECOND, second[axis])
@@ -171,7 +181,7 @@ def held(chip, first, second, ticks=10, most=500):
     chip.poke(LASTS, 2000 * ticks)
 
 
-def test_a_segment_of_held_rows_is_whole_steps(chip):
+def test_a_segment_of_held_rows_is_loaded_in_whole_steps(chip):
     chip.memory[FRAME : FRAME + 6] = bytes((1, 9, 0x12, 0, 0, 20))
     first, second = (-500, 500, 32_767), (-3, 1000, -20)
     for axis in range(3):
@@ -182,47 +192,51 @@ def test_a_segment_of_held_rows_is_whole_steps(chip):
     chip.call("load_rows")
     assert chip.word(LEFT) == 20
     for axis in range(3):
-        assert signed(chip, AXES + SIZE * axis + FIRST, 2) == first[axis]
-        assert signed(chip, AXES + SIZE * axis + SECOND, 2) == second[axis]
+        assert read_signed(chip, AXES + SIZE * axis + FIRST, 2) == first[axis]
+        assert read_signed(chip, AXES + SIZE * axis + SECOND, 2) == second[axis]
 
 
-def test_held_rows_change_the_command_every_so_many_ticks(chip):
+def test_held_rows_change_the_command_after_their_ticks(chip):
     chip.memory[chip.symbols["micro_row"]] = 0x3B
     first, second, position = [-80, 0, 433], [7, -1, 0], [0, 0, 0]
-    held(chip, first, second)
+    prepare_held_rows(chip, first, second)
     for tick in range(200):
         chip.call("isr_held")
         if tick % 10 == 0:
-            first = [one + two for one, two in zip(first, second, strict=True)]
-            position = [one + two for one, two in zip(position, first, strict=True)]
+            first = add_lists(first, second)
+            position = add_lists(position, first)
         for axis in range(3):
             assert chip.word(AXES + SIZE * axis + TOLD) == position[axis] & 0xFFFF
 
 
-@pytest.mark.parametrize(("way", "made"), [(500, True), (501, False), (-500, True), (-501, False)])
-def test_a_row_farther_than_the_axis_goes_is_not_made(chip, way, made):
+@pytest.mark.parametrize(
+    ("distance", "is_made"), [(500, True), (501, False), (-500, True), (-501, False)]
+)
+def test_a_row_beyond_the_distance_limit_is_not_made(chip, distance, is_made):
     chip.memory[chip.symbols["micro_row"]] = 0x3B
-    held(chip, [way] * 3, [0] * 3)
+    prepare_held_rows(chip, [distance] * 3, [0] * 3)
     chip.call("isr_held")
-    assert (chip.word(AXES + TOLD) == way & 0xFFFF) is made
+    assert (chip.word(AXES + TOLD) == distance & 0xFFFF) is is_made
 
 
 def test_the_edges_of_a_row_are_spread_over_its_time(chip):
-    ways = (500, 73, 10)
-    held(chip, ways, [0] * 3)
+    distances = (500, 73, 10)
+    prepare_held_rows(chip, distances, [0] * 3)
     edges = [0, 0, 0]
     for tick in range(300):
         chip.call("isr_held")
         for axis in range(3) if tick % 10 == 0 else ():
-            made = chip.memory[AXES + SIZE * axis + EDGES]
-            assert chip.word(AXES + SIZE * axis + PACE) == (20_000 // made if made else 0xFFFF)
-            edges[axis] += made
+            edge_count = chip.memory[AXES + SIZE * axis + EDGES]
+            assert chip.word(AXES + SIZE * axis + PACE) == (
+                20_000 // edge_count if edge_count else 0xFFFF
+            )
+            edges[axis] += edge_count
     for axis in range(3):
-        assert edges[axis] * 50 + chip.memory[AXES + SIZE * axis + REST] == 30 * ways[axis]
+        assert edges[axis] * 50 + chip.memory[AXES + SIZE * axis + REST] == 30 * distances[axis]
 
 
 def test_edges_of_a_row_count_backwards_too(chip):
-    held(chip, [-500, -73, -10], [0] * 3)
+    prepare_held_rows(chip, [-500, -73, -10], [0] * 3)
     for axis in range(3):
         chip.memory[AXES + SIZE * axis + TURN] = 0x80
     chip.call("isr_held")
@@ -233,12 +247,12 @@ def test_edges_of_a_row_count_backwards_too(chip):
     ("steps", "gain", "base"),
     [(0, 32_768, 5), (65_000, 33_000, 100), (12_345, 65_535, 0), (40_000, 257, 60_000)],
 )
-def test_a_piezo_s_code_is_the_product_to_the_last_bit(chip, steps, gain, base):
+def test_a_piezo_code_is_the_exact_product(chip, steps, gain, base):
     for axis in range(3):
-        at = AXES + SIZE * axis
-        chip.poke(at + POS, steps << 16, 4)
-        chip.poke(at + GAIN, gain)
-        chip.poke(at + BASE, base)
+        address = AXES + SIZE * axis
+        chip.poke(address + POS, steps << 16, 4)
+        chip.poke(address + GAIN, gain)
+        chip.poke(address + BASE, base)
     chip.call("nano_out")
     for axis in range(3):
         assert chip.word(OUTPUTS + 2 * axis) == (steps * gain >> 15) + base & 0xFFFF

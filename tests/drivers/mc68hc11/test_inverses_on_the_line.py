@@ -1,23 +1,21 @@
-"""Inverses in a session over the boards' own protocol, in virtual time."""
+"""Inverses in a session with virtual boards, over their protocol and in virtual time."""
 
 import numpy as np
 import pytest
 
-from rotemina.app.motion.compensation import NamedInverse
-from rotemina.app.motion.session import MotionSession
-from rotemina.app.motion.state import CommandRefused, Faulted
-from rotemina.sim.compensate.held_setpoint_inverse import HeldInverse
-from rotemina.sim.compensate.inverse_parameters import InverseModel
+from rotemina.app.motion.session import MotionSession, NamedInverse
+from rotemina.app.motion.state import CommandRefused, FaultRaised
+from rotemina.sim.compensate import InverseModel, SetpointInverse
 
 pytestmark = pytest.mark.slow
-STEP = 1e-9  # m, of zn's set-points
+ZN_STEP_M = 1e-9
 
 
-def test_jogs_and_speeds_of_boards_go_through_it(joined_bench, robot):
-    bench, seen, events = joined_bench(robot), [], []
+def test_jogs_and_velocities_go_through_the_inverse(make_bench, robot):
+    bench, recorded_samples, events = make_bench(robot), [], []
     session, zn = MotionSession(bench.driver), robot.axes["zn"]
     column = tuple(robot.axes).index("zn")
-    session.tap(lambda samples, _: seen.append(samples))
+    session.tap(lambda samples, _: recorded_samples.append(samples))
     session.subscribe(events.append)
 
     def run(seconds):
@@ -25,9 +23,10 @@ def test_jogs_and_speeds_of_boards_go_through_it(joined_bench, robot):
             bench.clock.advance(1e-3)
             session.run_once()
 
-    def at():
-        """Return what is wanted of zn, and what was sent, m."""
-        return session.snapshot().command["zn"], seen[-1].inputs[-1, column] * zn.gain
+    def read_zn():
+        """Return the desired position of zn and the position that was sent, in m."""
+        sent = recorded_samples[-1].inputs[-1, column] * zn.gain
+        return session.snapshot().command["zn"], sent
 
     model = InverseModel(
         axis="zn",
@@ -46,24 +45,27 @@ def test_jogs_and_speeds_of_boards_go_through_it(joined_bench, robot):
     )
     session.connect()
     run(0.6)
-    before = session.snapshot().command["zn"]
+    initial_command = session.snapshot().command["zn"]
     session.inverses.apply(NamedInverse(model, robot.name, "PI"))
     run(0.1)
     assert set(session.inverses.applied) == {"zn"}
-    own = HeldInverse(model, before)
-    for act, target in (
+    expected_inverse = SetpointInverse(model, initial_command)
+    for command, target in (
         (lambda: session.go_to({"zn": 45e-6}), 45e-6),
         (lambda: session.jog("zn", -5e-6), 40e-6),
     ):
-        act()
+        command()
         run(0.6)
-        wanted, sent = at()
-        assert wanted == pytest.approx(target, abs=STEP)
-        assert sent == pytest.approx(own.aim(target), abs=STEP)
-        own.follow(np.array([sent]))
+        desired, sent = read_zn()
+        assert desired == pytest.approx(target, abs=ZN_STEP_M)
+        assert sent == pytest.approx(expected_inverse.add_setpoint(target), abs=ZN_STEP_M)
+        expected_inverse.advance(np.array([sent]))
     session.move_velocity({"zn": -2e-5}, 0.15)
     run(0.5)
-    wanted, sent = at()
-    assert 36.8e-6 < wanted < 37.5e-6  # 0.15 s at no more than was wanted
-    assert own.follow(np.array([sent]))[-1] == pytest.approx(wanted, abs=5 * STEP)
-    assert not [event for event in events if isinstance(event, CommandRefused | Faulted)]
+    desired, sent = read_zn()
+    # The velocity lasts 0.15 s and does not exceed its value.
+    assert 36.8e-6 < desired < 37.5e-6
+    assert expected_inverse.advance(np.array([sent]))[-1] == pytest.approx(
+        desired, abs=5 * ZN_STEP_M
+    )
+    assert not [event for event in events if isinstance(event, CommandRefused | FaultRaised)]

@@ -1,20 +1,18 @@
-"""The boards' driver, put to the conformance kit over lines in memory to virtual boards."""
+"""The conformance suite, run on the boards' driver with lines in memory to virtual boards."""
 
 import pytest
 
-from rotemina.drivers.byte_channels import ByteChannel
-from rotemina.drivers.clock import VirtualClock
-from rotemina.drivers.conformance.bench import Bench as KitBench
-from rotemina.drivers.conformance.check import Verdict
-from rotemina.drivers.conformance.suite import CHECKS
-from rotemina.drivers.mc68hc11.driver import MC68HC11
-from rotemina.drivers.serial_port import SerialPort
-from rotemina.drivers.virtual_board.boards import VirtualBoards
+from rotemina.drivers.conformance import CHECKS, CheckVerdict, DriverBench as ConformanceBench
+from rotemina.drivers.contract import VirtualClock
+from rotemina.drivers.mc68hc11.driver import MC68HC11Driver
+from rotemina.drivers.serial_lines.byte_channels import ByteChannel
+from rotemina.drivers.serial_lines.serial_port import SerialPort
+from rotemina.drivers.virtual_board import VirtualBoards
 
 pytestmark = pytest.mark.slow
-# Its clock is looked at by whoever advances it too, so the kit cannot tell when a read begins.
+# The function that advances the clock reads it too, so the suite cannot detect when a read begins.
 # The boards have no output for a tool.
-NOT_HERE = {"stop-during-a-read", "stop-when-called", "tool"}
+IRRELEVANT_CHECKS = {"stop-during-a-read", "stop-when-called", "tool"}
 
 
 class BlockableChannel(ByteChannel):
@@ -37,8 +35,8 @@ class BlockableChannel(ByteChannel):
         self._port.close()
 
 
-class Surroundings:
-    """Boards that stay, whatever drivers come and go."""
+class LastingBoards:
+    """Virtual boards that outlast the drivers which use them."""
 
     def __init__(self, robot, ports, memory_port):
         self.robot = robot
@@ -49,38 +47,38 @@ class Surroundings:
         self.boards = VirtualBoards(robot, ports=ports, position_known=True)
         self.ports = []
         self.channels = []
-        self.opened = 0
+        self.open_count = 0
 
     def make(self, settings):
-        own = {"port": "first", "settle_s": 0.05}
+        port_settings = {"port": "first", "settle_s": 0.05}
         if self.count == 2:
-            own["second_port"] = "second"
-        return MC68HC11(
+            port_settings["second_port"] = "second"
+        return MC68HC11Driver(
             self.robot,
-            {**own, **settings},
+            {**port_settings, **settings},
             clock=self.clock,
             open_port=self.open_port,
             pause=self.clock.advance,
         )
 
     def open_port(self, url, _baud):
-        port = self.memory_port(self.boards.lines[url == "second"], self.clock)
+        port = self.memory_port(self.boards.host_ports[url == "second"], self.clock)
         port.begin_s = self.begin_s
         self.ports.append(port)
-        self.opened += 1
+        self.open_count += 1
         self.channels.append(BlockableChannel(port))
         return SerialPort(url, self.channels[-1], self.clock)
 
     def set_link(self, *, cut):
         for port in self.ports:
-            port.cut = cut
+            port.is_cut = cut
 
     def set_ports(self, *, blocked):
         for channel in self.channels:
             channel.blocked = blocked
 
     def damage_once(self):
-        """Change one byte of what the boards say next."""
+        """Change one byte of the next data from the boards."""
 
         def damage(port, data):
             if not data:
@@ -93,11 +91,11 @@ class Surroundings:
             port.to_host = lambda data, port=port: damage(port, data)
 
     def delay(self, seconds):
-        for port in self.boards.lines:
+        for port in self.boards.host_ports:
             port._line.to_board.delay_s = port._line.to_host.delay_s = seconds
 
-    def bench(self):
-        return KitBench(
+    def make_conformance_bench(self):
+        return ConformanceBench(
             make=self.make,
             advance=self.clock.advance,
             cut_link=lambda: self.set_link(cut=True),
@@ -106,18 +104,20 @@ class Surroundings:
             delay_line=self.delay,
             block_port=lambda: self.set_ports(blocked=True),
             unblock_port=lambda: self.set_ports(blocked=False),
-            touched=lambda: self.opened > 0,
+            was_device_contacted=lambda: self.open_count > 0,
         )
 
 
 @pytest.mark.parametrize("ports", [2, 1], ids=["two lines", "shared bus"])
-def test_the_boards_keep_the_contract(robot, memory_port, ports):
-    wrong, passed = [], 0
+def test_the_boards_fulfil_the_contract(robot, memory_port, ports):
+    failures, passed_count = [], 0
     for check in CHECKS:
-        result = check.run(Surroundings(robot, ports, memory_port).bench())
-        if result.verdict is Verdict.PASSED:
-            passed += 1
-        elif result.verdict is not Verdict.SKIPPED or check.name not in NOT_HERE | {"fault"}:
-            wrong.append(f"{check.name}: {result.verdict}: {result.demand} {result.note}")
-    assert not wrong
-    assert passed >= len(CHECKS) - len(NOT_HERE) - 1
+        result = check.run(LastingBoards(robot, ports, memory_port).make_conformance_bench())
+        if result.verdict is CheckVerdict.PASSED:
+            passed_count += 1
+        elif result.verdict is not CheckVerdict.SKIPPED or check.name not in IRRELEVANT_CHECKS | {
+            "fault"
+        }:
+            failures.append(f"{check.name}: {result.verdict}: {result.requirement} {result.note}")
+    assert not failures
+    assert passed_count >= len(CHECKS) - len(IRRELEVANT_CHECKS) - 1

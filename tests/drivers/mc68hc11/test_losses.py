@@ -1,80 +1,84 @@
-"""The driver on lines that lose, change and double bytes, are cut, and on boards that are reset."""
+"""The driver with bad or cut lines, and with boards that are reset."""
 
 import numpy as np
 import pytest
 
-from rotemina.drivers.errors import ConnectionLostError, DeviceResetError, StateError
-from rotemina.drivers.mc68hc11.protocol_codes import Fault
-from rotemina.drivers.samples import DeviceState, Samples
-from rotemina.drivers.virtual_board.clock import BoardClock
-from rotemina.sim.records.record import Record, Tap
+from rotemina.drivers.contract import (
+    ConnectionLostError,
+    DeviceResetError,
+    DeviceSamples,
+    DeviceState,
+    StateError,
+)
+from rotemina.drivers.mc68hc11.protocol import BoardFault
+from rotemina.drivers.virtual_board.clock import CrystalClock
+from rotemina.sim.records import Record, Tap
 
 IDLE, MOVING, FAULT = DeviceState.IDLE, DeviceState.MOVING, DeviceState.FAULT
 
 
 @pytest.fixture
-def bench(robot, joined_bench):
-    made = joined_bench(robot)
-    made.driver.open()
-    made.run(0.05)
-    yield made
-    made.driver.close()
+def bench(robot, make_bench):
+    bench = make_bench(robot)
+    bench.driver.open()
+    bench.run(0.05)
+    yield bench
+    bench.driver.close()
 
 
-def cut(bench, *, off=True):
+def set_cut(bench, *, is_cut):
     for port in bench.ports:
-        port.cut = off
+        port.is_cut = is_cut
 
 
-def hold(axis, at, rows=2000):
+def make_small_wave(axis, centre, rows=2000):
     time_s = np.arange(rows) * 0.005
     wave = 1e-6 * np.sin(2 * np.pi * time_s)
-    return Record.from_signals(time_s, {(axis, Tap.CMD): at + wave}, {axis: "m"})
+    return Record.from_signals(time_s, {(axis, Tap.CMD): centre + wave}, {axis: "m"})
 
 
-def test_a_short_loss_is_masked_and_nothing_begins_to_move(bench):
+def test_a_short_loss_is_tolerated_but_blocks_new_moves(bench):
     bench.driver.move_to({"x": 0.0285})
-    bench.run(0.05)
-    cut(bench)
-    samples = bench.run(0.2)
-    assert len(samples) <= 2
+    samples = bench.run(0.05)
+    set_cut(bench, is_cut=True)
+    assert len(bench.run(0.2)) <= 2
     status = bench.driver.status()
     assert 0.1 < status.silent_s < 0.25
     with pytest.raises(StateError, match="has been silent"):
         bench.driver.move_to({"y": 0.03})
-    cut(bench, off=False)
-    later = bench.run_until(IDLE)
+    set_cut(bench, is_cut=False)
+    later_samples = bench.run_until(IDLE)
     assert bench.driver.status().silent_s == 0.0
-    assert later.command[-1, 0] == pytest.approx(0.0285, abs=1e-15)
-    assert later.device_time_s[0] - samples.device_time_s[-1] > 0.15 if len(samples) else True
+    assert later_samples.command[-1, 0] == pytest.approx(0.0285, abs=1e-15)
+    assert later_samples.device_time_s[0] - samples.device_time_s[-1] > 0.15
 
 
-def test_a_long_loss_raises_and_nothing_resumes(bench):
-    bench.driver.play(hold("zn", 30e-6))
+def test_after_a_long_loss_nothing_resumes(bench):
+    bench.driver.play(make_small_wave("zn", 30e-6))
     bench.run(0.5)
-    cut(bench)
+    set_cut(bench, is_cut=True)
     with pytest.raises(ConnectionLostError, match="has not answered"):
         bench.run(1.0)
     status = bench.driver.status()
     assert (status.state, status.position_known) == (FAULT, False)
-    said = len(bench.ports[1].written)
-    cut(bench, off=False)
+    write_count = len(bench.ports[1].written)
+    set_cut(bench, is_cut=False)
     for _ in range(100):
         bench.clock.advance(0.005)
         with pytest.raises(ConnectionLostError):
             bench.driver.read()
-    assert len(bench.ports[1].written) == said
+    assert len(bench.ports[1].written) == write_count
     bench.ports[1].read()
     assert not bench.boards.moving
-    assert bench.boards.boards[1].fault is not Fault.NONE
+    assert bench.boards.boards[1].fault is not BoardFault.NONE
 
 
-def test_a_stream_that_starves_is_a_fault_and_both_boards_halt(bench):
-    bench.driver.play(hold("zn", 30e-6))
+def test_a_late_set_point_is_a_fault_that_stops_both_boards(bench):
+    bench.driver.play(make_small_wave("zn", 30e-6))
     bench.run(0.8)
-    cut(bench)
+    set_cut(bench, is_cut=True)
     bench.run(0.4)
-    cut(bench, off=False)
+    set_cut(bench, is_cut=False)
     bench.run_until(FAULT)
     assert "set-point came too late" in bench.driver.status().fault
     bench.run(0.2)
@@ -85,23 +89,24 @@ def test_a_stream_that_starves_is_a_fault_and_both_boards_halt(bench):
     assert bench.run_until(IDLE).command[-1, 5] == pytest.approx(20e-6, abs=1e-15)
 
 
-def test_a_computer_that_is_busy_for_300_ms_cuts_no_playback_off(bench):
-    bench.driver.play(hold("zn", 30e-6, rows=200))
-    bench.run(0.35)  # at rest at the first row; set-points have begun to go out
-    parts = []
+def test_a_playback_survives_a_program_that_is_busy_for_300_ms(bench):
+    bench.driver.play(make_small_wave("zn", 30e-6, rows=200))
+    # The axis is at the first row, and the first set-points are sent.
+    bench.run(0.35)
+    portions = []
     for _ in range(3):
         bench.clock.advance(0.3)
-        parts.append(bench.run(0.3))
-    samples = Samples.joined([*parts, bench.run_until(IDLE, MOVING, FAULT)], 6)
+        portions.append(bench.run(0.3))
+    samples = DeviceSamples.join([*portions, bench.run_until(IDLE, MOVING, FAULT)], 6)
     assert bench.driver.status().fault is None
     rows = samples.playback_row[samples.playback_row >= 0]
     np.testing.assert_array_equal(rows, np.arange(200))
 
 
-def test_a_board_that_is_reset_in_mid_move_ends_the_connection(bench):
+def test_a_reset_of_a_board_during_a_move_ends_the_connection(bench):
     bench.driver.move_to({"x": 0.05})
     bench.run(0.2)
-    bench.boards.boards[0].reset(Fault.RESET)
+    bench.boards.boards[0].reset(BoardFault.RESET)
     with pytest.raises(DeviceResetError, match="reset"):
         bench.run(1.0)
     assert not bench.driver.status().position_known
@@ -111,10 +116,10 @@ def test_a_board_that_is_reset_in_mid_move_ends_the_connection(bench):
     assert bench.driver.status().unhomed == ("x", "y", "z")
 
 
-def test_the_boards_clock_turns_unseen(robot, joined_bench):
-    bench = joined_bench(robot)
+def test_an_overflow_of_the_boards_clock_has_no_effect(robot, make_bench):
+    bench = make_bench(robot)
     for board in bench.boards.boards:
-        board.clock = BoardClock(bench.boards.tick_s, (1 << 32) - 1_000_000)
+        board.clock = CrystalClock(bench.boards.tick_s, (1 << 32) - 1_000_000)
     bench.driver.open()
     samples = bench.run(1.5)
     np.testing.assert_allclose(np.diff(samples.device_time_s), 0.005, atol=2e-6)
@@ -122,68 +127,70 @@ def test_the_boards_clock_turns_unseen(robot, joined_bench):
     bench.run_until(IDLE)
 
 
-def noise(generator, share):
-    """Return a line that changes, drops and doubles a share of its bytes."""
+def make_noise(generator, probability):
+    """Return a filter that changes, drops or doubles bytes with this probability."""
 
-    def passed(data):
-        out = bytearray()
+    def add_noise(data):
+        noisy_data = bytearray()
         for byte in data:
-            kind = generator.random() / share
-            if kind < 0.4:
-                out.append(int(generator.integers(256)))
-            elif kind < 0.7:
+            choice = generator.random() / probability
+            if choice < 0.4:
+                noisy_data.append(int(generator.integers(256)))
+            elif choice < 0.7:
                 continue
-            elif kind < 1.0:
-                out += bytes((byte, byte))
+            elif choice < 1.0:
+                noisy_data += bytes((byte, byte))
             else:
-                out.append(byte)
-        return bytes(out)
+                noisy_data.append(byte)
+        return bytes(noisy_data)
 
-    return passed
+    return add_noise
 
 
-def watched(bench):
-    """Count how often each target is executed."""
-    executed = {}
+def count_executions(bench):
+    """Return a dictionary that counts how often each target is executed."""
+    counts = {}
     for board in bench.boards.boards:
         for axis, drive in enumerate(board.drives):
 
-            def counted(target, speed, key=(board.number, axis), then=drive.move_to):
-                executed[(*key, target)] = executed.get((*key, target), 0) + 1
-                then(target, speed)
+            def count_and_move(target, speed, key=(board.number, axis), move_to=drive.move_to):
+                counts[(*key, target)] = counts.get((*key, target), 0) + 1
+                move_to(target, speed)
 
-            drive.move_to = counted
-    return executed
+            drive.move_to = count_and_move
+    return counts
 
 
 @pytest.mark.parametrize("seed", range(2))
 @pytest.mark.parametrize("ports", [1, 2])
-def test_noise_repeats_no_command_and_moves_nothing_after_a_stop(robot, seed, ports, joined_bench):
-    bench = joined_bench(robot, ports=ports)
+def test_noise_repeats_no_command_and_moves_nothing_after_a_stop(robot, seed, ports, make_bench):
+    bench = make_bench(robot, ports=ports)
     bench.driver.open()
-    executed = watched(bench)
+    execution_counts = count_executions(bench)
     generator = np.random.default_rng(seed)
     for port in bench.ports:
-        port.to_board = noise(generator, 0.004)
-        port.to_host = noise(generator, 0.004)
+        port.to_board = make_noise(generator, 0.004)
+        port.to_host = make_noise(generator, 0.004)
     targets = 0.0275 + 1e-6 * generator.permutation(1000)[:8]
-    low, high = robot.axes["x"].range
+    lower_limit, upper_limit = robot.axes["x"].range
     for target in targets:
-        asked(bench, float(target))
+        request_move(bench, float(target))
         samples = bench.run(float(generator.uniform(0.01, 0.1)))
         bench.driver.stop()
         bench.run(0.2)
-        still = bench.run(0.2)
-        assert (still.command == still.command[:1]).all()
-        for part in (samples, still):
-            assert ((part.command[:, 0] >= low) & (part.command[:, 0] <= high)).all()
-    assert executed
-    assert max(executed.values()) == 1
+        samples_at_rest = bench.run(0.2)
+        assert (samples_at_rest.command == samples_at_rest.command[:1]).all()
+        for portion in (samples, samples_at_rest):
+            assert (
+                (portion.command[:, 0] >= lower_limit) & (portion.command[:, 0] <= upper_limit)
+            ).all()
+    assert execution_counts
+    assert max(execution_counts.values()) == 1
     assert bench.driver.link_quality().rejected > 0
 
 
-def asked(bench, target):
-    """Ask for a move; a stop that the noise made up is cleared first."""
+def request_move(bench, target):
+    """Request a move. Clear the fault of a stop that only the noise caused first."""
     for _ in range(20):
         if bench.driver.status().state is FAULT:
             bench.driver.clear_fault()
@@ -197,17 +204,17 @@ def asked(bench, target):
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_a_playback_survives_lost_frames(robot, seed, joined_bench):
-    bench = joined_bench(robot)
+def test_a_playback_survives_lost_frames(robot, seed, make_bench):
+    bench = make_bench(robot)
     bench.driver.open()
     generator = np.random.default_rng(seed)
 
-    def loses(data):
-        # Whole frames, so that no stop is made up by the end of one and that of the next.
+    def drop_some_frames(data):
+        # Whole frames are dropped, so that no two frame ends form a stop.
         return b"" if generator.random() < 0.02 else data
 
-    bench.ports[1].to_board = loses
-    bench.driver.play(hold("zn", 30e-6, rows=200))
+    bench.ports[1].to_board = drop_some_frames
+    bench.driver.play(make_small_wave("zn", 30e-6, rows=200))
     samples = bench.run_until(IDLE, MOVING, FAULT)
     assert bench.driver.status().fault is None
     rows = samples.playback_row[samples.playback_row >= 0]
@@ -215,47 +222,47 @@ def test_a_playback_survives_lost_frames(robot, seed, joined_bench):
     assert bench.driver.link_quality().repeated > 0
 
 
-def test_lost_telemetry_leaves_gaps_and_invents_nothing(bench):
+def test_lost_telemetry_leaves_gaps_and_no_wrong_samples(bench):
     generator = np.random.default_rng(5)
     bench.ports[0].to_host = lambda data: b"" if generator.random() < 0.03 else data
-    bench.driver.play(hold("zn", 30e-6, rows=300))
+    bench.driver.play(make_small_wave("zn", 30e-6, rows=300))
     samples = bench.run_until(IDLE, MOVING, FAULT)
-    own = samples.playback_row >= 0
-    rows = samples.playback_row[own]
+    is_playback_row = samples.playback_row >= 0
+    rows = samples.playback_row[is_playback_row]
     assert 150 < len(rows) < 300
-    asked_for = hold("zn", 30e-6, rows=300).signal("zn", Tap.CMD)[rows]
-    np.testing.assert_allclose(samples.command[own, 5], asked_for, atol=5.1e-10)
+    expected_commands = make_small_wave("zn", 30e-6, rows=300).signal("zn", Tap.CMD)[rows]
+    np.testing.assert_allclose(samples.command[is_playback_row, 5], expected_commands, atol=5.1e-10)
     assert (np.diff(rows) > 0).all()
-    since = samples.device_time_s[own] - samples.device_time_s[own][0]
-    np.testing.assert_allclose(since, (rows - rows[0]) * 0.005, atol=2e-6)
+    elapsed_s = samples.device_time_s[is_playback_row] - samples.device_time_s[is_playback_row][0]
+    np.testing.assert_allclose(elapsed_s, (rows - rows[0]) * 0.005, atol=2e-6)
 
 
-def test_boards_whose_quartzes_differ_stay_in_step(robot, joined_bench):
-    bench = joined_bench(robot, crystal_ppm=(200.0, -200.0))
+def test_boards_with_different_crystals_stay_synchronous(robot, make_bench):
+    bench = make_bench(robot, crystal_ppm=(200.0, -200.0))
     bench.driver.open()
     bench.run(18.0, round_s=0.02)
-    first, second = bench.driver._running.boards
-    number = first.number_at(bench.clock())
+    first, second = bench.driver._open_session.boards
+    number = first.find_sample_number(bench.clock())
     true_s = [
-        bench.boards.boards[at].clock.tick_at(board.grid.time_us(number) % (1 << 32), 0)
-        for at, board in enumerate((first, second))
+        bench.boards.boards[index].clock.find_tick(board.grid.find_time_us(number) % (1 << 32), 0)
+        for index, board in enumerate((first, second))
     ]
     assert abs(true_s[0] - true_s[1]) * bench.boards.tick_s < 0.005
     assert len(bench.run(0.5)) > 90
 
 
-def test_a_port_that_is_gone_leaves_no_other_board_moving_or_port_open(robot, joined_bench):
-    bench = joined_bench(robot)
+def test_a_lost_port_stops_the_other_board_and_closes_both_ports(robot, make_bench):
+    bench = make_bench(robot)
     bench.driver.open()
     bench.run(0.05)
     first, second = bench.ports
 
-    def gone(_data):
+    def raise_connection_lost(_data):
         raise ConnectionLostError("first: the port has disappeared")
 
-    first.write = gone
-    said = len(second.written)
+    first.write = raise_connection_lost
+    write_count = len(second.written)
     with pytest.raises(ConnectionLostError, match="disappeared"):
         bench.driver.close()
-    assert second.written[said][1].startswith(b"\0\0")
-    assert (first.closed, second.closed) == (True, True)
+    assert second.written[write_count][1].startswith(b"\0\0")
+    assert (first.is_closed, second.is_closed) == (True, True)

@@ -1,12 +1,11 @@
-"""A program that does not run for a while, as on a suspended computer: nothing resumes then."""
+"""Nothing resumes after a pause of the program, as on a suspended computer."""
 
 import numpy as np
 import pytest
 
-from rotemina.drivers.errors import StateError
+from rotemina.drivers.contract import DeviceState, StateError
 from rotemina.drivers.mc68hc11.connection import MAX_PAUSE_S
-from rotemina.drivers.samples import DeviceState
-from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.records import Record, Tap
 
 IDLE, FAULT = DeviceState.IDLE, DeviceState.FAULT
 
@@ -17,13 +16,13 @@ def ports():
 
 
 @pytest.fixture
-def bench(ports, robot, joined_bench):
-    # The boards wait longer for the host than the pause lasts: they are no help.
-    made = joined_bench(robot, ports=ports, settings={"watchdog_s": 10.0})
-    made.driver.open()
-    made.run(0.1)
-    yield made
-    made.driver.close()
+def bench(ports, robot, make_bench):
+    # The boards' watchdog is longer than the pause, so only the driver can react.
+    bench = make_bench(robot, ports=ports, settings={"watchdog_s": 10.0})
+    bench.driver.open()
+    bench.run(0.1)
+    yield bench
+    bench.driver.close()
 
 
 on_both_kinds_of_lines = pytest.mark.parametrize("ports", [2, 1], ids=["two lines", "shared bus"])
@@ -51,20 +50,20 @@ def jog(bench):
     bench.driver.move_velocity({"x": 1e-3}, 0.4)
 
 
-BUSY = {
+MOTIONS = {
     "a move": (move, 0.3),
-    "a move that nobody has answered": (move, 0.0),
+    "a move without an answer so far": (move, 0.0),
     "a move that waits for a stop": (stop_and_move, 0.0),
     "a jog": (jog, 0.1),
-    "the way to a trajectory": (play, 0.02),
+    "the move to a trajectory": (play, 0.02),
     "the rest before a trajectory": (play, 0.22),
     "a trajectory": (play, 1.0),
 }
 
 
-@pytest.mark.parametrize(("begin", "after_s"), BUSY.values(), ids=BUSY.keys())
-def test_after_a_pause_in_mid_motion_nothing_goes_on_by_itself(bench, begin, after_s):
-    begin(bench)
+@pytest.mark.parametrize(("start_motion", "after_s"), MOTIONS.values(), ids=MOTIONS.keys())
+def test_no_motion_continues_after_a_pause(bench, start_motion, after_s):
+    start_motion(bench)
     bench.run(after_s)
     bench.clock.advance(5.0)
     bench.run(0.2)
@@ -82,7 +81,7 @@ def test_after_a_pause_in_mid_motion_nothing_goes_on_by_itself(bench, begin, aft
 
 
 @on_both_kinds_of_lines
-def test_a_pause_at_rest_is_no_fault_and_a_move_right_after_it_begins(bench):
+def test_a_pause_at_rest_is_no_fault_and_the_next_move_starts(bench):
     bench.clock.advance(5.0)
     bench.driver.move_to({"x": 0.0285})
     samples = bench.run_until(IDLE)

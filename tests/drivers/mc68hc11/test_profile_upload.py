@@ -1,72 +1,73 @@
-"""A profile as a board adds it up: near its cubics, and never too many segments."""
+"""A board's sums follow the cubics of a profile, with a limited number of segments."""
 
 import numpy as np
 import pytest
 
-from rotemina.drivers.errors import LimitError
-from rotemina.drivers.mc68hc11.axes import BoardAxis
-from rotemina.drivers.mc68hc11.host_messages import BeginProfile, Segments
-from rotemina.drivers.mc68hc11.profile_upload import (
-    FRACTION,
-    profile_messages,
-    segments_of,
-    ticks_of,
+from rotemina.drivers.abilities import MotionProfile, ProfileSegment
+from rotemina.drivers.contract import LimitError
+from rotemina.drivers.mc68hc11 import UNITS_PER_STEP, evaluate_segments
+from rotemina.drivers.mc68hc11.profile_upload import fit_segments, make_profile_messages
+from rotemina.drivers.mc68hc11.protocol import (
+    MAX_PROFILE_SEGMENTS,
+    BeginProfile,
+    BoardAxis,
+    LoadSegments,
 )
-from rotemina.drivers.mc68hc11.protocol_codes import SEGMENTS
-from rotemina.drivers.profile import Profile, ProfileSegment
 
 
-def smooth(steps, ticks):
-    share = np.arange(ticks + 1) / ticks
-    return steps * share**2 * (3.0 - 2.0 * share)
+def make_smooth_path(steps, ticks):
+    fraction = np.arange(ticks + 1) / ticks
+    return steps * fraction**2 * (3.0 - 2.0 * fraction)
 
 
-def off(path):
-    segments = segments_of(path)
-    assert len(segments) <= SEGMENTS
-    told = ticks_of(segments) / FRACTION
-    assert len(told) == len(path) - 1
-    assert told[-1] == pytest.approx(path[-1], abs=0.01)
-    return len(segments), float(np.abs(told - path[1:]).max())
+def measure_fit(path):
+    """Return the number of segments and the largest error, in steps."""
+    segments = fit_segments(path)
+    assert len(segments) <= MAX_PROFILE_SEGMENTS
+    evaluated_path = evaluate_segments(segments) / UNITS_PER_STEP
+    assert len(evaluated_path) == len(path) - 1
+    assert evaluated_path[-1] == pytest.approx(path[-1], abs=0.01)
+    return len(segments), float(np.abs(evaluated_path - path[1:]).max())
 
 
 @pytest.mark.parametrize(
-    ("steps", "ticks", "most"), [(50_000, 100, 1.0), (-500, 400, 1.0), (65_000, 20_000, 1.0)]
+    ("steps", "ticks", "max_error"), [(50_000, 100, 1.0), (-500, 400, 1.0), (65_000, 20_000, 1.0)]
 )
-def test_a_smooth_way_is_met_to_a_step(steps, ticks, most):
-    assert off(smooth(steps, ticks))[1] <= most
+def test_a_smooth_path_is_followed_to_a_step(steps, ticks, max_error):
+    assert measure_fit(make_smooth_path(steps, ticks))[1] <= max_error
 
 
-def test_a_way_that_needs_more_segments_than_a_board_has_is_met_less_closely():
-    out = smooth(50_000, 100)
-    path = np.concatenate([out, out[-2::-1], out[1:]])
-    count, error = off(path)
-    assert count > SEGMENTS // 2
+def test_a_path_that_needs_too_many_segments_is_followed_less_closely():
+    smooth_path = make_smooth_path(50_000, 100)
+    path = np.concatenate([smooth_path, smooth_path[-2::-1], smooth_path[1:]])
+    count, error = measure_fit(path)
+    assert count > MAX_PROFILE_SEGMENTS // 2
     assert 1.0 < error <= 8.0
 
 
-def test_cubics_become_frames_of_two_segments_at_whole_ticks():
+def test_cubics_become_messages_with_segments_of_whole_ticks():
     axis = BoardAxis("zn", 2, 1, -9)
-    profile = Profile(
+    profile = MotionProfile(
         "zn", (ProfileSegment(0.0101, 0.0, 3e-5, -2e-5), ProfileSegment(0.01, 0.0, 0.0, 0.0))
     )
-    begin, *told, _ = profile_messages(profile, axis, 2000)
+    begin, *messages, _ = make_profile_messages(profile, axis, 2000)
     assert isinstance(begin, BeginProfile)
-    assert all(isinstance(one, Segments) for one in told)
-    segments = [segment for one in told for segment in one.segments()]
+    assert all(isinstance(message, LoadSegments) for message in messages)
+    segments = [segment for message in messages for segment in message.unpack_segments()]
     assert len(segments) == begin.segments
-    assert sum(one.ticks for one in segments) == 41  # 20.1 ms
-    assert ticks_of(segments)[-1] == pytest.approx(10_000 * FRACTION, abs=50)
+    # The profile lasts 20.1 ms.
+    assert sum(segment.ticks for segment in segments) == 41
+    assert evaluate_segments(segments)[-1] == pytest.approx(10_000 * UNITS_PER_STEP, abs=50)
 
 
-def test_a_profile_that_lasts_longer_than_a_board_counts_is_refused():
-    with pytest.raises(LimitError, match="make it shorter"):
-        segments_of(np.zeros(SEGMENTS * 0xFFFF + 2))
+def test_a_profile_that_is_too_long_for_a_board_is_refused():
+    with pytest.raises(LimitError, match="shorten the profile"):
+        fit_segments(np.zeros(MAX_PROFILE_SEGMENTS * 0xFFFF + 2))
 
 
-@pytest.mark.parametrize("most", [50, 2500])
-def test_a_way_at_the_greatest_speed_is_told_no_faster_than_a_step_a_tick(most):
-    """1.5 times the mean at its middle."""
-    path = smooth(100 * most / 1.5, 100)
-    speeds = np.abs(np.diff(ticks_of(segments_of(path)), prepend=0)) / FRACTION
-    assert speeds.max() <= most + 1.0
+@pytest.mark.parametrize("max_speed", [50, 2500])
+def test_a_path_at_maximum_speed_exceeds_it_by_at_most_one_step_per_tick(max_speed):
+    """The speed in the middle of the path is 1.5 times its mean."""
+    path = make_smooth_path(100 * max_speed / 1.5, 100)
+    speeds = np.abs(np.diff(evaluate_segments(fit_segments(path)), prepend=0)) / UNITS_PER_STEP
+    assert speeds.max() <= max_speed + 1.0

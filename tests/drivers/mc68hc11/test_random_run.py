@@ -1,7 +1,7 @@
-"""A random run with the true plant watched: inside the range, and at rest after a stop.
+"""In a random run, the true positions stay in their ranges and at rest after a stop.
 
-A hundredth of it by default; `make soak` does ROTEMINA_OPERATIONS on the simulator, and a tenth as
-many on boards. Time is virtual.
+`make soak` sets ROTEMINA_OPERATIONS to a hundred times the default. The run on boards does a tenth
+of the operations. Time is virtual.
 """
 
 import os
@@ -11,24 +11,23 @@ import pytest
 from tests.app.motion.test_bounds_and_readings import IN_ANY_ORDER
 
 from rotemina.app.motion.session import MotionSession
-from rotemina.drivers.clock import VirtualClock
-from rotemina.drivers.samples import DeviceState
-from rotemina.drivers.simulator.driver import Simulator
+from rotemina.drivers.contract import DeviceState, VirtualClock
+from rotemina.drivers.simulator import Simulator
 from rotemina.sim.errors import InputError
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.file import load_robot
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot_files import load_robot
 
 pytestmark = pytest.mark.slow
 ROBOT = load_robot("rotemina")
 OPERATIONS = int(os.environ.get("ROTEMINA_OPERATIONS", "1000"))
-# Of the range, by which a machine at rest may still ring or creep after a stop.
-STILL = {"x": 1e-5, "y": 1e-5, "z": 1e-5, "thx": 2e-3, "thy": 2e-3, "zn": 2e-2}
+# Fraction of its range by which an axis may still ring or creep after a stop.
+MAX_CREEP = {"x": 1e-5, "y": 1e-5, "z": 1e-5, "thx": 2e-3, "thy": 2e-3, "zn": 2e-2}
 TIME_S = np.arange(60) / 200.0
-BOW = 0.02 * np.sin(np.pi * TIME_S / TIME_S[-1]) ** 2
+BUMP = 0.02 * np.sin(np.pi * TIME_S / TIME_S[-1]) ** 2
 
 
 class RandomRun:
-    """A session stepped by hand, and what must hold of the true positions in every round."""
+    """A session that is run step by step, with a check of the true positions in every round."""
 
     def __init__(self, driver, clock, true_positions, *, round_s, seed):
         self.round_s = round_s
@@ -38,7 +37,8 @@ class RandomRun:
         self.session = MotionSession(driver)
         self.low, self.high = np.array([axis.range for axis in ROBOT.axes.values()]).T
         self.span = self.high - self.low
-        self.beyond = np.zeros(len(self.span))  # the most so far, of the range
+        # Largest excess over the range so far, as a fraction of the range.
+        self.max_excess = np.zeros(len(self.span))
         self.accepted = self.stops = 0
         self.session.connect()
         self.run(0.3)
@@ -47,12 +47,12 @@ class RandomRun:
         for _ in range(max(round(seconds / self.round_s), 1)):
             self.clock.advance(self.round_s)
             self.session.run_once()
-            at = self.true_positions()
-            beyond = np.maximum(self.low - at, at - self.high) / self.span
-            self.beyond = np.maximum(self.beyond, beyond)
-            assert (beyond <= list(IN_ANY_ORDER.values())).all(), beyond
+            positions = self.true_positions()
+            excess = np.maximum(self.low - positions, positions - self.high) / self.span
+            self.max_excess = np.maximum(self.max_excess, excess)
+            assert (excess <= list(IN_ANY_ORDER.values())).all(), excess
 
-    def ask(self, request):
+    def try_request(self, request):
         try:
             request()
             self.accepted += 1
@@ -60,9 +60,9 @@ class RandomRun:
             pass
 
     def stop(self):
-        """Stop in the middle of it all; once it rests, nothing moves, though requests come."""
-        session, latch = self.session, self.rng.uniform() < 0.5
-        if latch:
+        """Stop at any time. Once the machine rests, nothing moves, even if requests follow."""
+        session, is_latched = self.session, self.rng.uniform() < 0.5
+        if is_latched:
             session.emergency_stop()
         else:
             session.stop()
@@ -72,16 +72,17 @@ class RandomRun:
             if session.snapshot().activity is DeviceState.IDLE:
                 break
         command = dict(session.snapshot().command)
-        self.run(0.5)  # until a piezo's ringing has died away
-        at = self.true_positions()
-        if latch:
-            before = self.accepted
+        # The ringing of a piezo dies away during this time.
+        self.run(0.5)
+        positions = self.true_positions()
+        if is_latched:
+            accepted_before = self.accepted
             self.act(self.rng.integers(6))
-            assert self.accepted == before
+            assert self.accepted == accepted_before
         self.run(0.1)
         assert dict(session.snapshot().command) == command
-        moved = np.abs(self.true_positions() - at) / self.span
-        assert (moved <= list(STILL.values())).all(), moved
+        displacement = np.abs(self.true_positions() - positions) / self.span
+        assert (displacement <= list(MAX_CREEP.values())).all(), displacement
         session.release()
 
     def act(self, kind):
@@ -90,19 +91,19 @@ class RandomRun:
         low, high = ROBOT.axes[axis].range
         target = float(rng.choice([low, high, rng.uniform(low, high)]))
         if kind in (0, 1):
-            self.ask(lambda: session.go_to({axis: target}))
+            self.try_request(lambda: session.go_to({axis: target}))
         elif kind == 2:
-            self.ask(lambda: session.jog(axis, float(rng.normal(0.0, 0.1)) * (high - low)))
+            self.try_request(lambda: session.jog(axis, float(rng.normal(0.0, 0.1)) * (high - low)))
         elif kind == 3:
             speed = float(rng.uniform(-1.0, 1.0)) * (ROBOT.axes[axis].max_speed or 0.0)
-            self.ask(lambda: session.move_velocity({axis: speed}, 0.15))
+            self.try_request(lambda: session.move_velocity({axis: speed}, 0.15))
         elif kind == 4:
             start = session.snapshot().command[axis]
-            way = start + BOW * (high - low) * (1.0 if start < 0.5 * (low + high) else -1.0)
-            path = Record.from_signals(TIME_S, {(axis, Tap.CMD): way}, {axis: ROBOT.unit(axis)})
-            self.ask(lambda: session.play(path))
+            command = start + BUMP * (high - low) * (1.0 if start < 0.5 * (low + high) else -1.0)
+            path = Record.from_signals(TIME_S, {(axis, Tap.CMD): command}, {axis: ROBOT.unit(axis)})
+            self.try_request(lambda: session.play(path))
         else:
-            self.ask(session.undo)
+            self.try_request(session.undo)
 
     def operate(self, count):
         for _ in range(count):
@@ -114,10 +115,12 @@ class RandomRun:
             else:
                 self.act(kind)
             self.run(float(self.rng.uniform(0.0, 0.1)))
-        most = dict(zip(ROBOT.axes, (100.0 * self.beyond).round(4).tolist(), strict=True))
+        max_excess_percent = dict(
+            zip(ROBOT.axes, (100.0 * self.max_excess).round(4).tolist(), strict=True)
+        )
         print(
-            f"{count} operations: {self.accepted} accepted, {self.stops} stops; most beyond "
-            f"the range, %: {most}"
+            f"{count} operations: {self.accepted} accepted, {self.stops} stops; largest excess "
+            f"over the range, %: {max_excess_percent}"
         )
         assert self.accepted > count / 20
         assert self.stops > count / 20
@@ -131,8 +134,8 @@ def test_the_simulated_machine_stays_in_its_range_and_rests_after_a_stop():
     run.operate(OPERATIONS)
 
 
-def test_the_machine_of_the_boards_does_too(joined_bench):
-    bench = joined_bench(ROBOT, seed=3)
+def test_the_machine_of_the_boards_stays_in_its_range_and_rests_after_a_stop(make_bench):
+    bench = make_bench(ROBOT, seed=3)
 
     def true_positions():
         bench.boards.machine.simulate()

@@ -1,26 +1,25 @@
-"""Lines on which every answer comes late, as over a radio or a network: slower, never silent."""
+"""Lines with late answers, as over a radio or a network, are slow but never count as silent."""
 
 import logging
 
 import numpy as np
 import pytest
 
-from rotemina.drivers.errors import DriverError, LimitError
-from rotemina.drivers.samples import DeviceState
-from rotemina.sim.records.record import Record, Tap
+from rotemina.drivers.contract import DeviceState, DriverError, LimitError
+from rotemina.sim.records import Record, Tap
 
 IDLE, FAULT = DeviceState.IDLE, DeviceState.FAULT
 
 
-def slow_bench(joined_bench, robot, ports, round_trip_s, **settings):
-    bench = joined_bench(robot, ports=ports, settings=settings)
-    for port in bench.boards.lines:
+def make_slow_bench(make_bench, robot, ports, round_trip_s, **settings):
+    bench = make_bench(robot, ports=ports, settings=settings)
+    for port in bench.boards.host_ports:
         line = port._line
         line.to_board.delay_s = line.to_host.delay_s = 0.5 * round_trip_s
     return bench
 
 
-def wave():
+def make_wave():
     time_s = np.arange(400) * 0.005
     signals = {("zn", Tap.CMD): 30e-6 + 1e-6 * np.sin(2 * np.pi * time_s)}
     return Record.from_signals(time_s, signals, {"zn": "m"})
@@ -37,10 +36,10 @@ def wave():
         (1, 0.12, {}),
     ],
 )
-def test_a_board_that_answers_late_is_moved_and_never_called_silent(
-    robot, joined_bench, caplog, ports, round_trip_s, settings
+def test_a_board_with_late_answers_moves_and_never_counts_as_silent(
+    robot, make_bench, caplog, ports, round_trip_s, settings
 ):
-    bench = slow_bench(joined_bench, robot, ports, round_trip_s, **settings)
+    bench = make_slow_bench(make_bench, robot, ports, round_trip_s, **settings)
     bench.driver.open()
     assert ("a stop takes half as long" in caplog.text) == (round_trip_s > 0.1)
     bench.driver.move_to({"x": 0.0277})
@@ -58,38 +57,41 @@ def test_a_board_that_answers_late_is_moved_and_never_called_silent(
 
 
 @pytest.mark.parametrize(
-    ("ports", "match"), [(2, "set watchdog_s to 0.91 or more"), (1, "a line for each board")]
+    ("ports", "match"),
+    [(2, "set watchdog_s to 0.91 or more"), (1, "a separate line for each board")],
 )
-def test_a_line_that_is_too_slow_is_refused_with_its_round_trip(robot, joined_bench, ports, match):
-    bench = slow_bench(joined_bench, robot, ports, 0.3)
-    with pytest.raises(DriverError, match=r"answers, but after 30\d.* ms: .*" + match):
+def test_a_line_that_is_too_slow_is_refused_with_its_round_trip_time(
+    robot, make_bench, ports, match
+):
+    bench = make_slow_bench(make_bench, robot, ports, 0.3)
+    with pytest.raises(DriverError, match=r"answers, but takes 30\d.* ms: .*" + match):
         bench.driver.open()
-    assert all(port.closed for port in bench.ports)
+    assert all(port.is_closed for port in bench.ports)
 
 
 @pytest.mark.parametrize(
     ("ports", "round_trip_s", "limit"), [(2, 0.08, "70 ms"), (1, 0.02, "20 ms")]
 )
-def test_a_trajectory_is_refused_where_its_set_points_would_come_too_late(
-    robot, joined_bench, ports, round_trip_s, limit
+def test_a_trajectory_is_refused_on_a_line_that_is_too_slow_for_it(
+    robot, make_bench, ports, round_trip_s, limit
 ):
-    bench = slow_bench(joined_bench, robot, ports, round_trip_s)
+    bench = make_slow_bench(make_bench, robot, ports, round_trip_s)
     bench.driver.open()
-    with pytest.raises(LimitError, match=f"must not take longer than {limit}"):
-        bench.driver.play(wave())
+    with pytest.raises(LimitError, match=f"an answer within {limit}"):
+        bench.driver.play(make_wave())
     bench.run(0.5)
     assert bench.driver.status().state is IDLE
     bench.driver.close()
 
 
 @pytest.mark.parametrize(("ports", "round_trip_s"), [(2, 0.06), (1, 0.012)])
-def test_a_trajectory_is_played_to_its_end_where_it_is_accepted(
-    robot, joined_bench, caplog, ports, round_trip_s
+def test_an_accepted_trajectory_is_played_to_its_end(
+    robot, make_bench, caplog, ports, round_trip_s
 ):
     caplog.set_level(logging.WARNING)
-    bench = slow_bench(joined_bench, robot, ports, round_trip_s)
+    bench = make_slow_bench(make_bench, robot, ports, round_trip_s)
     bench.driver.open()
-    bench.driver.play(wave())
+    bench.driver.play(make_wave())
     bench.run_until(IDLE, FAULT)
     status = bench.driver.status()
     assert (status.state, status.progress) == (IDLE, 1.0)

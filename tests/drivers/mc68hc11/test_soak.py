@@ -1,8 +1,7 @@
-"""A session on boards whose lines, supply and sensors misbehave at random, at accelerated pace.
+"""A session with boards whose lines, supply and sensors have random faults.
 
-Four minutes of life by default, in a minute or so; `make soak` lives for an hour. What must hold
-whatever happens: the machine is never commanded beyond its range, nothing moves after a stop, and
-nothing piles up.
+The test simulates four minutes by default, and an hour in `make soak`. The machine must never be
+commanded beyond its range, nothing may move after a stop, and the number of objects must not grow.
 """
 
 import gc
@@ -12,19 +11,21 @@ import numpy as np
 import pytest
 
 from rotemina.app.motion.session import MotionSession
-from rotemina.app.motion.state import Connection, Phase
-from rotemina.drivers.samples import DeviceState
-from rotemina.drivers.virtual_board.fault_injection import RandomFaults, inject
+from rotemina.app.motion.state import ConnectionState, SessionPhase
+from rotemina.drivers.contract import DeviceState
+from rotemina.drivers.virtual_board import RandomFaults, inject_fault
 from rotemina.sim.errors import InputError
-from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.records import Record, Tap
 
 pytestmark = pytest.mark.slow
-LIFE_S = float(os.environ.get("ROTEMINA_SOAK_S", "240"))
+DURATION_S = float(os.environ.get("ROTEMINA_SOAK_S", "240"))
 ROUND_S = 0.002
-MISHAPS_HZ = 0.5
-OVERTRAVEL = 0.015  # of a range, that homing may go below it to find the switch
-BRAKING_S = 0.1  # at least, of an axis at half its greatest speed
-GROWTH = 5000  # objects
+FAULT_RATE_HZ = 0.5
+# Fraction of a range by which homing may move below it to find the switch.
+OVERTRAVEL = 0.015
+# Minimum time in which an axis brakes from half its maximum speed.
+BRAKING_S = 0.1
+MAX_NEW_OBJECTS = 5000
 FAULTS = (
     "reset 1",
     "reset 2",
@@ -39,40 +40,41 @@ FAULTS = (
 )
 
 
-def objects():
-    """How many there are that a collection leaves."""
+def count_objects():
+    """Return the number of objects after a garbage collection."""
     gc.collect()
     return len(gc.get_objects())
 
 
 class Soak:
-    """A session stepped by hand, its boards, and what must hold in every round."""
+    """A session that is run step by step, its boards, and a check in every round."""
 
     def __init__(self, bench, seed):
         self.bench = bench
         self.rng = np.random.default_rng(seed)
         self.session = MotionSession(bench.driver)
         self.session.connect()
-        self.mishaps = RandomFaults(bench.boards, MISHAPS_HZ, seed)
+        self.random_faults = RandomFaults(bench.boards, FAULT_RATE_HZ, seed)
         self.ranges = np.array([axis.range for axis in self.session.robot.axes.values()])
-        self.steps = np.array([1e-7, 1e-7, 1e-7, 2e-8, 2e-8, 1e-9])
+        self.step_sizes = np.array([1e-7, 1e-7, 1e-7, 2e-8, 2e-8, 1e-9])
         self.accepted = self.refused = self.connections = self.stops = 0
-        self.before = self.machine.command.copy()
+        self.last_command = self.machine.command.copy()
         self.since_homing_s = np.full(2, np.inf)
-        self.still = None  # what boards commanded when they came to rest after a stop
+        # The command of the boards when they came to rest after a stop.
+        self.command_at_rest = None
 
     @property
     def machine(self):
         return self.bench.boards.machine
 
     @property
-    def lived_s(self):
+    def elapsed_s(self):
         return self.bench.clock() - self.bench.begin_s
 
     def run(self, seconds):
         for _ in range(round(seconds / ROUND_S)):
             self.bench.clock.advance(ROUND_S)
-            self.mishaps.live(self.bench.clock() - self.bench.begin_s)
+            self.random_faults.advance(self.bench.clock() - self.bench.begin_s)
             self.session.run_once()
             self.check()
 
@@ -80,19 +82,19 @@ class Soak:
         command, span = self.machine.command, np.ptp(self.ranges, axis=1)
         homing = np.array([bool(board.homing) for board in self.bench.boards.boards])
         switch = self.ranges[:, 0] - OVERTRAVEL * span
-        # A search for the switch that was cut off brakes, and leaves an axis below its range: from
-        # there it goes no lower.
+        # An interrupted search for the switch can leave an axis below its range. The axis may brake
+        # there, but then it must not move further down.
         self.since_homing_s = np.where(homing, 0.0, self.since_homing_s + ROUND_S)
         searching = np.repeat(self.since_homing_s < BRAKING_S, 3)
-        lowest = np.where(searching, switch, np.minimum(self.ranges[:, 0], self.before))
-        assert (command >= lowest - self.steps).all(), (command, lowest)
-        assert (command <= self.ranges[:, 1] + self.steps).all(), command
-        self.before = command.copy()
-        if self.still is not None:
-            np.testing.assert_array_equal(command, self.still)
+        lowest = np.where(searching, switch, np.minimum(self.ranges[:, 0], self.last_command))
+        assert (command >= lowest - self.step_sizes).all(), (command, lowest)
+        assert (command <= self.ranges[:, 1] + self.step_sizes).all(), command
+        self.last_command = command.copy()
+        if self.command_at_rest is not None:
+            np.testing.assert_array_equal(command, self.command_at_rest)
 
-    def ask(self, request):
-        self.still = None
+    def try_request(self, request):
+        self.command_at_rest = None
         try:
             request()
             self.accepted += 1
@@ -100,38 +102,38 @@ class Soak:
             self.refused += 1
 
     def stop(self):
-        """Stop; from when the boards are at rest on, nothing may move until somebody asks."""
+        """Stop. Once the boards are at rest, nothing may move until the next request."""
         self.session.stop()
         self.stops += 1
-        self.still = None
+        self.command_at_rest = None
         for _ in range(20):
             self.run(0.1)
             if not self.bench.boards.moving:
                 break
         assert not self.bench.boards.moving
-        self.still = self.machine.command.copy()
+        self.command_at_rest = self.machine.command.copy()
         self.run(0.3)
 
     def recover(self):
-        """Do what an operator would, until motion is possible or something stands in the way."""
-        self.still = None
+        """Act like an operator until motion is possible, at most four times."""
+        self.command_at_rest = None
         for _ in range(4):
             state = self.session.snapshot()
-            if state.connection is not Connection.CONNECTED:
-                self.ask(self.session.reconnect)
+            if state.connection is not ConnectionState.CONNECTED:
+                self.try_request(self.session.reconnect)
                 self.connections += 1
             elif state.fault is not None:
-                self.ask(self.session.service.clear_fault)
+                self.try_request(self.session.service.clear_fault)
             elif state.unhomed:
-                self.ask(self.session.home)
-                self.until_idle(20.0)
-            elif state.locked and "confirm" in state.locked:
-                self.ask(self.session.confirm_position)
+                self.try_request(self.session.home)
+                self.run_until_homed(20.0)
+            elif state.lock_reason and "confirm" in state.lock_reason:
+                self.try_request(self.session.confirm_position)
             else:
                 return
             self.run(0.3)
 
-    def until_idle(self, limit_s):
+    def run_until_homed(self, limit_s):
         for _ in range(round(limit_s / 0.1)):
             self.run(0.1)
             if self.session.snapshot().activity is not DeviceState.HOMING:
@@ -142,30 +144,31 @@ class Soak:
         axes = list(session.robot.axes)
         axis = axes[rng.integers(len(axes))]
         low, high = session.robot.axes[axis].range
-        if rng.uniform() < 0.8:  # most of the time where homing is short
+        # Most targets are close to the switch, so that homing is short.
+        if rng.uniform() < 0.8:
             high = low + 0.15 * (high - low)
         kind = rng.integers(8)
         if kind == 0:
-            self.ask(lambda: session.go_to({axis: float(rng.uniform(low, high))}))
+            self.try_request(lambda: session.go_to({axis: float(rng.uniform(low, high))}))
         elif kind == 1:
-            self.ask(lambda: session.jog(axis, float(rng.normal(0, 0.1) * (high - low))))
+            self.try_request(lambda: session.jog(axis, float(rng.normal(0, 0.1) * (high - low))))
         elif kind in (2, 3):
             speed = float(rng.uniform(-1, 1)) * session.robot.axes[axis].max_speed
             for _ in range(rng.integers(1, 6)):
-                self.ask(lambda: session.move_velocity({axis: speed}, 0.15))
+                self.try_request(lambda: session.move_velocity({axis: speed}, 0.15))
                 self.run(0.05)
         elif kind == 4:
-            self.ask(lambda: session.play(self.swing(axis)))
+            self.try_request(lambda: session.play(self.make_wave(axis)))
             self.run(0.5)
         elif kind == 5:
             self.stop()
         elif kind == 6:
-            self.ask(session.undo)
+            self.try_request(session.undo)
         else:
-            inject(self.bench.boards, FAULTS[rng.integers(len(FAULTS))])
+            inject_fault(self.bench.boards, FAULTS[rng.integers(len(FAULTS))])
         self.run(float(rng.uniform(0.02, 0.4)))
 
-    def swing(self, axis):
+    def make_wave(self, axis):
         low, high = self.session.robot.axes[axis].range
         time_s = np.arange(200) * 5e-3
         wave = 0.05 + 0.002 * np.sin(2 * np.pi * time_s)
@@ -176,21 +179,21 @@ class Soak:
         )
 
 
-def test_nothing_moves_beyond_its_range_or_after_a_stop(robot, joined_bench):
-    soak = Soak(joined_bench(robot, seed=3, start_fraction=0.05), seed=5)
+def test_nothing_moves_beyond_its_range_or_after_a_stop(robot, make_bench):
+    soak = Soak(make_bench(robot, seed=3, start_fraction=0.05), seed=5)
     soak.run(0.3)
-    assert soak.session.snapshot().phase is Phase.READY
-    before = 0
-    while soak.lived_s < LIFE_S:
+    assert soak.session.snapshot().phase is SessionPhase.READY
+    object_count_before = 0
+    while soak.elapsed_s < DURATION_S:
         soak.recover()
         soak.act()
-        if not before and soak.lived_s > 0.3 * LIFE_S:
-            before = objects()
+        if not object_count_before and soak.elapsed_s > 0.3 * DURATION_S:
+            object_count_before = count_objects()
     print(
-        f"{soak.lived_s:.0f} s of life: {soak.accepted} requests, {soak.refused} refused, "
+        f"{soak.elapsed_s:.0f} s simulated: {soak.accepted} requests, {soak.refused} refused, "
         f"{soak.stops} stops, {soak.connections} connections"
     )
     assert soak.accepted > 30
     assert soak.stops > 3
-    assert objects() - before < GROWTH
+    assert count_objects() - object_count_before < MAX_NEW_OBJECTS
     soak.session.close()

@@ -1,65 +1,69 @@
-"""The simulator against the nominal model, and what no other device would do."""
+"""The simulator follows the nominal model, keeps its limits, and is reproducible."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from rotemina.drivers.clock import VirtualClock
-from rotemina.drivers.errors import LimitError, StateError
-from rotemina.drivers.samples import DeviceState, Samples
-from rotemina.drivers.settings import SettingError
-from rotemina.drivers.simulator.device import SimulatedDevice
-from rotemina.drivers.simulator.driver import MAX_READ_S, Simulator
-from rotemina.sim.effects.errors import EffectError
-from rotemina.sim.plant.errors import PlantError
-from rotemina.sim.plant.plant import Plant
-from rotemina.sim.plant.response import nominal_response
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.robot.model import AxisEffect
+from rotemina.drivers.contract import (
+    DeviceSamples,
+    DeviceState,
+    DriverSettingError,
+    LimitError,
+    StateError,
+    VirtualClock,
+)
+from rotemina.drivers.simulator import SimulatedDevice, Simulator
+from rotemina.drivers.simulator.driver import MAX_READ_S
+from rotemina.sim.errors import EffectError, PlantError
+from rotemina.sim.plant import Plant, simulate_nominal_response
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot import AxisEffect
+from rotemina.sim.robot_files import load_robot
 
 ROBOT = load_robot("rotemina")
 EMPS = load_robot("emps")
 
 
-def without_sensors(robot):
-    return replace(robot, axes={n: replace(a, sensor=None) for n, a in robot.axes.items()})
+def remove_sensors(robot):
+    return replace(
+        robot, axes={name: replace(axis, sensor=None) for name, axis in robot.axes.items()}
+    )
 
 
-def unbounded(robot):
-    """A robot that may be sent from row to row however far apart these are."""
-    free = {"max_speed": None, "max_acceleration": None}
-    return replace(robot, axes={n: replace(a, **free) for n, a in robot.axes.items()})
+def remove_limits(robot):
+    """Return the robot without limits of speed and acceleration, so that rows may be far apart."""
+    no_limits = {"max_speed": None, "max_acceleration": None}
+    axes = {name: replace(axis, **no_limits) for name, axis in robot.axes.items()}
+    return replace(robot, axes=axes)
 
 
-def opened(robot=ROBOT, **given):
+def open_simulator(robot=ROBOT, **settings):
     clock = VirtualClock(77.0)
-    driver = Simulator(robot, given, clock=clock)
+    driver = Simulator(robot, settings, clock=clock)
     driver.open()
     return driver, clock
 
 
-def played(driver, clock, trajectory, step_s=0.37):
-    """Play and return the samples of the trajectory's rows alone, as one."""
+def play_and_read(driver, clock, trajectory, step_s=0.37):
+    """Play, and return all samples and whether each belongs to a row of the trajectory (n,)."""
     driver.play(trajectory)
-    parts = []
+    portions = []
     while driver.status().state is DeviceState.PLAYING:
         clock.advance(step_s)
-        parts.append(driver.read())
+        portions.append(driver.read())
     assert driver.status().fault is None
-    whole = Samples.joined(parts, len(driver.axes))
-    return whole, whole.playback_row >= 0
+    samples = DeviceSamples.join(portions, len(driver.axes))
+    return samples, samples.playback_row >= 0
 
 
-def smooth(time_s, robot=ROBOT, mode="open_loop"):
-    """All axes of a robot, from rest and back to rest, together."""
-    turn = 0.5 * (1 - np.cos(2 * np.pi * (time_s - time_s[0]) / (time_s[-1] - time_s[0])))
+def make_smooth_trajectory(time_s, robot=ROBOT, mode="open_loop"):
+    """Make a trajectory that moves all axes of a robot from rest to rest together."""
+    wave = 0.5 * (1 - np.cos(2 * np.pi * (time_s - time_s[0]) / (time_s[-1] - time_s[0])))
     signals, units = {}, {}
     for name, axis in robot.axes.items():
-        signals[name, Tap.CMD] = axis.range[0] + axis.span * (0.4 + 0.02 * turn)
+        signals[name, Tap.CMD] = axis.range[0] + axis.span * (0.4 + 0.02 * wave)
         units[name] = axis.unit
     return Record.from_signals(time_s, signals, units, {"mode": mode})
 
@@ -71,55 +75,61 @@ SPARSE = np.arange(201) * 0.01
 
 @pytest.mark.parametrize("time_s", [EVEN, UNEVEN, SPARSE], ids=["even", "uneven", "sparse"])
 def test_a_playback_is_the_nominal_response(time_s):
-    robot = unbounded(without_sensors(ROBOT))
-    trajectory = smooth(time_s)
-    samples, own = played(*opened(robot, settle_s=3.0), trajectory)
-    response = nominal_response(robot, trajectory)
+    robot = remove_limits(remove_sensors(ROBOT))
+    trajectory = make_smooth_trajectory(time_s)
+    samples, is_row = play_and_read(*open_simulator(robot, settle_s=3.0), trajectory)
+    response = simulate_nominal_response(robot, trajectory)
     for column, name in enumerate(robot.axes):
         modelled = response.signal(name, Tap.MEAS)
         bound = 1e-12 * robot.axes[name].span
-        np.testing.assert_allclose(samples.measured[own, column], modelled, rtol=0, atol=bound)
+        np.testing.assert_allclose(samples.measured[is_row, column], modelled, rtol=0, atol=bound)
     assert np.isnan(samples.inputs[:, :3]).all()
-    np.testing.assert_allclose(samples.inputs[own, 5], response.signal("zn", Tap.U), rtol=1e-12)
+    np.testing.assert_allclose(samples.inputs[is_row, 5], response.signal("zn", Tap.U), rtol=1e-12)
 
 
-def test_distant_rows_are_sampled_in_between_on_the_same_motion():
-    samples, own = played(*opened(unbounded(ROBOT)), smooth(SPARSE))
-    first, last = np.flatnonzero(own)[[0, -1]]
-    inside = samples.device_time_s[first : last + 1]
-    np.testing.assert_allclose(np.diff(inside), 1e-3, atol=1e-9)
-    held = samples.command[first : last + 1, 0]
-    np.testing.assert_array_equal(held[:-1].reshape(-1, 10), np.repeat(held[:-1:10, None], 10, 1))
+def test_the_motion_between_distant_rows_is_sampled():
+    samples, is_row = play_and_read(
+        *open_simulator(remove_limits(ROBOT)), make_smooth_trajectory(SPARSE)
+    )
+    first, last = np.flatnonzero(is_row)[[0, -1]]
+    row_times_s = samples.device_time_s[first : last + 1]
+    np.testing.assert_allclose(np.diff(row_times_s), 1e-3, atol=1e-9)
+    held_command = samples.command[first : last + 1, 0]
+    np.testing.assert_array_equal(
+        held_command[:-1].reshape(-1, 10), np.repeat(held_command[:-1:10, None], 10, 1)
+    )
 
 
-def test_a_robot_with_a_controller_plays_under_it():
-    trajectory = smooth(np.arange(2000) * 1e-3, EMPS, mode="closed_loop")
-    samples, own = played(*opened(EMPS, settle_s=2.0), trajectory)
-    response = nominal_response(EMPS, trajectory)
-    # The model starts without the deviation by which the loop carries the constant force.
-    deviation = samples.measured[own, 0] - response.signal("q", Tap.MEAS)
+def test_a_robot_with_a_controller_plays_in_closed_loop():
+    trajectory = make_smooth_trajectory(np.arange(2000) * 1e-3, EMPS, mode="closed_loop")
+    samples, is_row = play_and_read(*open_simulator(EMPS, settle_s=2.0), trajectory)
+    response = simulate_nominal_response(EMPS, trajectory)
+    # The model starts without the deviation that the loop needs to balance the constant force.
+    deviation = samples.measured[is_row, 0] - response.signal("q", Tap.MEAS)
     assert np.abs(deviation[:1]).max() < 4e-6
     assert np.abs(deviation[400:]).max() < 1e-9
-    effort = samples.inputs[own, 0] - response.signal("q", Tap.U)
+    effort = samples.inputs[is_row, 0] - response.signal("q", Tap.U)
     assert np.abs(effort[400:]).max() < 1e-6
 
 
-@pytest.mark.parametrize("apart_s", [0.5, 0.0015, 4e-4])
-def test_a_loop_is_closed_at_the_devices_ticks_whatever_the_rows(apart_s):
-    time_s = np.arange(round(3.0 / apart_s) + 1) * apart_s
+@pytest.mark.parametrize("interval_s", [0.5, 0.0015, 4e-4])
+def test_a_loop_runs_at_the_ticks_of_the_device_for_any_row_interval(interval_s):
+    time_s = np.arange(round(3.0 / interval_s) + 1) * interval_s
     command = 0.06 + 0.01 * np.sin(np.pi * time_s / time_s[-1]) ** 2
     trajectory = Record.from_signals(time_s, {("q", Tap.CMD): command}, {"q": "m"})
-    samples, own = played(*opened(EMPS), trajectory)
-    first, last = np.flatnonzero(own)[[0, -1]]
-    inside = samples.device_time_s[first : last + 1]
-    np.testing.assert_allclose(np.diff(inside), 1e-3, atol=1e-9)
-    asked = command[np.searchsorted(time_s, inside - inside[0] + 1e-9, side="right") - 1]
-    np.testing.assert_array_equal(samples.command[first : last + 1, 0], asked)
-    assert 0.055 < samples.measured[own, 0].min() < samples.measured[own, 0].max() < 0.075
+    samples, is_row = play_and_read(*open_simulator(EMPS), trajectory)
+    first, last = np.flatnonzero(is_row)[[0, -1]]
+    row_times_s = samples.device_time_s[first : last + 1]
+    np.testing.assert_allclose(np.diff(row_times_s), 1e-3, atol=1e-9)
+    expected_command = command[
+        np.searchsorted(time_s, row_times_s - row_times_s[0] + 1e-9, side="right") - 1
+    ]
+    np.testing.assert_array_equal(samples.command[first : last + 1, 0], expected_command)
+    assert 0.055 < samples.measured[is_row, 0].min() < samples.measured[is_row, 0].max() < 0.075
 
 
 def test_readings_have_the_declared_noise_and_resolution():
-    driver, clock = opened(seed=3)
+    driver, clock = open_simulator(seed=3)
     clock.advance(4.0)
     samples = driver.read()
     for column, axis in enumerate(ROBOT.axes.values()):
@@ -130,64 +140,67 @@ def test_readings_have_the_declared_noise_and_resolution():
     assert samples.measured[:, 3].std() == pytest.approx(4.02e-7, rel=0.05)
 
 
-def test_the_offset_of_an_axis_is_read():
+def test_readings_include_the_offset_of_an_axis():
     axes = {**ROBOT.axes, "x": replace(ROBOT.axes["x"], offset=1e-3)}
-    driver, _ = opened(replace(ROBOT, axes=axes))
+    driver, _ = open_simulator(replace(ROBOT, axes=axes))
     samples = driver.read()
     assert samples.measured[0, 0] - samples.command[0, 0] == pytest.approx(1e-3, abs=2e-7)
 
 
 @pytest.mark.parametrize("seed", [0, 5])
-def test_a_seed_gives_the_same_record_however_often_one_reads(seed):
-    trajectory = smooth(EVEN)
+def test_a_seed_gives_the_same_record_for_any_reading_interval(seed):
+    trajectory = make_smooth_trajectory(EVEN)
     records = []
     for step_s, idle_s in ((0.013, 0.0), (4.0, 0.7)):
-        driver, clock = opened(seed=seed, settle_s=3.0)
+        driver, clock = open_simulator(seed=seed, settle_s=3.0)
         clock.advance(idle_s)
         driver.read()
-        samples, own = played(driver, clock, trajectory, step_s)
-        records.append(samples.measured[own])
+        samples, is_row = play_and_read(driver, clock, trajectory, step_s)
+        records.append(samples.measured[is_row])
     np.testing.assert_array_equal(*records)
 
 
 def test_another_seed_gives_other_noise():
-    first, second = (played(*opened(seed=seed), smooth(EVEN))[0] for seed in (0, 1))
+    first, second = (
+        play_and_read(*open_simulator(seed=seed), make_smooth_trajectory(EVEN))[0]
+        for seed in (0, 1)
+    )
     assert (first.measured != second.measured).any()
 
 
-def test_nobody_reading_for_long_bounds_the_work_and_loses_nothing():
-    driver, clock = opened()
+def test_a_long_time_without_reading_is_caught_up_in_limited_portions():
+    driver, clock = open_simulator()
     clock.advance(12.0)
     counts = [len(driver.read()) for _ in range(4)]
     assert max(counts) <= MAX_READ_S * 1000 + 1
     assert sum(counts) == 12_001
 
 
-def test_an_hour_later_it_still_samples_evenly():
-    driver, clock = opened(sample_rate_hz=100.0)
-    last = None
+def test_samples_are_still_evenly_spaced_after_an_hour():
+    driver, clock = open_simulator(sample_rate_hz=100.0)
+    last_samples = None
     for _ in range(3600 // 4):
         clock.advance(4.0)
-        last = driver.read()
-    np.testing.assert_allclose(np.diff(last.device_time_s), 0.01, atol=1e-9)
-    assert last.device_time_s[-1] == pytest.approx(3600.0)
+        last_samples = driver.read()
+    np.testing.assert_allclose(np.diff(last_samples.device_time_s), 0.01, atol=1e-9)
+    assert last_samples.device_time_s[-1] == pytest.approx(3600.0)
 
 
 def test_a_trajectory_sampled_too_densely_is_refused():
-    dense = np.arange(100) / 25_000.0
-    driver, _ = opened()
+    dense_times_s = np.arange(100) / 25_000.0
+    driver, _ = open_simulator()
     with pytest.raises(LimitError, match="25000 rows per second"):
-        driver.play(_hold(dense))
+        driver.play(make_constant_trajectory(dense_times_s))
 
 
-def _hold(time_s):
+def make_constant_trajectory(time_s):
     return Record.from_signals(time_s, {("x", Tap.CMD): np.full(len(time_s), 0.02)}, {"x": "m"})
 
 
 def test_an_unstable_loop_is_a_fault_that_can_be_cleared():
     axis = replace(EMPS.axes["q"], mass=1e-3, damping=0.0)
-    wild = replace(axis, controller=replace(axis.controller, limit=1e308))
-    driver, clock = opened(replace(EMPS, axes={"q": wild}), sample_rate_hz=20.0)
+    unstable_axis = replace(axis, controller=replace(axis.controller, limit=1e308))
+    driver, clock = open_simulator(replace(EMPS, axes={"q": unstable_axis}), sample_rate_hz=20.0)
     clock.advance(0.2)
     driver.read()
     driver.move_to({"q": 0.2})
@@ -203,8 +216,8 @@ def test_an_unstable_loop_is_a_fault_that_can_be_cleared():
     assert len(driver.read()) > 0
 
 
-def test_it_stands_where_it_was_left():
-    driver, clock = opened()
+def test_a_reopened_simulator_keeps_its_position():
+    driver, clock = open_simulator()
     driver.move_to({"x": 0.03})
     clock.advance(4.0)
     driver.read()
@@ -223,35 +236,34 @@ def test_it_stands_where_it_was_left():
         ("start_fraction", 1.5),
     ],
 )
-def test_settings_out_of_bounds_are_named(name, value):
-    with pytest.raises(SettingError, match=name):
+def test_settings_out_of_bounds_are_refused(name, value):
+    with pytest.raises(DriverSettingError, match=name):
         Simulator(ROBOT, {name: value})
 
 
-def test_a_force_that_nothing_holds_is_no_machine():
-    free = replace(EMPS, axes={"q": replace(EMPS.axes["q"], controller=None)})
-    with pytest.raises(SettingError, match="controller"):
-        Simulator(free)
+def test_an_axis_with_a_force_but_no_controller_is_refused():
+    uncontrolled = replace(EMPS, axes={"q": replace(EMPS.axes["q"], controller=None)})
+    with pytest.raises(DriverSettingError, match="controller"):
+        Simulator(uncontrolled)
 
 
-def test_one_row_can_be_played():
-    samples, own = played(*opened(), _hold(np.array([3.0])))
-    assert own.sum() == 1
-    assert samples.command[own, 0] == 0.02
+def test_a_single_row_can_be_played():
+    samples, is_row = play_and_read(*open_simulator(), make_constant_trajectory(np.array([3.0])))
+    assert is_row.sum() == 1
+    assert samples.command[is_row, 0] == 0.02
 
 
-HELD = Record.from_signals(
+HELD_ROWS = Record.from_signals(
     np.array([0.0, 0.1, 1.1, 2.0]),
     {("x", Tap.CMD): np.array([1e-4, 1.0e-3, 1.0e-3, 1.0e-3])},
     {"x": "m"},
 )
 
 
-def test_stop_while_a_row_is_held_moves_nothing():
-    driver, clock = opened(start_fraction=0.0, settle_s=0.0)
-    driver._running.play(
-        driver._running.playing_of(HELD)
-    )  # past the limits: they would refuse the jump
+def test_a_stop_during_a_held_row_moves_nothing():
+    driver, clock = open_simulator(start_fraction=0.0, settle_s=0.0)
+    # The driver would refuse the jump, so the device plays the record directly.
+    driver._open_device.play(driver._open_device.prepare_playback(HELD_ROWS))
     while driver.read().playback_row.max(initial=-1) < 1:
         clock.advance(0.001)
     clock.advance(0.3)
@@ -264,115 +276,121 @@ def test_stop_while_a_row_is_held_moves_nothing():
 @given(
     intervals=st.lists(st.sampled_from([3e-4, 1e-3, 1.3e-3, 2e-3, 0.05]), min_size=5, max_size=40),
     steps=st.lists(st.integers(-8, 8), min_size=40, max_size=40),
-    when=st.floats(0.0, 1.0),
-    low_end=st.booleans(),
+    stop_fraction=st.floats(0.0, 1.0),
+    is_at_low_end=st.booleans(),
 )
-def test_after_a_stop_no_axis_goes_farther_than_it_brakes(intervals, steps, when, low_end):
-    """Nor out of the range, wherever in a trajectory it is stopped."""
+def test_a_stop_takes_at_most_the_braking_distance(intervals, steps, stop_fraction, is_at_low_end):
+    """A stop anywhere in a trajectory keeps the axis in its range, within its braking distance."""
     axis = ROBOT.axes["x"]
     time_s = np.concatenate([[0.0], np.cumsum(intervals)])
-    way = np.cumsum([0, *steps[: len(intervals)]]) * 1e-6
-    start = axis.range[0] - way.min() if low_end else axis.range[1] - way.max()
+    displacement = np.cumsum([0, *steps[: len(intervals)]]) * 1e-6
+    start = (
+        axis.range[0] - displacement.min() if is_at_low_end else axis.range[1] - displacement.max()
+    )
     device = SimulatedDevice(
         ROBOT,
         tick_s=1e-3,
         seed=0,
         settle_s=0.0,
-        position=np.array([start + way[0], 0.02, 0.02, 5e-4, 5e-4, 3e-5]),
+        position=np.array([start + displacement[0], 0.02, 0.02, 5e-4, 5e-4, 3e-5]),
     )
-    path = Record.from_signals(time_s, {("x", Tap.CMD): start + way}, {"x": "m"})
-    device.play(device.playing_of(path))
-    played = device.advance(0.005 + when * (time_s[-1] - 0.001))
+    path = Record.from_signals(time_s, {("x", Tap.CMD): start + displacement}, {"x": "m"})
+    device.play(device.prepare_playback(path))
+    portions = device.advance(0.005 + stop_fraction * (time_s[-1] - 0.001))
     device.stop()
-    last = played[-1].command[-1, 0]
-    rows = np.concatenate([part.playback_row for part in played])
+    last_command = portions[-1].command[-1, 0]
+    rows = np.concatenate([portion.playback_row for portion in portions])
     row = rows.max()
-    begins = np.concatenate([part.device_time_s for part in played])
+    sample_times_s = np.concatenate([portion.device_time_s for portion in portions])
     recent = np.flatnonzero(time_s >= time_s[max(row, 0)] - 1.5e-3)
     recent = recent[recent <= row]
     speed = 0.0
-    if len(recent) > 1 and begins[-1] - begins[np.argmax(rows)] < 1e-3:
+    if len(recent) > 1 and sample_times_s[-1] - sample_times_s[np.argmax(rows)] < 1e-3:
         span = time_s[recent[-1]] - time_s[recent[0]]
-        speed = min(abs(way[recent[-1]] - way[recent[0]]) / span, axis.max_speed)
-    after = np.concatenate([part.command[:, 0] for part in device.advance(time_s[-1] + 0.5)])
+        speed = min(abs(displacement[recent[-1]] - displacement[recent[0]]) / span, axis.max_speed)
+    commands_after = np.concatenate(
+        [portion.command[:, 0] for portion in device.advance(time_s[-1] + 0.5)]
+    )
     braking = speed**2 / (2 * axis.max_acceleration) + speed * 1e-3
-    assert np.abs(after - last).max() <= braking + 1e-12
-    assert axis.range[0] <= after.min() <= after.max() <= axis.range[1]
+    assert np.abs(commands_after - last_command).max() <= braking + 1e-12
+    assert axis.range[0] <= commands_after.min() <= commands_after.max() <= axis.range[1]
 
 
-@pytest.mark.parametrize("stopped", [False, True])
-def test_closed_while_playing_it_stands_where_the_last_set_point_was(stopped):
-    driver, clock = opened()
+@pytest.mark.parametrize("with_stop", [False, True])
+def test_closing_during_a_playback_keeps_the_last_set_point(with_stop):
+    driver, clock = open_simulator()
     time_s = np.arange(4000) / 1000
     command = 5e-4 + 5e-4 * np.sin(2 * np.pi * time_s / 8) ** 2
     driver.play(Record.from_signals(time_s, {("thx", Tap.CMD): command}, {"thx": "rad"}))
     while driver.status().progress < 0.4:
         clock.advance(0.05)
-        last = driver.read().command[-1, 3]
-    if stopped:
+        last_command = driver.read().command[-1, 3]
+    if with_stop:
         driver.stop()
         clock.advance(0.02)
     driver.close()
     driver.open()
-    assert last > 6e-4
-    assert driver.read().command[0, 3] == pytest.approx(last, abs=1e-6)
+    assert last_command > 6e-4
+    assert driver.read().command[0, 3] == pytest.approx(last_command, abs=1e-6)
     clock.advance(0.1)
     assert np.ptp(driver.read().command[:, 3]) == 0.0
 
 
 def test_clearing_a_fault_in_a_playback_holds_the_last_set_point(monkeypatch):
-    driver, clock = opened(settle_s=0.0)
+    driver, clock = open_simulator(settle_s=0.0)
     time_s = np.arange(4000) / 1000
     command = 5e-4 + 5e-4 * np.sin(2 * np.pi * time_s / 8) ** 2
     driver.play(Record.from_signals(time_s, {("thx", Tap.CMD): command}, {"thx": "rad"}))
     while driver.status().progress < 0.4:
         clock.advance(0.05)
-        last = driver.read().command[-1, 3]
+        last_command = driver.read().command[-1, 3]
 
-    def diverges(*_, **options):
+    def raise_plant_error(*_, **options):
         raise PlantError("axis thx: gone")
 
-    with monkeypatch.context() as broken:
-        broken.setattr(Plant, "advance", diverges)
+    with monkeypatch.context() as patch:
+        patch.setattr(Plant, "advance", raise_plant_error)
         clock.advance(0.05)
         driver.read()
     assert driver.status().state is DeviceState.FAULT
     driver.clear_fault()
     clock.advance(0.05)
-    assert driver.read().command[-1, 3] == last
+    assert driver.read().command[-1, 3] == last_command
 
 
-LOOP = AxisEffect(axis="thx", id="hysteresis", parameters={"width": 1e-4})
+HYSTERESIS = AxisEffect(axis="thx", id="hysteresis", parameters={"width": 1e-4})
 
 
 def test_effects_of_the_robot_file_act_until_others_are_set():
-    driver, clock = opened(without_sensors(replace(ROBOT, effects=(LOOP,))))
-    assert driver.effects == (LOOP,)
-    nominal, nominal_clock = opened(without_sensors(ROBOT))
-    samples, rows = played(driver, clock, smooth(np.arange(1000) / 1000.0))
-    bare, bare_rows = played(nominal, nominal_clock, smooth(np.arange(1000) / 1000.0))
+    driver, clock = open_simulator(remove_sensors(replace(ROBOT, effects=(HYSTERESIS,))))
+    assert driver.effects == (HYSTERESIS,)
+    nominal, nominal_clock = open_simulator(remove_sensors(ROBOT))
+    samples, rows = play_and_read(driver, clock, make_smooth_trajectory(np.arange(1000) / 1000.0))
+    nominal_samples, nominal_rows = play_and_read(
+        nominal, nominal_clock, make_smooth_trajectory(np.arange(1000) / 1000.0)
+    )
     column = driver.axes.index("thx")
-    gap = samples.measured[rows, column] - bare.measured[bare_rows, column]
-    assert 1e-6 < np.ptp(gap) < 2e-4
+    deviation = samples.measured[rows, column] - nominal_samples.measured[nominal_rows, column]
+    assert 1e-6 < np.ptp(deviation) < 2e-4
 
 
-def test_effects_are_set_in_mid_playback_and_the_axes_go_on():
-    driver, clock = opened(without_sensors(ROBOT))
-    driver.play(smooth(np.arange(2000) / 1000.0))
+def test_effects_set_during_a_playback_cause_no_jump():
+    driver, clock = open_simulator(remove_sensors(ROBOT))
+    driver.play(make_smooth_trajectory(np.arange(2000) / 1000.0))
     clock.advance(1.5)
-    before = driver.read()
-    driver.set_effects([LOOP])
+    samples_before = driver.read()
+    driver.set_effects([HYSTERESIS])
     clock.advance(0.5)
-    after = driver.read()
+    samples_after = driver.read()
     column = driver.axes.index("x")
     assert driver.status().fault is None
-    jump = np.abs(after.measured[0] - before.measured[-1])[column]
-    assert jump < 1.5 * np.abs(np.diff(before.measured[-50:, column])).max()
-    assert driver.effects == (LOOP,)
+    jump = np.abs(samples_after.measured[0] - samples_before.measured[-1])[column]
+    assert jump < 1.5 * np.abs(np.diff(samples_before.measured[-50:, column])).max()
+    assert driver.effects == (HYSTERESIS,)
 
 
 @pytest.mark.parametrize(
-    ("effect", "named"),
+    ("effect", "reason"),
     [
         (AxisEffect(axis="q", id="delay"), "no such axis"),
         (AxisEffect(axis="x", id="hysteresis"), "piezo"),
@@ -381,19 +399,19 @@ def test_effects_are_set_in_mid_playback_and_the_axes_go_on():
         (AxisEffect(axis="x", id="delay", parameters={"delay": float("nan")}), "nan"),
     ],
 )
-def test_an_effect_that_cannot_be_is_refused_and_nothing_changes(effect, named):
-    driver, _ = opened()
-    driver.set_effects([LOOP])
-    with pytest.raises(EffectError, match=named):
+def test_an_invalid_effect_is_refused_and_changes_nothing(effect, reason):
+    driver, _ = open_simulator()
+    driver.set_effects([HYSTERESIS])
+    with pytest.raises(EffectError, match=reason):
         driver.set_effects([effect])
-    assert driver.effects == (LOOP,)
+    assert driver.effects == (HYSTERESIS,)
 
 
-def test_effects_stay_over_a_closed_connection():
-    driver, _ = opened()
-    driver.set_effects([LOOP])
+def test_effects_stay_after_reconnecting():
+    driver, _ = open_simulator()
+    driver.set_effects([HYSTERESIS])
     driver.close()
     with pytest.raises(StateError, match="open it first"):
         driver.set_effects([])
     driver.open()
-    assert driver.effects == (LOOP,)
+    assert driver.effects == (HYSTERESIS,)

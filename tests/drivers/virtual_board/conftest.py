@@ -1,98 +1,107 @@
-"""A host for the virtual boards, on a clock of its own: it says frames and reads answers."""
+"""A host for the virtual boards with its own clock, which sends frames and reads replies."""
 
 from types import SimpleNamespace
 
 import pytest
 
-from rotemina.drivers.mc68hc11 import board_messages, host_messages
-from rotemina.drivers.mc68hc11.board_messages import Refused, Telemetry
-from rotemina.drivers.mc68hc11.framing import Decoder, Frame, encoded
-from rotemina.drivers.virtual_board.boards import VirtualBoards
-from rotemina.sim.robot.file import load_robot
+from rotemina.drivers.mc68hc11.protocol import (
+    FrameDecoder,
+    FrameRefused,
+    SerialFrame,
+    Telemetry,
+    board_messages,
+    encode_frame,
+    host_messages,
+)
+from rotemina.drivers.virtual_board import VirtualBoards
+from rotemina.sim.robot_files import load_robot
 
 _REPORTS = {
     kind.TYPE: kind
     for kind in (
-        board_messages.Done,
-        board_messages.Refused,
-        board_messages.Identity,
+        board_messages.FrameDone,
+        board_messages.FrameRefused,
+        board_messages.BoardIdentity,
         board_messages.AxisDescription,
         board_messages.Telemetry,
-        board_messages.Captured,
-        board_messages.Parameter,
-        board_messages.Rates,
+        board_messages.CaptureSamples,
+        board_messages.ParameterValue,
+        board_messages.BoardRates,
         board_messages.BoardKind,
-        board_messages.Inputs,
+        board_messages.OperatorInputs,
     )
 }
 _STEP_S = 1e-3
 
 
 class Host:
-    """Talks to boards; ``heard`` is all that it was told: (board, message, time in s)."""
+    """A host of boards. ``received`` contains all replies as (board, message, time in s)."""
 
     def __init__(self, robot, **settings):
         self.boards = VirtualBoards(robot, **{"position_known": True} | settings)
         self.time_s = 0.0
         self.number = 0
-        self.heard = []
-        self._decoders = [Decoder() for _ in self.boards.lines]
+        self.received = []
+        self._decoders = [FrameDecoder() for _ in self.boards.host_ports]
 
-    def wire(self, message, board=1, number=None):
+    def encode(self, message, board=1, number=None):
         if number is None:
             self.number = number = (self.number + 1) % 256
-        return encoded(Frame(board, number, message.TYPE, message.packed()))
+        return encode_frame(SerialFrame(board, number, message.TYPE, message.pack()))
 
-    def line(self, board):
-        return self.boards.lines[0 if len(self.boards.lines) == 1 else board - 1]
+    def find_port(self, board):
+        return self.boards.host_ports[0 if len(self.boards.host_ports) == 1 else board - 1]
 
-    def say(self, message, board=1, number=None):
-        self.write(self.wire(message, board, number), board)
+    def send(self, message, board=1, number=None):
+        self.write(self.encode(message, board, number), board)
 
     def write(self, data, board=1):
-        self.line(board).receive(data, self.time_s)
+        self.find_port(board).receive(data, self.time_s)
 
-    def live(self, duration_s):
-        """Live on in small steps; return the messages that came."""
-        before = len(self.heard)
+    def run(self, duration_s):
+        """Let time pass in small steps, and return the received messages."""
+        first = len(self.received)
         end_s = self.time_s + duration_s
         while self.time_s < end_s - 1e-9:
             self.time_s = min(self.time_s + _STEP_S, end_s)
-            for decoder, line in zip(self._decoders, self.boards.lines, strict=True):
-                for frame in decoder.feed(line.advance(self.time_s)):
-                    message = _REPORTS[frame.type].unpacked(frame.payload)
-                    self.heard.append((frame.address, message, self.time_s))
-        return [message for _, message, _ in self.heard[before:]]
+            for decoder, port in zip(self._decoders, self.boards.host_ports, strict=True):
+                for frame in decoder.feed(port.advance(self.time_s)):
+                    message = _REPORTS[frame.type].unpack(frame.payload)
+                    self.received.append((frame.address, message, self.time_s))
+        return [message for _, message, _ in self.received[first:]]
 
     def ask(self, message, board=1, number=None, within_s=0.02):
-        """Say something and return what that board answers first."""
-        before = len(self.heard)
-        self.say(message, board, number)
-        self.live(within_s)
-        return next((m for who, m, _ in self.heard[before:] if who == board), None)
+        """Send a message, and return the first reply of that board."""
+        first = len(self.received)
+        self.send(message, board, number)
+        self.run(within_s)
+        replies = (reply for address, reply, _ in self.received[first:] if address == board)
+        return next(replies, None)
 
-    def refusal(self, message, board=1):
+    def find_refusal_reason(self, message, board=1):
         answer = self.ask(message, board)
-        assert isinstance(answer, Refused), answer
+        assert isinstance(answer, FrameRefused), answer
         return answer.reason
 
-    def telemetry(self, board=1):
-        answer = self.ask(host_messages.Poll(), board)
-        return answer if isinstance(answer, Telemetry) else self.ask(host_messages.Poll(), board)
+    def read_telemetry(self, board=1):
+        answer = self.ask(host_messages.PollBoard(), board)
+        return (
+            answer if isinstance(answer, Telemetry) else self.ask(host_messages.PollBoard(), board)
+        )
 
-    def commands(self, board=1):
-        return [command for _, command in self.telemetry(board).samples()]
+    def read_commands(self, board=1):
+        return [command for _, command in self.read_telemetry(board).unpack_samples()]
 
-    def now_us(self, board=1):
-        self.live(1e-3)
-        one = self.boards.boards[board - 1]
-        return one.clock.at_tick(one.now)
+    def read_time_us(self, board=1):
+        self.run(1e-3)
+        simulated_board = self.boards.boards[board - 1]
+        return simulated_board.clock.find_time_us(simulated_board.latest_tick)
 
-    def patient(self):
-        """Let no watchdog bite."""
+    def with_long_watchdogs(self):
+        """Set long watchdog time-outs, so that none expires, and return the host."""
         for board in self.boards.boards:
-            self.say(host_messages.Watch(60_000), board.number)
-        self.live(0.02)
+            self.send(host_messages.SetWatchdog(60_000), board.number)
+        self.run(0.02)
         return self
 
 
@@ -103,14 +112,14 @@ def robot():
 
 @pytest.fixture
 def host(robot):
-    return Host(robot).patient()
+    return Host(robot).with_long_watchdogs()
 
 
 @pytest.fixture
-def hosts(robot):
+def make_host(robot):
     return lambda **settings: Host(settings.pop("robot", robot), **settings)
 
 
 @pytest.fixture(scope="session")
-def one_board():
+def robots_with_one_board():
     return SimpleNamespace(fsm=load_robot("fsm"), emps=load_robot("emps"))

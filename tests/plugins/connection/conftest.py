@@ -1,22 +1,20 @@
-"""Devices that differ, fail, or have yet to be homed."""
+"""Drivers of devices with differing parameters, without connection, or with faults."""
 
 import pytest
 
-from rotemina.drivers.abilities import Parameterised
-from rotemina.drivers.errors import ConnectionLostError
-from rotemina.drivers.parameters import ParameterDifference
-from rotemina.drivers.samples import DeviceState, DeviceStatus
-from rotemina.drivers.simulator.driver import Simulator
+from rotemina.drivers.abilities import ParameterDifference, ParameterStore
+from rotemina.drivers.contract import ConnectionLostError, DeviceState, DeviceStatus
+from rotemina.drivers.simulator import Simulator
 
 
-class Differing(Simulator, Parameterised):
-    """A simulator whose pitch is not as the robot file says."""
+class DifferingParametersSimulator(Simulator, ParameterStore):
+    """A simulator whose parameters differ from the robot file."""
 
     name = "differing"
 
     def __init__(self, *args, **options):
         super().__init__(*args, **options)
-        self._open_questions = (
+        self._differences = (
             ParameterDifference(7, "x pitch <b>", "mm", 0.5, 0.4),
             ParameterDifference(8, "y limit", "mm", 50.0, 55.0),
         )
@@ -24,19 +22,19 @@ class Differing(Simulator, Parameterised):
 
     @property
     def differences(self):
-        return self._open_questions
+        return self._differences
 
     def _accept_parameters(self):
         self.accepted += 1
-        self._open_questions = ()
+        self._differences = ()
 
     def _write_parameters(self, permit):
         self.written += 1
-        self._open_questions = ()
+        self._differences = ()
 
 
-class Absent(Simulator):
-    """A device that cannot be reached until somebody plugs it in."""
+class UnpluggedSimulator(Simulator):
+    """A device that is unreachable until a test plugs it in."""
 
     name = "absent"
     plugged_in = False
@@ -47,38 +45,38 @@ class Absent(Simulator):
         super()._open()
 
 
-class Losing(Simulator):
-    """A device whose line may be cut, and which may report a fault."""
+class FailingSimulator(Simulator):
+    """A device whose connection can be cut, and which can report a fault."""
 
     name = "losing"
-    cut = False
-    trouble = None
+    is_cut = False
+    fault_text = None
 
     def _read(self):
-        if self.cut:
+        if self.is_cut:
             raise ConnectionLostError("losing: the cable is torn off")
         return super()._read()
 
     def _status(self):
         status = super()._status()
-        if self.trouble is None:
+        if self.fault_text is None:
             return status
-        return DeviceStatus(DeviceState.FAULT, status.progress, self.trouble, True, ())
+        return DeviceStatus(DeviceState.FAULT, status.progress, self.fault_text, True, ())
 
     def _clear_fault(self, permit):
-        self.trouble = None
+        self.fault_text = None
 
 
 @pytest.fixture
-def differing():
-    return Differing
+def differing_driver():
+    return DifferingParametersSimulator
 
 
 @pytest.fixture
-def absent():
-    return Absent
+def unplugged_driver():
+    return UnpluggedSimulator
 
 
 @pytest.fixture
-def losing():
-    return Losing
+def failing_driver():
+    return FailingSimulator

@@ -1,13 +1,12 @@
-"""The connection panel on real sessions: the simulator, and devices that differ or fail."""
+"""The connection panel on real sessions: with the simulator, and with devices that fail."""
 
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel
 
-from rotemina.app.motion.state import Connection, Phase
-from rotemina.drivers import registry
-from rotemina.drivers.samples import DeviceState
-from rotemina.drivers.simulator.driver import Simulator
+from rotemina.app.motion.state import ConnectionState, SessionPhase
+from rotemina.drivers.contract import DeviceState, registry
+from rotemina.drivers.simulator import Simulator
 from rotemina.plugins.connection import driver_choice as device_module
 
 LONG_MS = 30_000
@@ -15,9 +14,9 @@ LONG_MS = 30_000
 
 @pytest.fixture(autouse=True)
 def no_real_ports(monkeypatch):
-    """Tests know which serial ports there are."""
-    found = [device_module.OfferedPort("/dev/ttyTEST0", "a <b>cable</b>")]
-    monkeypatch.setattr(device_module, "serial_ports", lambda: found)
+    """Offer one made-up serial port instead of those of this computer."""
+    ports = [device_module.OfferedPort("/dev/ttyTEST0", "a <b>cable</b>")]
+    monkeypatch.setattr(device_module, "list_serial_ports", lambda: ports)
 
 
 @pytest.fixture
@@ -34,22 +33,22 @@ def panel(window):
     return window.panels["connection"]
 
 
-def phase_is(qtbot, panel, word):
-    # A program that stood still on a busy computer has stopped, and is as ready.
-    words = ("Ready", "Stopped") if word == "Ready" else (word,)
-    qtbot.waitUntil(lambda: panel.state.phase.text() in words, timeout=LONG_MS)
+def wait_for_phase(qtbot, panel, expected):
+    # On a busy computer the program may stall and stop the machine; it is ready again after that.
+    accepted_texts = ("Ready", "Stopped") if expected == "Ready" else (expected,)
+    qtbot.waitUntil(lambda: panel.state.phase.text() in accepted_texts, timeout=LONG_MS)
 
 
-def notices(window):
+def join_notices(window):
     return " ".join(notice.text for notice in window.notices.notices())
 
 
-def unhomed(robot):
+def make_unhomed_simulator(robot):
     return Simulator(robot, {"start_homed": False, "start_fraction": 0.001})
 
 
 def test_a_homed_simulator_is_ready(qtbot, window, panel):
-    phase_is(qtbot, panel, "Ready")
+    wait_for_phase(qtbot, panel, "Ready")
     assert panel.state.phase.property("tone") == "good"
     assert panel.state.reason.text() == "Motion is possible."
     assert not panel.state.release.isEnabled()
@@ -57,35 +56,35 @@ def test_a_homed_simulator_is_ready(qtbot, window, panel):
     assert "no open line" in panel.line.text.text()
 
 
-def test_an_unhomed_machine_is_homed_from_here(qtbot, make_robot_window, press):
-    window = make_robot_window(driver=unhomed)
+def test_an_unhomed_machine_is_homed_from_the_panel(qtbot, make_robot_window, press):
+    window = make_robot_window(driver=make_unhomed_simulator)
     panel = window.panels["connection"]
-    phase_is(qtbot, panel, "Locked")
+    wait_for_phase(qtbot, panel, "Locked")
     assert panel.position.text.text() == "Not homed: X, Y, Z"
     assert "home first" in panel.state.reason.text()
     assert panel.tip.figures.values["Tip height"].text() == "unknown"
     assert not panel.tip.teach.isEnabled()
-    press(panel.position.home["y"])
+    press(panel.position.home_buttons["y"])
     qtbot.waitUntil(lambda: panel.position.text.text() == "Not homed: X, Z", timeout=LONG_MS)
     press(panel.position.home_all)
-    phase_is(qtbot, panel, "Ready")
+    wait_for_phase(qtbot, panel, "Ready")
     assert panel.position.text.text() == "All positions are known."
 
 
 def test_the_owner_is_shown_while_homing(qtbot, make_robot_window, press):
     window = make_robot_window(driver=lambda robot: Simulator(robot, {"start_homed": False}))
     panel = window.panels["connection"]
-    phase_is(qtbot, panel, "Locked")
-    press(panel.position.home["x"])
+    wait_for_phase(qtbot, panel, "Locked")
+    press(panel.position.home_buttons["x"])
     qtbot.waitUntil(lambda: panel.position.owners.text() == "Homing moves X", timeout=LONG_MS)
     qtbot.waitUntil(lambda: "simulator: Homing" in window._status.text(), timeout=LONG_MS)
-    assert window._bar.doing.text() == "Moving to find the limit switches of X."
-    assert not panel.position.home["y"].isEnabled()
+    assert window._bar.reason_label.text() == "Moving to find the limit switches of X."
+    assert not panel.position.home_buttons["y"].isEnabled()
     assert not panel.device.connect_button.isEnabled()
 
 
-def test_the_latch_locks_until_it_is_released_here(qtbot, window, panel, press):
-    phase_is(qtbot, panel, "Ready")
+def test_the_emergency_stop_locks_until_it_is_released(qtbot, window, panel, press):
+    wait_for_phase(qtbot, panel, "Ready")
     press(panel.state.emergency)
     qtbot.waitUntil(lambda: "release it first" in panel.state.reason.text(), timeout=LONG_MS)
     assert panel.state.phase.property("tone") == "danger"
@@ -96,9 +95,9 @@ def test_the_latch_locks_until_it_is_released_here(qtbot, window, panel, press):
     qtbot.waitUntil(panel.state.emergency.isEnabled, timeout=LONG_MS)
 
 
-def test_a_move_is_taken_back(qtbot, window, panel, press):
+def test_back_undoes_a_move(qtbot, window, panel, press):
     session = window.workbench.session
-    phase_is(qtbot, panel, "Ready")
+    wait_for_phase(qtbot, panel, "Ready")
     assert "no previous position" in panel.position.back.toolTip()
     start = session.snapshot().command["zn"]
     window.workbench.jog("zn", 1e-6)
@@ -106,192 +105,197 @@ def test_a_move_is_taken_back(qtbot, window, panel, press):
     qtbot.waitUntil(lambda: abs(session.snapshot().command["zn"] - start) < 1e-12, timeout=LONG_MS)
 
 
-def test_a_floor_is_taught_after_a_question_that_names_both_heights(qtbot, window, panel, press):
+def test_teaching_a_floor_asks_with_the_old_and_the_new_height(qtbot, window, panel, press):
     session, tip = window.workbench.session, panel.tip
-    phase_is(qtbot, panel, "Ready")
+    wait_for_phase(qtbot, panel, "Ready")
     assert tip.figures.values["Floor"].text() == "none"
     assert not tip.remove.isEnabled()
-    shown = tip.figures.values["Tip height"].text()
+    height_text = tip.figures.values["Tip height"].text()
     press(tip.teach)
     assert tip.question.isVisibleTo(panel)
-    assert shown in tip.question.text.text()
+    assert height_text in tip.question.text.text()
     assert "there is none" in tip.question.text.text()
     qtbot.mouseClick(tip.question.no, Qt.MouseButton.LeftButton)
     assert tip.question.isHidden()
-    assert not session.bounds.keep_out.bounded
+    assert not session.bounds.keep_out.is_bounded
     press(tip.teach)
     qtbot.mouseClick(tip.question.yes, Qt.MouseButton.LeftButton)
-    qtbot.waitUntil(lambda: tip.figures.values["Floor"].text() == shown, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: tip.figures.values["Floor"].text() == height_text, timeout=LONG_MS)
     assert tip.figures.values["Above the floor"].text() == "0.0000 mm"
     window.workbench.jog("z", -1e-3)
-    assert "floor" in notices(window)
+    assert "floor" in join_notices(window)
     press(tip.remove)
-    assert shown in tip.question.text.text()
+    assert height_text in tip.question.text.text()
     assert "Without a floor" in tip.question.text.text()
     qtbot.mouseClick(tip.question.yes, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: tip.figures.values["Floor"].text() == "none", timeout=LONG_MS)
 
 
-def test_a_question_is_withdrawn_when_the_tip_moves(qtbot, window, panel, press):
-    phase_is(qtbot, panel, "Ready")
+def test_the_floor_question_is_cancelled_when_the_tip_moves(qtbot, window, panel, press):
+    wait_for_phase(qtbot, panel, "Ready")
     press(panel.tip.teach)
     window.workbench.jog("z", 1e-4)
     qtbot.waitUntil(panel.tip.question.isHidden, timeout=LONG_MS)
-    assert "no floor was set" in notices(window)
+    assert "no floor was set" in join_notices(window)
 
 
-def test_a_voltage_is_put_out_after_a_question_that_says_where_it_leads(
-    qtbot, window, panel, press
-):
+def test_applying_a_voltage_asks_with_the_resulting_position(qtbot, window, panel, press):
     session, voltage = window.workbench.session, panel.voltage
-    phase_is(qtbot, panel, "Ready")
+    wait_for_phase(qtbot, panel, "Ready")
     assert [voltage.axis.itemText(i) for i in range(voltage.axis.count())] == ["θx", "θy", "Z nano"]
     voltage.axis.setCurrentIndex(2)
     voltage.volts.setValue(1000.0)
     assert voltage.volts.value() == 130.0
     voltage.volts.setValue(80.0)
-    before = session.snapshot().command["zn"]
-    press(voltage.apply)
+    start_m = session.snapshot().command["zn"]
+    press(voltage.apply_button)
     assert voltage.question.isVisibleTo(panel)
     assert "80 V to Z nano" in voltage.question.text.text()
     assert "40.000 µm" in voltage.question.text.text()
-    voltage.volts.setValue(81.0)  # another one than was asked about
+    voltage.volts.setValue(81.0)  # differs from the voltage in the question
     assert voltage.question.isHidden()
-    press(voltage.apply)
+    press(voltage.apply_button)
     qtbot.mouseClick(voltage.question.no, Qt.MouseButton.LeftButton)
-    assert session.snapshot().command["zn"] == before
-    press(voltage.apply)
+    assert session.snapshot().command["zn"] == start_m
+    press(voltage.apply_button)
     qtbot.mouseClick(voltage.question.yes, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: abs(session.snapshot().command["zn"] - 40.5e-6) < 1e-9, timeout=LONG_MS)
-    press(voltage.apply)
-    window.workbench.jog("x", 1e-2)  # nothing is put out in motion
+    press(voltage.apply_button)
+    window.workbench.jog("x", 1e-2)  # no voltage is applied during motion
     qtbot.waitUntil(voltage.question.isHidden, timeout=LONG_MS)
-    assert "still moving" in voltage.apply.toolTip()
+    assert "still moving" in voltage.apply_button.toolTip()
     window.workbench.stop()
 
 
-@pytest.mark.parametrize("way", ["write", "accept"])
-def test_parameters_that_differ_are_settled(qtbot, make_robot_window, press, differing, way):
-    window = make_robot_window(driver=differing)
+@pytest.mark.parametrize("choice", ["write", "accept"])
+def test_differing_parameters_are_written_or_accepted(
+    qtbot, make_robot_window, press, differing_driver, choice
+):
+    window = make_robot_window(driver=differing_driver)
     panel = window.panels["connection"]
     parameters, session = panel.parameters, window.workbench.session
     qtbot.waitUntil(lambda: parameters.table.rowCount() == 2, timeout=LONG_MS)
-    phase_is(qtbot, panel, "Locked")
+    wait_for_phase(qtbot, panel, "Locked")
     rows = [[parameters.table.item(row, column).text() for column in range(3)] for row in range(2)]
     assert rows == [["x pitch <b>", "0.5 mm", "0.4 mm"], ["y limit", "50 mm", "55 mm"]]
     assert not panel.tip.teach.isEnabled()
-    press(getattr(parameters, way))
-    phase_is(qtbot, panel, "Ready")
+    press(getattr(parameters, choice))
+    wait_for_phase(qtbot, panel, "Ready")
     assert parameters.table.rowCount() == 0
-    assert (session.driver.written, session.driver.accepted) == (way == "write", way == "accept")
+    assert (session.driver.written, session.driver.accepted) == (
+        choice == "write",
+        choice == "accept",
+    )
     assert not parameters.write.isEnabled()
 
 
-def test_a_device_that_cannot_be_opened_leaves_a_window_with_the_reason(
-    qtbot, make_robot_window, press, absent
+def test_a_device_that_cannot_be_opened_is_reported_and_reconnected(
+    qtbot, make_robot_window, press, unplugged_driver
 ):
-    window = make_robot_window(driver=absent)
+    window = make_robot_window(driver=unplugged_driver)
     panel = window.panels["connection"]
-    phase_is(qtbot, panel, "Failed")
+    wait_for_phase(qtbot, panel, "Failed")
     assert "nothing answers on port <COM9>" in panel.state.reason.text()
-    qtbot.waitUntil(lambda: "port <COM9>" in notices(window), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: "port <COM9>" in join_notices(window), timeout=LONG_MS)
     assert panel.state.reason.textFormat() is Qt.TextFormat.PlainText
     assert not panel.position.home_all.isEnabled()
-    qtbot.waitUntil(window._bar.help.isVisible, timeout=LONG_MS)
+    qtbot.waitUntil(window._bar.remedy_button.isVisible, timeout=LONG_MS)
     window.workbench.session.driver.plugged_in = True
-    press(window._bar.help)
-    phase_is(qtbot, panel, "Ready")
-    qtbot.waitUntil(lambda: not window._bar.help.isVisible(), timeout=LONG_MS)
+    press(window._bar.remedy_button)
+    wait_for_phase(qtbot, panel, "Ready")
+    qtbot.waitUntil(lambda: not window._bar.remedy_button.isVisible(), timeout=LONG_MS)
 
 
-def test_a_lost_connection_is_distrusted_until_confirmed(qtbot, make_robot_window, press, losing):
-    window = make_robot_window(driver=losing)
+def test_the_position_after_a_lost_connection_must_be_confirmed(
+    qtbot, make_robot_window, press, failing_driver
+):
+    window = make_robot_window(driver=failing_driver)
     panel, driver = window.panels["connection"], window.workbench.session.driver
-    phase_is(qtbot, panel, "Ready")
-    driver.cut = True
-    phase_is(qtbot, panel, "Link lost")
-    driver.cut = False
+    wait_for_phase(qtbot, panel, "Ready")
+    driver.is_cut = True
+    wait_for_phase(qtbot, panel, "Link lost")
+    driver.is_cut = False
     press(panel.device.reconnect_button)
-    phase_is(qtbot, panel, "Locked")
+    wait_for_phase(qtbot, panel, "Locked")
     assert "may be wrong" in panel.state.reason.text()
     window.docks["connection"].hide()
-    qtbot.waitUntil(lambda: window._bar.help.text() == "Confirm …", timeout=LONG_MS)
-    qtbot.waitUntil(window._bar.help.isEnabled, timeout=LONG_MS)
-    press(window._bar.help)  # leads to the page, and confirms nothing by itself
+    qtbot.waitUntil(lambda: window._bar.remedy_button.text() == "Confirm …", timeout=LONG_MS)
+    qtbot.waitUntil(window._bar.remedy_button.isEnabled, timeout=LONG_MS)
+    press(window._bar.remedy_button)  # opens the page without confirming anything
     assert "may be wrong" in panel.state.reason.text()
     qtbot.waitUntil(panel.state.confirm.isVisible, timeout=LONG_MS)
     press(panel.state.confirm)
-    phase_is(qtbot, panel, "Ready")
+    wait_for_phase(qtbot, panel, "Ready")
     assert not panel.state.confirm.isEnabled()
-    assert not window._bar.help.isVisible()
+    assert not window._bar.remedy_button.isVisible()
 
 
-def test_a_fault_is_cleared_from_here(qtbot, make_robot_window, press, losing):
-    window = make_robot_window(driver=losing)
+def test_a_fault_is_cleared_from_the_panel(qtbot, make_robot_window, press, failing_driver):
+    window = make_robot_window(driver=failing_driver)
     panel, driver = window.panels["connection"], window.workbench.session.driver
-    phase_is(qtbot, panel, "Ready")
+    wait_for_phase(qtbot, panel, "Ready")
     assert not panel.state.clear.isEnabled()
-    driver.trouble = "too hot"
-    phase_is(qtbot, panel, "Fault")
+    driver.fault_text = "too hot"
+    wait_for_phase(qtbot, panel, "Fault")
     assert "too hot" in panel.state.reason.text()
     press(panel.state.clear)
-    phase_is(qtbot, panel, "Ready")
+    wait_for_phase(qtbot, panel, "Ready")
 
 
 def test_disconnecting_and_connecting_with_other_settings(qtbot, window, panel, press):
     device, session = panel.device, window.workbench.session
-    phase_is(qtbot, panel, "Ready")
+    wait_for_phase(qtbot, panel, "Ready")
     assert not device.connect_button.isEnabled()
     assert "connected with these settings" in device.connect_button.toolTip()
     press(device.disconnect_button)
-    phase_is(qtbot, panel, "Disconnected")
+    wait_for_phase(qtbot, panel, "Disconnected")
     field = device.form.fields["start_fraction"].widget
     field.setText("0.25")
     device.form.fields["settle_s"].widget.setText("0.02")
     press(device.connect_button)
-    phase_is(qtbot, panel, "Ready")
+    wait_for_phase(qtbot, panel, "Ready")
     assert session.driver.settings["start_fraction"] == 0.25
     assert session.snapshot().command["x"] == pytest.approx(0.055 * 0.25)
     assert window.workbench.settings.get("driver.simulator.start_fraction", 0.0) == 0.25
     assert window.workbench.settings.get("driver.simulator.start_homed", False) is False
 
 
-def test_another_device_leads_back_to_no_place_of_the_first(qtbot, window, panel, press):
-    phase_is(qtbot, panel, "Ready")
+def test_back_forgets_the_positions_of_the_previous_device(qtbot, window, panel, press):
+    wait_for_phase(qtbot, panel, "Ready")
     window.workbench.jog("zn", 1e-6)
     qtbot.waitUntil(lambda: panel.position.back.isEnabled(), timeout=LONG_MS)
     panel.device.form.fields["seed"].widget.setText("5")
     press(panel.device.connect_button)
     qtbot.waitUntil(lambda: window.workbench.session.driver.settings["seed"] == 5, timeout=LONG_MS)
-    phase_is(qtbot, panel, "Ready")
+    wait_for_phase(qtbot, panel, "Ready")
     qtbot.waitUntil(lambda: not panel.position.back.isEnabled(), timeout=LONG_MS)
 
 
 @pytest.mark.parametrize(
-    ("name", "text", "told"),
+    ("name", "text", "reason"),
     [
         ("settle_s", "0,5", "decimal point"),
         ("settle_s", "1_0", "not a number"),
         ("seed", "1.5", "not an integer"),
     ],
 )
-def test_a_setting_of_another_type_is_marked_and_not_used(qtbot, window, panel, name, text, told):
+def test_a_setting_of_another_type_is_marked_and_not_used(qtbot, window, panel, name, text, reason):
     field = panel.device.form.fields[name]
     field.widget.setText(text)
     qtbot.waitUntil(lambda: bool(field.widget.property("bad")), timeout=LONG_MS)
     assert not panel.device.connect_button.isEnabled()
-    assert told in panel.device.connect_button.toolTip()
+    assert reason in panel.device.connect_button.toolTip()
 
 
 def test_a_value_that_the_driver_refuses_becomes_a_notice(qtbot, window, panel, press):
     panel.device.form.fields["start_fraction"].widget.setText("7")
     press(panel.device.connect_button)
-    assert "start_fraction" in notices(window)
-    assert window.workbench.session.snapshot().connection is Connection.CONNECTED
+    assert "start_fraction" in join_notices(window)
+    assert window.workbench.session.snapshot().connection is ConnectionState.CONNECTED
     assert window.workbench.settings.get("driver.simulator.start_fraction", 0.5) == 0.5
 
 
-class Bursting(Simulator):
+class FailingDriver(Simulator):
     name = "bursting"
 
     def __init__(self, *_args, **_options):
@@ -299,10 +303,10 @@ class Bursting(Simulator):
 
 
 def test_broken_drivers_are_listed_with_the_reason(make_robot_window, monkeypatch):
-    found = {"simulator": Simulator, "bursting": Bursting}
+    drivers = {"simulator": Simulator, "bursting": FailingDriver}
     broken = {"old": "old:Driver is made for version <1>"}
     monkeypatch.setattr(
-        device_module, "discover_drivers", lambda: registry.Discovery(found, broken)
+        device_module, "discover_drivers", lambda: registry.PluginDiscovery(drivers, broken)
     )
     window = make_robot_window()
     device = window.panels["connection"].device
@@ -314,22 +318,24 @@ def test_broken_drivers_are_listed_with_the_reason(make_robot_window, monkeypatc
     item = device.choice.model().item(2)
     assert not item.isEnabled()
     assert "&lt;1&gt;" in item.toolTip()
-    assert device.broken.text() == "old is left out: old:Driver is made for version <1>"
-    assert device.broken.textFormat() is Qt.TextFormat.PlainText
+    assert device.broken_text.text() == "old is left out: old:Driver is made for version <1>"
+    assert device.broken_text.textFormat() is Qt.TextFormat.PlainText
     device.choice.setCurrentIndex(1)
-    device._connect()
-    assert "cannot be created: TypeError: made for <another> age" in notices(window)
+    device._connect_device()
+    assert "cannot be created: TypeError: made for <another> age" in join_notices(window)
     assert window.workbench.session.driver.name == "simulator"
 
 
-class Ported(Simulator):
+class TwoPortSimulator(Simulator):
     name = "ported"
     default_settings = {**Simulator.default_settings, "port": "", "second_port": ""}  # noqa: RUF012
 
 
 def test_ports_are_offered_and_free_text_is_kept(qtbot, make_robot_window, monkeypatch):
-    found = {"simulator": Simulator, "ported": Ported}
-    monkeypatch.setattr(device_module, "discover_drivers", lambda: registry.Discovery(found, {}))
+    drivers = {"simulator": Simulator, "ported": TwoPortSimulator}
+    monkeypatch.setattr(
+        device_module, "discover_drivers", lambda: registry.PluginDiscovery(drivers, {})
+    )
     window = make_robot_window()
     device = window.panels["connection"].device
     assert device.find.isHidden()
@@ -344,10 +350,10 @@ def test_ports_are_offered_and_free_text_is_kept(qtbot, make_robot_window, monke
     device.choice.setCurrentIndex(0)
     window.workbench.offer_ports([("/dev/pts/8", "board 1"), ("/dev/pts/9", "board 2")])
     assert device.choice.currentText() == "ported"
-    assert device.form.values()["port"] == "/dev/pts/8"
-    assert device.form.values()["second_port"] == "/dev/pts/9"
+    assert device.form.read_values()["port"] == "/dev/pts/8"
+    assert device.form.read_values()["second_port"] == "/dev/pts/9"
     window.workbench.offer_ports([("/dev/pts/7", "both boards")])
-    assert device.form.values()["second_port"] == ""
+    assert device.form.read_values()["second_port"] == ""
 
 
 def test_a_robot_without_tip_and_switches_says_so(qtbot, make_robot_window):
@@ -356,10 +362,10 @@ def test_a_robot_without_tip_and_switches_says_so(qtbot, make_robot_window):
     qtbot.waitSignal(window.workbench.refreshed).wait()
     assert "no limit switches" in panel.position.home_all.toolTip()
     assert "no tip" in panel.tip.teach.toolTip()
-    assert not panel.position.home
+    assert not panel.position.home_buttons
 
 
-def test_everything_that_can_be_pressed_is_reached_by_keyboard_and_named(window, panel):
+def test_controls_have_names_and_keyboard_focus(window, panel):
     for widget in panel.findChildren(device_module.DriverChoice) + [
         field.widget for field in panel.device.form.fields.values()
     ]:
@@ -374,8 +380,8 @@ def test_everything_that_can_be_pressed_is_reached_by_keyboard_and_named(window,
     )
 
 
-def test_nothing_is_moved_by_a_session_that_only_shows(qtbot, window, panel):
-    phase_is(qtbot, panel, "Ready")
+def test_opening_the_panel_moves_nothing(qtbot, window, panel):
+    wait_for_phase(qtbot, panel, "Ready")
     state = window.workbench.session.snapshot()
-    assert state.phase is Phase.READY
+    assert state.phase is SessionPhase.READY
     assert state.activity is DeviceState.IDLE

@@ -1,114 +1,136 @@
-"""Why something cannot be done now: pure functions of the session's state."""
+"""Reasons why an action is unavailable: pure functions of the session state."""
 
 from dataclasses import replace
 
 import pytest
 
-from rotemina.app.motion.state import Connection, SessionState
-from rotemina.drivers.samples import DeviceState
-from rotemina.drivers.simulator.driver import Simulator
+from rotemina.app.motion.state import ConnectionState, SessionState
+from rotemina.drivers.contract import DeviceState
+from rotemina.drivers.simulator import Simulator
 from rotemina.plugins.connection import unavailable_reasons
-from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot_files import load_robot
 
 SIMULATOR = Simulator(load_robot("rotemina"))
 PIEZO_ONLY = Simulator(load_robot("picma"))
 
 
-def state(**changes):
-    sound = {
-        "connection": Connection.CONNECTED,
+def make_state(**changes):
+    connected_state = {
+        "connection": ConnectionState.CONNECTED,
         "activity": DeviceState.IDLE,
         "position_known": True,
     }
-    return SessionState(**{**sound, **changes})
+    return SessionState(**{**connected_state, **changes})
 
 
-CONNECTING = state(connection=Connection.CONNECTING, activity=DeviceState.CLOSED)
-GONE = state(connection=Connection.DISCONNECTED, activity=DeviceState.CLOSED, locked="gone")
-FAILED = state(connection=Connection.FAILED, activity=DeviceState.CLOSED, fault="x", locked="x")
-MOVING = state(activity=DeviceState.MOVING)
+CONNECTING = make_state(connection=ConnectionState.CONNECTING, activity=DeviceState.CLOSED)
+DISCONNECTED = make_state(
+    connection=ConnectionState.DISCONNECTED, activity=DeviceState.CLOSED, lock_reason="gone"
+)
+FAILED = make_state(
+    connection=ConnectionState.FAILED, activity=DeviceState.CLOSED, fault="x", lock_reason="x"
+)
+MOVING = make_state(activity=DeviceState.MOVING)
 LOST = "the connection was lost"
-DISTRUSTED = state(locked=f"{LOST}: home, or confirm", doubt=LOST)
+DISTRUSTED = make_state(lock_reason=f"{LOST}: home, or confirm", doubt=LOST)
 
 
 @pytest.mark.parametrize(
-    ("given", "same", "why"),
+    ("state", "is_in_use", "reason"),
     [
-        (state(), False, None),
-        (state(), True, "connected with these settings"),
-        (GONE, True, None),
+        (make_state(), False, None),
+        (make_state(), True, "connected with these settings"),
+        (DISCONNECTED, True, None),
         (FAILED, True, None),
         (CONNECTING, True, "is being opened"),
         (CONNECTING, False, None),
         (MOVING, False, "still moving"),
         (replace(MOVING, silent_s=0.2), False, None),
         (replace(MOVING, age_s=3.0), False, None),  # the driver hangs
-        (replace(MOVING, connection=Connection.FAILED, queued=2), False, None),
-        (state(fault="hot", locked="hot"), False, None),
-        (state(latched="stop and lock", locked="latched"), False, None),
-        (state(age_s=3.0), True, None),
+        (replace(MOVING, connection=ConnectionState.FAILED, queued=2), False, None),
+        (make_state(fault="hot", lock_reason="hot"), False, None),
+        (make_state(latch_reason="stop and lock", lock_reason="latched"), False, None),
+        (make_state(age_s=3.0), True, None),
     ],
 )
-def test_connecting(given, same, why):
-    told = unavailable_reasons.against_connecting(given, same=same)
-    assert told is None if why is None else why in told
+def test_connect_objection(state, is_in_use, reason):
+    objection = unavailable_reasons.find_connect_objection(state, is_in_use=is_in_use)
+    assert objection is None if reason is None else reason in objection
 
 
 def test_disconnecting_and_reconnecting_exclude_each_other():
-    for given in (state(), GONE, FAILED):
-        told = (
-            unavailable_reasons.against_disconnecting(given),
-            unavailable_reasons.against_reconnecting(given),
+    for state in (make_state(), DISCONNECTED, FAILED):
+        objections = (
+            unavailable_reasons.find_disconnect_objection(state),
+            unavailable_reasons.find_reconnect_objection(state),
         )
-        assert told.count(None) == 1
-    assert unavailable_reasons.against_disconnecting(CONNECTING) is None
-    assert "being opened" in unavailable_reasons.against_reconnecting(CONNECTING)
+        assert objections.count(None) == 1
+    assert unavailable_reasons.find_disconnect_objection(CONNECTING) is None
+    assert "being opened" in unavailable_reasons.find_reconnect_objection(CONNECTING)
 
 
 @pytest.mark.parametrize(
-    ("given", "why"),
+    ("state", "reason"),
     [
-        (state(), None),
-        (state(position_known=False, locked="home first"), None),
+        (make_state(), None),
+        (make_state(position_known=False, lock_reason="home first"), None),
         (MOVING, "still moving"),
-        (state(queued=1), "still moving"),
-        (state(fault="hot", locked="hot"), "clear it first"),
-        (state(latched="emergency stop", locked="latched"), "release it first"),
-        (state(silent_s=0.2), "does not answer"),
-        (GONE, "not connected"),
+        (make_state(queued=1), "still moving"),
+        (make_state(fault="hot", lock_reason="hot"), "clear it first"),
+        (make_state(latch_reason="emergency stop", lock_reason="latched"), "release it first"),
+        (make_state(silent_s=0.2), "does not answer"),
+        (DISCONNECTED, "not connected"),
     ],
 )
-def test_homing(given, why):
-    told = unavailable_reasons.against_homing(given, SIMULATOR)
-    assert told is None if why is None else why in told
-    assert "no limit switches" in unavailable_reasons.against_homing(given, PIEZO_ONLY)
+def test_homing_objection(state, reason):
+    objection = unavailable_reasons.find_homing_objection(state, SIMULATOR)
+    assert objection is None if reason is None else reason in objection
+    assert "no limit switches" in unavailable_reasons.find_homing_objection(state, PIEZO_ONLY)
 
 
 def test_only_a_doubtful_position_is_confirmed():
-    assert unavailable_reasons.against_confirming(DISTRUSTED) is None
-    assert "position is certain" in unavailable_reasons.against_confirming(state())
-    assert "position is certain" in unavailable_reasons.against_confirming(
-        state(locked="differ", differences=("a",), doubt=LOST)
-    )
-    assert "home first" in unavailable_reasons.against_confirming(
-        state(position_known=False, locked="home")
+    assert unavailable_reasons.find_confirm_objection(DISTRUSTED) is None
+    assert "position is certain" in unavailable_reasons.find_confirm_objection(make_state())
+    assert "home first" in unavailable_reasons.find_confirm_objection(
+        make_state(position_known=False, lock_reason="home")
     )
 
 
-def test_going_back():
-    assert unavailable_reasons.against_going_back(state(), undoable=True) is None
-    assert "no previous position" in unavailable_reasons.against_going_back(state(), undoable=False)
-    assert "still moving" in unavailable_reasons.against_going_back(MOVING, undoable=True)
-    assert unavailable_reasons.against_going_back(DISTRUSTED, undoable=True) == DISTRUSTED.locked
+@pytest.mark.parametrize(
+    ("changes", "reason"),
+    [
+        ({"fault": "hot"}, "there is a fault; clear it first"),
+        ({"silent_s": 0.2}, "the device does not answer"),
+        ({"differences": ("a",)}, "the parameters differ from the robot file"),
+    ],
+)
+def test_another_problem_is_solved_before_the_position_is_confirmed(changes, reason):
+    state = make_state(lock_reason="another reason", doubt=LOST, **changes)
+    assert reason in unavailable_reasons.find_confirm_objection(state)
+    certain_state = replace(state, doubt=None)
+    assert "position is certain" in unavailable_reasons.find_confirm_objection(certain_state)
 
 
-def test_clearing_and_writing():
-    assert unavailable_reasons.against_clearing(state(fault="hot")) is None
-    assert "no fault" in unavailable_reasons.against_clearing(state())
-    assert "connect" in unavailable_reasons.against_clearing(FAILED)
-    assert "stores no parameters" in unavailable_reasons.against_writing(state(), SIMULATOR)
+def test_undo_objection():
+    assert unavailable_reasons.find_undo_objection(make_state(), undoable=True) is None
+    assert "no previous position" in unavailable_reasons.find_undo_objection(
+        make_state(), undoable=False
+    )
+    assert "still moving" in unavailable_reasons.find_undo_objection(MOVING, undoable=True)
+    assert (
+        unavailable_reasons.find_undo_objection(DISTRUSTED, undoable=True) == DISTRUSTED.lock_reason
+    )
 
 
-def test_floor():
-    assert "no tip" in unavailable_reasons.against_teaching(state(), None)
-    assert "no tip" in unavailable_reasons.against_removing(None)
+def test_clear_and_write_objections():
+    assert unavailable_reasons.find_clear_objection(make_state(fault="hot")) is None
+    assert "no fault" in unavailable_reasons.find_clear_objection(make_state())
+    assert "connect" in unavailable_reasons.find_clear_objection(FAILED)
+    assert "stores no parameters" in unavailable_reasons.find_write_objection(
+        make_state(), SIMULATOR
+    )
+
+
+def test_floor_objections():
+    assert "no tip" in unavailable_reasons.find_teach_objection(make_state(), None)
+    assert "no tip" in unavailable_reasons.find_removal_objection(None)

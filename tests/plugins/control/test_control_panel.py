@@ -1,4 +1,4 @@
-"""The control menu: every way to move an axis, and when it is refused."""
+"""The control panel: all ways to move an axis, and when a move is refused."""
 
 import re
 from dataclasses import replace
@@ -10,10 +10,9 @@ from PySide6.QtCore import QEvent, QPoint, QRect, Qt
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QApplication
 
-from rotemina.app.motion.backlash import Approach
-from rotemina.app.range_settings import kept_ranges
-from rotemina.drivers.samples import DeviceState
-from rotemina.sim.robot.model import AxisEffect
+from rotemina.app.motion.session import OneSidedApproach, load_ranges
+from rotemina.drivers.contract import DeviceState
+from rotemina.sim.robot import AxisEffect
 
 LONG_MS = 30_000
 
@@ -23,7 +22,7 @@ def panel(window):
     return window.panels["control"]
 
 
-def settled_at(session, axis, position, tolerance):
+def is_settled_at(session, axis, position, tolerance):
     state = session.snapshot()
     idle = state.activity is DeviceState.IDLE
     return (
@@ -33,11 +32,11 @@ def settled_at(session, axis, position, tolerance):
     )
 
 
-def test_every_axis_is_shown_with_its_unit_steps_and_goes_to_typed_targets(qtbot, window, panel):
+def test_every_axis_shows_its_unit_and_moves_by_steps_and_to_typed_targets(qtbot, window, panel):
     qtbot.waitSignal(window.workbench.refreshed).wait()
     assert list(panel.rows) == ["x", "y", "z", "thx", "thy", "zn"]
     texts = {axis: row._readout.text() for axis, row in panel.rows.items()}
-    # The last digit is the encoder's step, which its noise may turn.
+    # The last digit is one encoder step, so encoder noise may change it.
     assert re.fullmatch(r"27\.(4999|500[01]) mm", texts["x"])
     assert re.fullmatch(r"58\d\.\d µrad", texts["thx"])
     assert re.fullmatch(r"32\.[45]\d\d µm", texts["zn"])
@@ -48,20 +47,22 @@ def test_every_axis_is_shown_with_its_unit_steps_and_goes_to_typed_targets(qtbot
         qtbot.waitUntil(row.plus.isEnabled, timeout=LONG_MS)
         qtbot.mouseClick(row.plus, Qt.MouseButton.LeftButton)
         qtbot.waitUntil(
-            lambda at=start + step, axis=axis: settled_at(session, axis, at, 5e-6), timeout=LONG_MS
+            lambda position=start + step, axis=axis: is_settled_at(session, axis, position, 5e-6),
+            timeout=LONG_MS,
         )
         qtbot.mouseClick(row.minus, Qt.MouseButton.LeftButton)
         qtbot.waitUntil(
-            lambda at=start, axis=axis: settled_at(session, axis, at, 5e-6), timeout=LONG_MS
+            lambda position=start, axis=axis: is_settled_at(session, axis, position, 5e-6),
+            timeout=LONG_MS,
         )
     row = panel.rows["z"]
     qtbot.waitUntil(row.go.isEnabled, timeout=LONG_MS)
     qtbot.keyClicks(row.target, "40.25")
     qtbot.keyClick(row.target, Qt.Key.Key_Return)
-    qtbot.waitUntil(lambda: settled_at(session, "z", 0.04025, 1e-6), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: is_settled_at(session, "z", 0.04025, 1e-6), timeout=LONG_MS)
 
 
-def test_what_must_not_move_is_refused_and_a_large_move_is_confirmed(qtbot, window, panel):
+def test_invalid_targets_are_refused_and_a_large_move_must_be_confirmed(qtbot, window, panel):
     session, row = window.workbench.session, panel.rows["x"]
     qtbot.waitUntil(row.go.isEnabled, timeout=LONG_MS)
     qtbot.mouseClick(row.go, Qt.MouseButton.LeftButton)
@@ -77,57 +78,58 @@ def test_what_must_not_move_is_refused_and_a_large_move_is_confirmed(qtbot, wind
     assert "55 mm" in notice.text
     assert session.snapshot().command["x"] == pytest.approx(0.0275)
     row.target.clear()
-    now = [100.0]
-    row._clock = lambda: now[0]
+    clock_s = [100.0]
+    row._clock = lambda: clock_s[0]
     qtbot.keyClicks(row.target, "41.25")
     qtbot.waitUntil(lambda: row.status.text() == "to 41.2500 mm", timeout=LONG_MS)
-    assert row.left.text() == "+13.7500 mm"
-    held = QKeyEvent(
+    assert row.room_left.text() == "+13.7500 mm"
+    repeated_enter = QKeyEvent(
         QEvent.Type.KeyPress, Qt.Key.Key_Return, Qt.KeyboardModifier.NoModifier, "", autorep=True
     )
     qtbot.keyClick(row.target, Qt.Key.Key_Return)
-    now[0] += 5.0
-    QApplication.sendEvent(row.target, held)  # Enter that is held is no second press
+    clock_s[0] += 5.0
+    # The auto-repeat of a held Enter is not a second press.
+    QApplication.sendEvent(row.target, repeated_enter)
     qtbot.waitUntil(lambda: row.go.text() == "Move?", timeout=LONG_MS)
     assert session.snapshot().command["x"] == pytest.approx(0.0275)
-    qtbot.keyClicks(row.target, "5")  # another number is another question
+    qtbot.keyClicks(row.target, "5")  # another number needs another confirmation
     qtbot.waitUntil(lambda: row.go.text() == "Go", timeout=LONG_MS)
-    panel.head.speed.choose(0.01)
+    panel.overview.speed.choose_fraction(0.01)
     qtbot.mouseClick(row.go, Qt.MouseButton.LeftButton)
-    now[0] += 5.0
+    clock_s[0] += 5.0
     qtbot.mouseClick(row.go, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.MOVING, timeout=LONG_MS)
     session.stop()
     qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.IDLE, timeout=LONG_MS)
-    window_ = session.history.tail()
-    speed = np.abs(np.diff(window_.command[:, 0]) / np.diff(window_.device_time_s)).max()
-    assert speed <= 0.0101 * window.workbench.robot.axes["x"].max_speed  # as was chosen
+    history = session.history.tail()
+    speed = np.abs(np.diff(history.command[:, 0]) / np.diff(history.device_time_s)).max()
+    assert speed <= 0.0101 * window.workbench.robot.axes["x"].max_speed  # the chosen 1 %
 
 
-def test_an_axis_goes_while_its_button_is_held_and_all_lock_without_a_device(qtbot, window, panel):
+def test_a_held_button_jogs_until_release_and_rows_lock_without_a_device(qtbot, window, panel):
     session, row = window.workbench.session, panel.rows["x"]
     qtbot.waitUntil(row.plus.isEnabled, timeout=LONG_MS)
-    panel.steps["micro"].hold("m")
-    panel.head.speed.choose(0.1)
-    begin = session.snapshot().command["x"]
+    panel.steps["micro"].choose_hold("m")
+    panel.overview.speed.choose_fraction(0.1)
+    start = session.snapshot().command["x"]
     window.activateWindow()
     qtbot.waitUntil(window.isActiveWindow, timeout=LONG_MS)
 
-    def halted():
-        return session.snapshot().activity is DeviceState.IDLE and not row.holding.busy
+    def is_halted():
+        return session.snapshot().activity is DeviceState.IDLE and not row.hold_to_jog.is_active
 
     qtbot.mousePress(row.plus, Qt.MouseButton.LeftButton)
-    assert row.holding.busy
-    qtbot.waitUntil(lambda: session.snapshot().command["x"] > begin + 1e-4, timeout=LONG_MS)
+    assert row.hold_to_jog.is_active
+    qtbot.waitUntil(lambda: session.snapshot().command["x"] > start + 1e-4, timeout=LONG_MS)
     qtbot.mouseRelease(row.plus, Qt.MouseButton.LeftButton)
-    assert not row.holding.busy
-    qtbot.waitUntil(halted, timeout=LONG_MS)
-    # Nor does it go on where its dock is hidden while it is held.
+    assert not row.hold_to_jog.is_active
+    qtbot.waitUntil(is_halted, timeout=LONG_MS)
+    # Hiding the dock while the button is held also ends the motion.
     qtbot.waitUntil(row.minus.isEnabled, timeout=LONG_MS)
     qtbot.mousePress(row.minus, Qt.MouseButton.LeftButton)
-    assert row.holding.busy
+    assert row.hold_to_jog.is_active
     window.docks["control"].hide()
-    qtbot.waitUntil(halted, timeout=LONG_MS)
+    qtbot.waitUntil(is_halted, timeout=LONG_MS)
     assert not window.notices.notices()
     window.workbench.session.close()
     qtbot.waitUntil(lambda: not row.plus.isEnabled(), timeout=LONG_MS)
@@ -138,80 +140,86 @@ def test_an_axis_goes_while_its_button_is_held_and_all_lock_without_a_device(qtb
 def test_the_palette_offers_no_jog(qtbot, window):
     window.bring_up("control")
     qtbot.waitUntil(window.panels["control"].rows["x"].plus.isEnabled, timeout=LONG_MS)
-    assert [e.text for e in window._entries() if e.what.endswith(("−", "+"))] == []
+    assert [e.text for e in window._make_palette_entries() if e.title.endswith(("−", "+"))] == []
 
 
-def changed_step_by_step(qtbot, window, page, begin):
-    """Set load and work, change the pin by the guide; a stop and a lock stand in between."""
+def change_pin_with_guide(qtbot, window, page, start):
+    """Set the load and work positions and change the pin with the guide, with a stop in between."""
     session = window.workbench.session
-    for name, at in (("load", begin["x"] + 2e-4), ("work", begin["x"])):
-        session.go_to({"x": at})
-        qtbot.waitUntil(lambda at=at: settled_at(session, "x", at, 1e-5), timeout=LONG_MS)
-        qtbot.waitUntil(page.places[name].isEnabled, timeout=LONG_MS)
-        page.places[name].click()
-        assert page.places[name].text() == "Set here?"
-        page.places[name].click()
-    assert page.positions.kept["work"]["x"] == pytest.approx(begin["x"])
+    for name, position in (("load", start["x"] + 2e-4), ("work", start["x"])):
+        session.go_to({"x": position})
+        qtbot.waitUntil(
+            lambda position=position: is_settled_at(session, "x", position, 1e-5), timeout=LONG_MS
+        )
+        qtbot.waitUntil(page.place_buttons[name].isEnabled, timeout=LONG_MS)
+        page.place_buttons[name].click()
+        assert page.place_buttons[name].text() == "Set here?"
+        page.place_buttons[name].click()
+    assert page.positions.positions["work"]["x"] == pytest.approx(start["x"])
     page.change.click()
     guide = page._guide
     for number in range(7):
-        qtbot.waitUntil(guide.do.isEnabled, timeout=LONG_MS)
-        guide.do.click()
-        qtbot.waitUntil(lambda number=number: guide.at > number, timeout=LONG_MS)
+        qtbot.waitUntil(guide.action_button.isEnabled, timeout=LONG_MS)
+        guide.action_button.click()
+        qtbot.waitUntil(lambda number=number: guide.step_index > number, timeout=LONG_MS)
     floor = float("-inf")
-    qtbot.waitUntil(guide.do.isEnabled, timeout=LONG_MS)
-    guide.do.click()
-    window.workbench.stop()  # withdraws the question
-    guide.do.click()
+    qtbot.waitUntil(guide.action_button.isEnabled, timeout=LONG_MS)
+    guide.action_button.click()
+    window.workbench.stop()  # cancels the confirmation
+    guide.action_button.click()
     assert session.bounds.keep_out.floor == floor
-    qtbot.waitUntil(lambda: guide.do.text() == "Teach here?" and guide.do.isEnabled())
-    guide.do.click()
+    qtbot.waitUntil(
+        lambda: guide.action_button.text() == "Teach here?" and guide.action_button.isEnabled()
+    )
+    guide.action_button.click()
     qtbot.waitUntil(lambda: session.bounds.keep_out.floor > floor, timeout=LONG_MS)
     qtbot.waitUntil(guide.isHidden, timeout=LONG_MS)
     state = session.snapshot()
-    assert state.command["z"] == session.robot.axes["z"].range[1]  # nothing came down by itself
-    assert state.command["x"] == pytest.approx(begin["x"])
-    assert state.latched is None
+    assert state.command["z"] == session.robot.axes["z"].range[1]  # the guide never lowers the tip
+    assert state.command["x"] == pytest.approx(start["x"])
+    assert state.latch_reason is None
     session.bounds.clear_floor()
 
 
-def test_the_pages_keep_positions_change_modes_and_arm(qtbot, window, panel):
+def test_the_pages_save_positions_change_modes_and_arm_a_penetration(qtbot, window, panel):
     session, page = window.workbench.session, panel.positions
     panel.tabs.setCurrentIndex(1)
-    qtbot.keyClicks(page.name, "here")
-    qtbot.waitUntil(page.keep.isEnabled, timeout=LONG_MS)
-    begin = session.snapshot().command
-    qtbot.mouseClick(page.keep, Qt.MouseButton.LeftButton)
-    assert page.names.currentText() == "here"
-    assert "X\u00a027.5000\u00a0mm" in page.place.text()
+    qtbot.keyClicks(page.name_field, "here")
+    qtbot.waitUntil(page.save_button.isEnabled, timeout=LONG_MS)
+    start = session.snapshot().command
+    qtbot.mouseClick(page.save_button, Qt.MouseButton.LeftButton)
+    assert page.name_choice.currentText() == "here"
+    assert "X\u00a027.5000\u00a0mm" in page.position_text.text()
     session.jog("thx", 1e-5)
-    qtbot.waitUntil(lambda: settled_at(session, "thx", begin["thx"] + 1e-5, 1e-5), timeout=LONG_MS)
+    qtbot.waitUntil(
+        lambda: is_settled_at(session, "thx", start["thx"] + 1e-5, 1e-5), timeout=LONG_MS
+    )
     qtbot.waitUntil(page.go.isEnabled, timeout=LONG_MS)
     qtbot.mouseClick(page.go, Qt.MouseButton.LeftButton)
-    qtbot.waitUntil(lambda: settled_at(session, "thx", begin["thx"], 1e-5), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: is_settled_at(session, "thx", start["thx"], 1e-5), timeout=LONG_MS)
     for presses_left in (1, 0):
-        assert (page.names.count() == 0) is False
+        assert (page.name_choice.count() == 0) is False
         qtbot.mouseClick(page.delete, Qt.MouseButton.LeftButton)
-        assert page.names.count() == presses_left
-    assert not page.positions.kept
-    changed_step_by_step(qtbot, window, page, begin)
+        assert page.name_choice.count() == presses_left
+    assert not page.positions.positions
+    change_pin_with_guide(qtbot, window, page, start)
     panel.tabs.setCurrentIndex(0)
     operation = window.workbench.operation
     qtbot.mouseClick(panel.hand.modes["nano"], Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: operation.teleoperator.state.mode == "nano", timeout=LONG_MS)
-    qtbot.waitUntil(lambda: "nano" in panel.head.device.text(), timeout=LONG_MS)
-    assert not panel.hand.over.isEnabled()
+    qtbot.waitUntil(lambda: "nano" in panel.overview.device.text(), timeout=LONG_MS)
+    assert not panel.hand.take_over.isEnabled()
     panel.tabs.setCurrentIndex(3)
     page = panel.penetration
     assert "the run needs 62 µm" in page.message.text()
     panel.rows["zn"].target.setText("64")
-    panel.rows["zn"].confirmation.take(64e-6, session.snapshot().command["zn"], -100.0)
-    panel.rows["zn"]._go()
+    panel.rows["zn"].confirmation.request_permit(64e-6, session.snapshot().command["zn"], -100.0)
+    panel.rows["zn"]._go_to_target()
     qtbot.waitUntil(page.arm.isEnabled, timeout=LONG_MS)
-    assert not page.button.isEnabled()
+    assert not page.main_button.isEnabled()
     qtbot.mouseClick(page.arm, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: page.arm.text() == "Disarm", timeout=LONG_MS)
-    assert page.button.isEnabled()
+    assert page.main_button.isEnabled()
     assert page.phase.text().startswith("armed")
     qtbot.waitUntil(lambda: session.snapshot().owners.get("x", "").startswith("penetration"))
     qtbot.mouseClick(page.arm, Qt.MouseButton.LeftButton)
@@ -219,105 +227,108 @@ def test_the_pages_keep_positions_change_modes_and_arm(qtbot, window, panel):
 
 
 @pytest.mark.parametrize("modifier", ["NoModifier", "ShiftModifier"])
-def test_escape_withdraws_a_large_move_that_was_asked_about(
-    qtbot, window, panel, press_escape, modifier
-):
+def test_escape_cancels_an_unconfirmed_large_move(qtbot, window, panel, press_escape, modifier):
     session, row = window.workbench.session, panel.rows["x"]
     qtbot.waitUntil(row.go.isEnabled, timeout=LONG_MS)
-    before = session.snapshot().command["x"]
-    row._clock = iter(range(0, 100, 10)).__next__  # no press is a double click
+    start = session.snapshot().command["x"]
+    row._clock = iter(range(0, 100, 10)).__next__  # no press counts as a double click
     qtbot.keyClicks(row.target, "2")
     qtbot.keyClick(row.target, Qt.Key.Key_Return)
-    assert row.confirmation.asked is not None
+    assert row.confirmation.unconfirmed_move is not None
     press_escape(row.target, Qt.KeyboardModifier[modifier])
     session.release()
-    qtbot.keyClick(row.target, Qt.Key.Key_Return)  # before any refresh has seen the stop
+    qtbot.keyClick(row.target, Qt.Key.Key_Return)  # before the panel is refreshed after the stop
     state = session.snapshot()
-    assert (state.command["x"], state.queued, dict(state.owners)) == (before, 0, {})
+    assert (state.command["x"], state.queued, dict(state.owners)) == (start, 0, {})
 
 
-def test_a_stop_withdraws_that_a_position_is_deleted(qtbot, panel, window):
-    page, bench = panel.positions, window.workbench
-    qtbot.waitUntil(lambda: bench.session.snapshot().position_known, timeout=LONG_MS)
-    page.name.setText("bench")
-    page._keep()
-    page._delete()
+def test_a_stop_cancels_the_deletion_of_a_position(qtbot, panel, window):
+    page, workbench = panel.positions, window.workbench
+    qtbot.waitUntil(lambda: workbench.session.snapshot().position_known, timeout=LONG_MS)
+    page.name_field.setText("bench")
+    page._save_position()
+    page._delete_position()
     assert page.delete.text() == "Delete?"
-    bench.stop()
-    page._delete()
-    assert "bench" in page.positions.kept
+    workbench.stop()
+    page._delete_position()
+    assert "bench" in page.positions.positions
 
 
-def test_cards_have_large_digits_and_labelled_ends_where_there_is_room(qtbot, window, panel):
+def test_axis_cards_use_large_digits_and_labelled_ends_in_a_large_window(qtbot, window, panel):
     row, session = panel.rows["zn"], window.workbench.session
-    parts = [row.status, row.difference, row._readout, row._bar, row.go, row.left]
+    widgets = [row.status, row.difference, row._readout, row._bar, row.go, row.room_left]
 
-    def all_in_sight():
-        below = row.mapTo(panel, QPoint(0, row.height())).y()
-        places = [QRect(one.mapTo(row, QPoint()), one.size()) for one in parts]
-        assert below <= panel.tabs.mapTo(panel, QPoint()).y()
-        assert all(row.rect().contains(place) for place in places), places
-        assert not any(one.intersects(two) for one, two in combinations(places, 2)), places
+    def assert_all_visible():
+        bottom = row.mapTo(panel, QPoint(0, row.height())).y()
+        rectangles = [QRect(widget.mapTo(row, QPoint()), widget.size()) for widget in widgets]
+        assert bottom <= panel.tabs.mapTo(panel, QPoint()).y()
+        assert all(row.rect().contains(rectangle) for rectangle in rectangles), rectangles
+        pairs = combinations(rectangles, 2)
+        assert not any(first.intersects(second) for first, second in pairs), rectangles
 
-    for width, height, digits, roomy in ((1920, 1080, 30, True), (1280, 800, 17, False)):
+    for width, height, digits, has_end_labels in ((1920, 1080, 30, True), (1280, 800, 17, False)):
         window.resize(width, height)
-        qtbot.waitUntil(all_in_sight, timeout=LONG_MS // 3)
+        qtbot.waitUntil(assert_all_visible, timeout=LONG_MS // 3)
         assert row._readout.font().pixelSize() == digits
-        track = row._bar.track()
-        assert (track.left() > 0 and track.right() < row._bar.width()) is roomy
-    assert row._bar.ends == ("0", "65 µm")
+        track = row._bar.find_track()
+        assert (track.left() > 0 and track.right() < row._bar.width()) is has_end_labels
+    assert row._bar.end_texts == ("0", "65 µm")
     state = session.snapshot()
     cases = (0.0, "plain", "+0.000"), (4.7e-6, "apart", "+4.700"), (-2.4e-5, "beyond", "-24.000")
-    for apart, grade, text in cases:
-        measured = {**state.measured, "zn": state.command["zn"] + apart}
+    for deviation, grade, text in cases:
+        measured = {**state.measured, "zn": state.command["zn"] + deviation}
         row.refresh(replace(state, measured=measured, age_s=0.0))
         assert (row.difference.property("grade"), row.difference.text()) == (grade, text)
     row.show_range((2e-5, 4e-5), [(0.0, 1e-5)])
     assert not row.grab().toImage().isNull()
 
 
-def test_a_range_is_narrowed_and_an_approach_is_chosen_on_the_page_of_axes(qtbot, window, panel):
+def test_the_axes_page_narrows_a_range_and_sets_a_one_sided_approach(qtbot, window, panel):
     session, page, row = window.workbench.session, panel.axes, panel.rows["x"]
     panel.tabs.setCurrentIndex(panel.tabs.count() - 1)
     qtbot.waitUntil(page.narrow.isEnabled, timeout=LONG_MS)
-    assert (page.low.text(), page.high.text()) == ("0.0000", "55.0000")
-    page.high.setText("55.1")
+    assert (page.low_field.text(), page.high_field.text()) == ("0.0000", "55.0000")
+    page.high_field.setText("55.1")
     qtbot.mouseClick(page.narrow, Qt.MouseButton.LeftButton)
     assert "outside its range 0 mm to 55 mm" in window.notices.notices()[0].text
-    page.low.setText("20")
-    page.high.setText("30.5")
-    qtbot.keyClick(page.high, Qt.Key.Key_Return)
-    assert session.ranges.narrowed == {"x": (0.02, 0.0305)}
-    assert kept_ranges(window.workbench.settings, session.robot) == {"x": (0.02, 0.0305)}
+    page.low_field.setText("20")
+    page.high_field.setText("30.5")
+    qtbot.keyClick(page.high_field, Qt.Key.Key_Return)
+    assert session.ranges.narrowed_ranges == {"x": (0.02, 0.0305)}
+    assert load_ranges(window.workbench.settings, session.robot) == {"x": (0.02, 0.0305)}
     qtbot.waitUntil(lambda: "20.0000 mm … 30.5000 mm" in row._bar.toolTip(), timeout=LONG_MS)
     assert row._bar._forbidden[:2] == ((0.0, 0.02), (0.0305, 0.055))
-    qtbot.waitUntil(page.whole.isEnabled, timeout=LONG_MS)
-    qtbot.mouseClick(page.whole, Qt.MouseButton.LeftButton)
-    assert session.ranges.narrowed == kept_ranges(window.workbench.settings, session.robot) == {}
-    assert page.high.text() == "55.0000"
+    qtbot.waitUntil(page.restore.isEnabled, timeout=LONG_MS)
+    qtbot.mouseClick(page.restore, Qt.MouseButton.LeftButton)
+    assert (
+        session.ranges.narrowed_ranges
+        == load_ranges(window.workbench.settings, session.robot)
+        == {}
+    )
+    assert page.high_field.text() == "55.0000"
 
     page.width_field.setText("0.9")
     page.side.setCurrentIndex(1)
     page.side.activated.emit(1)
     assert "at most 550 µm" in window.notices.notices()[0].text
-    assert page.side.currentData() is None  # what is in use, not what was refused
+    assert page.side.currentData() is None  # shows the setting in use, not the refused one
     page.width_field.setText("0.02")
     page.side.setCurrentIndex(1)
     page.side.activated.emit(1)
-    assert session.backlash.applied == {"x": Approach(2e-5, rising=True)}
+    assert session.backlash.applied == {"x": OneSidedApproach(2e-5, rising=True)}
     qtbot.waitUntil(lambda: row.name.text() == "X (↑)", timeout=LONG_MS)
     qtbot.waitUntil(row.plus.isEnabled, timeout=LONG_MS)
     qtbot.mouseClick(row.plus, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: row.name.text() == "X ↑", timeout=LONG_MS)
-    assert not page.use_play.isEnabled()
-    found = AxisEffect(axis="x", id="backlash", parameters={"width": 1e-6})
+    assert not page.use_backlash.isEnabled()
+    backlash = AxisEffect(axis="x", id="backlash", parameters={"width": 1e-6})
     qtbot.waitUntil(lambda: session.at_rest, timeout=LONG_MS)
-    session.use_model(replace(session.model, id="corrected", effects=(found,)))
-    qtbot.waitUntil(page.use_play.isEnabled, timeout=LONG_MS)
-    assert page.play.text() == "Measured backlash: 0.0010 mm"
-    qtbot.mouseClick(page.use_play, Qt.MouseButton.LeftButton)
-    assert session.backlash.applied == {"x": Approach(pytest.approx(1.5e-6), rising=True)}
+    session.use_model(replace(session.model, id="corrected", effects=(backlash,)))
+    qtbot.waitUntil(page.use_backlash.isEnabled, timeout=LONG_MS)
+    assert page.backlash_text.text() == "Measured backlash: 0.0010 mm"
+    qtbot.mouseClick(page.use_backlash, Qt.MouseButton.LeftButton)
+    assert session.backlash.applied == {"x": OneSidedApproach(pytest.approx(1.5e-6), rising=True)}
     page.axis.setCurrentIndex(page.axis.findData("zn"))
     page.refresh(session.snapshot())
     assert not page.side.isEnabled()
-    assert not page.use_play.isVisible()
+    assert not page.use_backlash.isVisible()

@@ -1,4 +1,4 @@
-"""A jog that is held ends with whatever may lose its release."""
+"""A held jog ends as soon as the release of its button could be missed."""
 
 from types import SimpleNamespace
 
@@ -16,16 +16,15 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.drivers.clock import VirtualClock
-from rotemina.drivers.gate import Gate
-from rotemina.plugins.control.hold_to_jog import REPEATED_S, Holding
+from rotemina.drivers.contract import Gate, VirtualClock
+from rotemina.plugins.control.hold_to_jog import MAX_KEY_REPEAT_GAP_S, HoldToJog
 
 LONG_MS = 30_000
 
 
 @pytest.fixture
-def held(qtbot, monkeypatch):
-    """A button in a tab of a window, held down by its key, and the speeds that it sends."""
+def held_jog(qtbot, monkeypatch):
+    """A jog button in a tab, held down by its key, and the speeds that it sends."""
     window = QWidget()
     qtbot.addWidget(window)
     tabs, page, field = QTabWidget(), QWidget(), QLineEdit()
@@ -35,96 +34,96 @@ def held(qtbot, monkeypatch):
     column = QVBoxLayout(window)
     column.addWidget(tabs)
     column.addWidget(field)
-    sent, clock = [], VirtualClock(1.0)
+    sent_speeds, clock = [], VirtualClock(1.0)
     gate = Gate(clock)
 
     def move_velocity(speeds, permit):
         permit.check()
-        sent.append(speeds["x"])
+        sent_speeds.append(speeds["x"])
 
     session = SimpleNamespace(move_velocity=move_velocity, permit=gate.permit)
-    bench = SimpleNamespace(session=session, ask=lambda request: (request(), True)[1])
-    holding = Holding(bench, "x", window, clock)
-    holding.watch(button)
-    button.pressed.connect(lambda: holding.begin(button, 1e-3))
-    button.released.connect(holding.end)
+    workbench = SimpleNamespace(session=session, run_request=lambda request: (request(), True)[1])
+    hold_to_jog = HoldToJog(workbench, "x", window, clock)
+    hold_to_jog.watch_button(button)
+    button.pressed.connect(lambda: hold_to_jog.begin(button, 1e-3))
+    button.released.connect(hold_to_jog.end)
     window.show()
     window.activateWindow()
     qtbot.waitUntil(window.isActiveWindow, timeout=LONG_MS)
     button.setFocus()
     qtbot.keyPress(button, Qt.Key.Key_Space)
-    assert holding.busy
-    assert sent == [1e-3]
+    assert hold_to_jog.is_active
+    assert sent_speeds == [1e-3]
     return SimpleNamespace(**locals())
 
 
-def other_window(held):
-    second = QWidget()
-    held.qtbot.addWidget(second)
-    second.show()
-    second.activateWindow()
-    held.qtbot.waitUntil(second.isActiveWindow, timeout=LONG_MS)
+def open_other_window(held_jog):
+    other_window = QWidget()
+    held_jog.qtbot.addWidget(other_window)
+    other_window.show()
+    other_window.activateWindow()
+    held_jog.qtbot.waitUntil(other_window.isActiveWindow, timeout=LONG_MS)
 
 
-def popup(held):
-    menu = QMenu(held.window)
+def open_menu(held_jog):
+    menu = QMenu(held_jog.window)
     menu.addAction("one")
-    menu.popup(held.window.pos())
-    held.qtbot.addWidget(menu)
+    menu.popup(held_jog.window.pos())
+    held_jog.qtbot.addWidget(menu)
 
 
-def dialog(held):
-    asked = QDialog(held.window)
-    held.qtbot.addWidget(asked)
-    asked.open()
+def open_dialog(held_jog):
+    dialog = QDialog(held_jog.window)
+    held_jog.qtbot.addWidget(dialog)
+    dialog.open()
 
 
-def locked_screen(held):
-    """The lock takes the keyboard: no window of the program has the focus any more."""
-    held.application_state = Qt.ApplicationState.ApplicationInactive
-    held.monkeypatch.setattr(
-        QGuiApplication, "applicationState", staticmethod(lambda: held.application_state)
+def lock_screen(held_jog):
+    """Make the application inactive: a lock screen takes the focus from all its windows."""
+    held_jog.application_state = Qt.ApplicationState.ApplicationInactive
+    held_jog.monkeypatch.setattr(
+        QGuiApplication, "applicationState", staticmethod(lambda: held_jog.application_state)
     )
 
 
-TAKEN = {
-    "tab": lambda held: held.tabs.setCurrentIndex(1),
-    "focus": lambda held: held.field.setFocus(),
-    "window": other_window,
-    "menu": popup,
-    "dialog": dialog,
-    "locked screen": locked_screen,
-    "lost release": lambda held: held.clock.advance(1.01 * REPEATED_S),
+INTERRUPTIONS = {
+    "tab": lambda held_jog: held_jog.tabs.setCurrentIndex(1),
+    "focus": lambda held_jog: held_jog.field.setFocus(),
+    "window": open_other_window,
+    "menu": open_menu,
+    "dialog": open_dialog,
+    "locked screen": lock_screen,
+    "lost release": lambda held_jog: held_jog.clock.advance(1.01 * MAX_KEY_REPEAT_GAP_S),
 }
 
 
-@pytest.mark.parametrize("taken", TAKEN)
-def test_it_ends_where_its_release_may_be_lost(qtbot, held, taken):
-    TAKEN[taken](held)
-    held.holding._renew()
-    assert not held.holding.busy
-    assert held.sent[-1] == 0.0
+@pytest.mark.parametrize("interruption", INTERRUPTIONS)
+def test_a_held_jog_ends_when_its_release_could_be_missed(qtbot, held_jog, interruption):
+    INTERRUPTIONS[interruption](held_jog)
+    held_jog.hold_to_jog._renew_speed()
+    assert not held_jog.hold_to_jog.is_active
+    assert held_jog.sent_speeds[-1] == 0.0
 
 
-@pytest.mark.parametrize("way", ["stop", "stop and release"])
-def test_a_stop_ends_it_although_the_button_stays_down(held, way):
-    held.gate.stop("emergency stop" if way == "stop and release" else None)
-    if way == "stop and release":
-        held.gate.release()
-    held.holding._renew()
-    assert held.button.isDown()
-    assert not held.holding.busy
-    assert held.sent == [1e-3]  # not even a halt: the stop has done that
-    held.holding._renew()
-    assert held.sent == [1e-3]
+@pytest.mark.parametrize("action", ["stop", "stop and release"])
+def test_a_stop_ends_a_held_jog_although_the_button_stays_down(held_jog, action):
+    held_jog.gate.stop("emergency stop" if action == "stop and release" else None)
+    if action == "stop and release":
+        held_jog.gate.release()
+    held_jog.hold_to_jog._renew_speed()
+    assert held_jog.button.isDown()
+    assert not held_jog.hold_to_jog.is_active
+    assert held_jog.sent_speeds == [1e-3]  # the stop halts the axis, so the jog sends no zero speed
+    held_jog.hold_to_jog._renew_speed()
+    assert held_jog.sent_speeds == [1e-3]
 
 
-def test_a_key_that_repeats_goes_on(held):
+def test_a_held_jog_continues_while_its_key_repeats(held_jog):
     for _ in range(5):
-        held.clock.advance(0.9 * REPEATED_S)
+        held_jog.clock.advance(0.9 * MAX_KEY_REPEAT_GAP_S)
         event = QKeyEvent(
             QEvent.Type.KeyPress, Qt.Key.Key_Space, Qt.KeyboardModifier.NoModifier, " ", True
         )
-        QApplication.sendEvent(held.button, event)
-        held.holding._renew()
-        assert held.holding.busy
+        QApplication.sendEvent(held_jog.button, event)
+        held_jog.hold_to_jog._renew_speed()
+        assert held_jog.hold_to_jog.is_active

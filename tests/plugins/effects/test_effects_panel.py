@@ -1,4 +1,4 @@
-"""The effects panel on the running simulator."""
+"""The effects panel with the simulator running."""
 
 import threading
 from importlib import resources
@@ -8,18 +8,18 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFileDialog
 
-from rotemina.app.motion.device_service import Service
-from rotemina.app.shell.workbench import Level
-from rotemina.drivers.samples import DeviceState
+from rotemina.app.motion.session.device_service import DeviceService
+from rotemina.app.workbench import Level
+from rotemina.drivers.contract import DeviceState
 from rotemina.plugins.effects import panel as panel_module
-from rotemina.plugins.effects.panel import REAL_MACHINE
-from rotemina.sim.effects.errors import EffectError
-from rotemina.sim.effects.registry import all_effects
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.robot.model import AxisEffect
+from rotemina.plugins.effects.panel import ONLY_SIMULATOR_TEXT
+from rotemina.sim.effects import load_all_effects
+from rotemina.sim.errors import EffectError
+from rotemina.sim.robot import AxisEffect
+from rotemina.sim.robot_files import load_robot
 
 LONG_MS = 30_000
-LOOP = AxisEffect(axis="thx", id="hysteresis")
+HYSTERESIS = AxisEffect(axis="thx", id="hysteresis")
 
 
 @pytest.fixture
@@ -36,32 +36,32 @@ def panel(qtbot, window):
 
 
 @pytest.fixture
-def in_place(qtbot, session, panel):
-    """Wait until the simulator does exactly this, and the panel knows."""
+def wait_for_effects(qtbot, session, panel):
+    """Return a function that waits until the simulator and the panel have exactly these effects."""
 
     def wait(*effects):
         qtbot.waitUntil(lambda: session.service.effects == effects, timeout=LONG_MS)
-        qtbot.waitUntil(lambda: panel.chain.asked == effects, timeout=LONG_MS)
-        qtbot.waitUntil(lambda: panel.live._sent is None, timeout=LONG_MS)
+        qtbot.waitUntil(lambda: panel.chain.requests == effects, timeout=LONG_MS)
+        qtbot.waitUntil(lambda: panel.live._sent_effects is None, timeout=LONG_MS)
 
     return wait
 
 
 @pytest.fixture
-def loop(session, panel, in_place):
-    """The panel with hysteresis on θx."""
-    session.service.set_effects([LOOP])
-    in_place(LOOP)
+def panel_with_hysteresis(session, panel, wait_for_effects):
+    """Return the panel with hysteresis on θx."""
+    session.service.set_effects([HYSTERESIS])
+    wait_for_effects(HYSTERESIS)
     return panel
 
 
-def choose(menu, *path):
-    """Return the action at the end of a path; of an effect's formulations the usual one."""
+def find_action(menu, *path):
+    """Return the action at the end of a menu path, with the first of its formulations."""
     for name in path[:-1]:
-        action = next(a for a in menu.actions() if a.text().strip() == name)
+        action = next(candidate for candidate in menu.actions() if candidate.text().strip() == name)
         menu = action.menu()
         menu.aboutToShow.emit()
-    action = next(a for a in menu.actions() if a.text().strip() == path[-1])
+    action = next(candidate for candidate in menu.actions() if candidate.text().strip() == path[-1])
     return action.menu().actions()[0] if action.menu() else action
 
 
@@ -72,77 +72,81 @@ def type_in(qtbot, field, text):
     qtbot.keyClick(field.edit, Qt.Key.Key_Return)
 
 
-def newest_notice(window):
+def get_newest_notice(window):
     notices = window.notices.notices()
     return notices[0].text if notices else ""
 
 
-def go_and_rest(qtbot, session, axis, position):
+def move_and_wait(qtbot, session, axis, position):
     session.go_to({axis: position})
 
-    def arrived():
+    def has_arrived():
         state = session.snapshot()
-        there = abs(state.command[axis] - position) < 1e-12
-        return there and state.activity is DeviceState.IDLE
+        is_at_target = abs(state.command[axis] - position) < 1e-12
+        return is_at_target and state.activity is DeviceState.IDLE
 
-    qtbot.waitUntil(arrived, timeout=LONG_MS)
+    qtbot.waitUntil(has_arrived, timeout=LONG_MS)
 
 
-def gap(session, axis):
-    """Return the mean distance of measurement from the model line in the last 50 ms."""
+def get_mean_gap(session, axis):
+    """Return the mean difference between the measurement and the model in the last 50 ms."""
     history = session.history.tail(0.05)
     column = history.axes.index(axis)
     return abs(float((history.measured - history.model)[:, column].mean()))
 
 
-def test_an_effect_is_added_from_the_menu_and_acts(panel, in_place):
-    choose(panel.add.menu(), "θx", "Hysteresis").trigger()
-    in_place(LOOP)
+def test_an_effect_added_from_the_menu_is_simulated(panel, wait_for_effects):
+    find_action(panel.add.menu(), "θx", "Hysteresis").trigger()
+    wait_for_effects(HYSTERESIS)
     preset = panel.editor.fields["width"].quantity.preset
     assert panel.editor.fields["width"].edit.text() == f"{1e6 * preset:.6g}"
     assert panel.status.text() == "1 effect, 1 on"
-    choose(panel.add.menu(), "X", "Flexible mode", "appendage").trigger()
-    in_place(AxisEffect(axis="x", id="flexible_mode", formulation="appendage"), LOOP)
+    find_action(panel.add.menu(), "X", "Flexible mode", "appendage").trigger()
+    wait_for_effects(AxisEffect(axis="x", id="flexible_mode", formulation="appendage"), HYSTERESIS)
     assert panel.editor.title.text() == "X: Flexible mode"
 
 
-def test_hysteresis_parts_the_measurement_from_the_model_line_until_all_is_off(
-    qtbot, window, session, loop
+def test_hysteresis_opens_a_gap_to_the_model_until_all_effects_are_off(
+    qtbot, window, session, panel_with_hysteresis
 ):
-    go_and_rest(qtbot, session, "thx", 9e-4)
-    go_and_rest(qtbot, session, "thx", 6e-4)
-    qtbot.waitUntil(lambda: gap(session, "thx") > 1e-5, timeout=LONG_MS)
-    qtbot.mouseClick(loop.all_off, Qt.MouseButton.LeftButton)
-    qtbot.waitUntil(lambda: gap(session, "thx") < 2e-6, timeout=LONG_MS)
-    assert loop.chain.asked == (LOOP,)
-    assert loop.status.text() == "1 effect, all off"
-    tick = loop.table.item(0, 0)
-    assert tick.checkState() is Qt.CheckState.Unchecked
-    tick.setCheckState(Qt.CheckState.Checked)  # what is ticked acts
-    qtbot.waitUntil(lambda: session.service.effects == (LOOP,), timeout=LONG_MS)
-    assert not loop.all_off.isChecked()
+    move_and_wait(qtbot, session, "thx", 9e-4)
+    move_and_wait(qtbot, session, "thx", 6e-4)
+    qtbot.waitUntil(lambda: get_mean_gap(session, "thx") > 1e-5, timeout=LONG_MS)
+    qtbot.mouseClick(panel_with_hysteresis.all_off, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: get_mean_gap(session, "thx") < 2e-6, timeout=LONG_MS)
+    assert panel_with_hysteresis.chain.requests == (HYSTERESIS,)
+    assert panel_with_hysteresis.status.text() == "1 effect, all off"
+    checkbox = panel_with_hysteresis.table.item(0, 0)
+    assert checkbox.checkState() is Qt.CheckState.Unchecked
+    checkbox.setCheckState(Qt.CheckState.Checked)  # enables the effects again
+    qtbot.waitUntil(lambda: session.service.effects == (HYSTERESIS,), timeout=LONG_MS)
+    assert not panel_with_hysteresis.all_off.isChecked()
 
 
 def test_the_menu_is_grouped_by_stage_with_summaries_as_tooltips(panel):
-    effects, _ = all_effects()
-    menu = next(a for a in panel.add.menu().actions() if a.text() == "θx").menu()
+    effects, _ = load_all_effects()
+    menu = next(action for action in panel.add.menu().actions() if action.text() == "θx").menu()
     menu.aboutToShow.emit()
-    heads = [a.text() for a in menu.actions() if not a.isEnabled()]
-    assert heads == [h for h in ("Electronics", "Actuator", "Mechanics", "Sensor") if h in heads]
-    assert {"Actuator", "Mechanics", "Sensor"} <= set(heads)
-    assert effects["hysteresis"].summary in choose(menu, "Hysteresis").toolTip()
+    headings = [action.text() for action in menu.actions() if not action.isEnabled()]
+    assert headings == [
+        heading
+        for heading in ("Electronics", "Actuator", "Mechanics", "Sensor")
+        if heading in headings
+    ]
+    assert {"Actuator", "Mechanics", "Sensor"} <= set(headings)
+    assert effects["hysteresis"].summary in find_action(menu, "Hysteresis").toolTip()
     assert menu.toolTipsVisible()
 
 
-def test_a_typed_value_is_applied_in_the_shown_unit(qtbot, loop, in_place):
-    field = loop.editor.fields["width"]
+def test_a_typed_value_is_applied_in_the_shown_unit(qtbot, panel_with_hysteresis, wait_for_effects):
+    field = panel_with_hysteresis.editor.fields["width"]
     assert field.quantity.unit == "µrad"
     type_in(qtbot, field, "200")
-    in_place(AxisEffect(axis="thx", id="hysteresis", parameters={"width": 2e-4}))
+    wait_for_effects(AxisEffect(axis="thx", id="hysteresis", parameters={"width": 2e-4}))
     assert field.reset.isEnabled()
     qtbot.mouseClick(field.reset, Qt.MouseButton.LeftButton)
     preset = field.quantity.preset
-    in_place(AxisEffect(axis="thx", id="hysteresis", parameters={"width": preset}))
+    wait_for_effects(AxisEffect(axis="thx", id="hysteresis", parameters={"width": preset}))
     assert not field.reset.isEnabled()
 
 
@@ -154,96 +158,104 @@ def test_a_typed_value_is_applied_in_the_shown_unit(qtbot, loop, in_place):
         ("1_0", "is not a number"),
     ],
 )
-def test_what_is_refused_is_told_with_its_bound_and_marked(
-    qtbot, window, session, loop, text, reason
+def test_a_refused_value_is_marked_and_reported_with_its_bound(
+    qtbot, window, session, panel_with_hysteresis, text, reason
 ):
-    field = loop.editor.fields["width"]
+    field = panel_with_hysteresis.editor.fields["width"]
     type_in(qtbot, field, text)
-    assert reason.format(high=field.quantity.number(field.quantity.high)) in newest_notice(window)
-    assert field.not_applied
+    assert reason.format(
+        high=field.quantity.format_number(field.quantity.high)
+    ) in get_newest_notice(window)
+    assert field.is_not_applied
     assert field.edit.text() == text
-    assert session.service.effects == (LOOP,)
-    loop.editor.fields["shape"].slider.setValue(0)
+    assert session.service.effects == (HYSTERESIS,)
+    panel_with_hysteresis.editor.fields["shape"].slider.setValue(0)
     qtbot.waitUntil(
         lambda: list(session.service.effects[0].parameters) == ["shape"], timeout=LONG_MS
     )
-    assert field.not_applied
+    assert field.is_not_applied
     type_in(qtbot, field, "100")
-    assert not field.not_applied
+    assert not field.is_not_applied
 
 
-def test_leaving_a_field_changes_nothing(qtbot, session, loop, in_place):
-    odd = AxisEffect(axis="thx", id="hysteresis", parameters={"width": 1.23456789e-4})
-    session.service.set_effects([odd])
-    in_place(odd)
-    field = loop.editor.fields["width"]
+def test_leaving_a_field_changes_nothing(qtbot, session, panel_with_hysteresis, wait_for_effects):
+    long_value_effect = AxisEffect(axis="thx", id="hysteresis", parameters={"width": 1.23456789e-4})
+    session.service.set_effects([long_value_effect])
+    wait_for_effects(long_value_effect)
+    field = panel_with_hysteresis.editor.fields["width"]
     qtbot.keyClick(field.edit, Qt.Key.Key_Return)
-    assert not loop.live._pause.isActive()
-    assert loop.chain.asked == (odd,)
+    assert not panel_with_hysteresis.live._pause.isActive()
+    assert panel_with_hysteresis.chain.requests == (long_value_effect,)
 
 
-def test_a_slider_tunes_and_its_end_is_the_bound(loop, in_place):
-    slider = loop.editor.fields["width"].slider
+def test_a_slider_sets_the_value_up_to_its_bound(panel_with_hysteresis, wait_for_effects):
+    slider = panel_with_hysteresis.editor.fields["width"].slider
     slider.setValue(slider.maximum())
-    high = loop.editor.fields["width"].quantity.high
-    in_place(AxisEffect(axis="thx", id="hysteresis", parameters={"width": high}))
-    assert loop.editor.fields["width"].edit.text() == f"{1e6 * high:.6g}"
+    high = panel_with_hysteresis.editor.fields["width"].quantity.high
+    wait_for_effects(AxisEffect(axis="thx", id="hysteresis", parameters={"width": high}))
+    assert panel_with_hysteresis.editor.fields["width"].edit.text() == f"{1e6 * high:.6g}"
 
 
-def test_bounds_and_preset_are_in_the_tooltip(loop):
-    field = loop.editor.fields["width"]
-    about = field.edit.toolTip()
-    assert f"between 0 and {1e6 * field.quantity.high:.6g} µrad" in about
-    assert f"Preset {1e6 * field.quantity.preset:.6g} µrad" in about
+def test_the_tooltip_shows_bounds_and_preset(panel_with_hysteresis):
+    field = panel_with_hysteresis.editor.fields["width"]
+    tooltip = field.edit.toolTip()
+    assert f"between 0 and {1e6 * field.quantity.high:.6g} µrad" in tooltip
+    assert f"Preset {1e6 * field.quantity.preset:.6g} µrad" in tooltip
 
 
-def test_a_switch_and_remove(qtbot, loop, in_place):
-    loop.table.item(0, 0).setCheckState(Qt.CheckState.Unchecked)
-    in_place(AxisEffect(axis="thx", id="hysteresis", enabled=False))
-    assert loop.status.text() == "1 effect, 0 on"
-    qtbot.mouseClick(loop.remove, Qt.MouseButton.LeftButton)
-    in_place()
-    assert not loop.remove.isEnabled()
-    assert loop.editor.fields == {}
-    assert "nominal" in loop.status.text()
+def test_an_effect_is_switched_off_and_removed(qtbot, panel_with_hysteresis, wait_for_effects):
+    panel_with_hysteresis.table.item(0, 0).setCheckState(Qt.CheckState.Unchecked)
+    wait_for_effects(AxisEffect(axis="thx", id="hysteresis", enabled=False))
+    assert panel_with_hysteresis.status.text() == "1 effect, 0 on"
+    qtbot.mouseClick(panel_with_hysteresis.remove, Qt.MouseButton.LeftButton)
+    wait_for_effects()
+    assert not panel_with_hysteresis.remove.isEnabled()
+    assert panel_with_hysteresis.editor.fields == {}
+    assert "nominal" in panel_with_hysteresis.status.text()
 
 
-def test_changes_are_taken_back_one_by_one_and_a_dragged_slider_at_once(qtbot, loop, in_place):
-    assert not loop.undo.isEnabled()
-    slider = loop.editor.fields["width"].slider
-    for place in (600, 700, 800):
-        slider.setValue(place)
-    qtbot.mouseClick(loop.remove, Qt.MouseButton.LeftButton)
-    in_place()
-    qtbot.mouseClick(loop.undo, Qt.MouseButton.LeftButton)
-    tuned = {"width": loop.editor.fields["width"].quantity.at(800)}
-    in_place(AxisEffect(axis="thx", id="hysteresis", parameters=tuned))
-    qtbot.mouseClick(loop.undo, Qt.MouseButton.LeftButton)
-    in_place(LOOP)
-    assert not loop.editor.fields["width"].reset.isEnabled()
-    assert not loop.undo.isEnabled()
+def test_undo_takes_back_single_changes_and_a_slider_drag_as_one(
+    qtbot, panel_with_hysteresis, wait_for_effects
+):
+    assert not panel_with_hysteresis.undo.isEnabled()
+    slider = panel_with_hysteresis.editor.fields["width"].slider
+    for slider_position in (600, 700, 800):
+        slider.setValue(slider_position)
+    qtbot.mouseClick(panel_with_hysteresis.remove, Qt.MouseButton.LeftButton)
+    wait_for_effects()
+    qtbot.mouseClick(panel_with_hysteresis.undo, Qt.MouseButton.LeftButton)
+    dragged_parameters = {
+        "width": panel_with_hysteresis.editor.fields["width"].quantity.from_slider(800)
+    }
+    wait_for_effects(AxisEffect(axis="thx", id="hysteresis", parameters=dragged_parameters))
+    qtbot.mouseClick(panel_with_hysteresis.undo, Qt.MouseButton.LeftButton)
+    wait_for_effects(HYSTERESIS)
+    assert not panel_with_hysteresis.editor.fields["width"].reset.isEnabled()
+    assert not panel_with_hysteresis.undo.isEnabled()
 
 
-def test_the_panel_takes_no_more_height_than_the_others(window, panel):
+def test_the_panel_is_not_taller_than_the_trajectory_panel(window, panel):
     heights = {name: other.minimumSizeHint().height() for name, other in window.panels.items()}
     assert heights["effects"] <= heights["trajectory"]
 
 
-def test_another_formulation_and_another_source(qtbot, session, panel, in_place):
-    leak = AxisEffect(axis="zn", id="cross_coupling", from_axis="z", parameters={"k": 0.5})
-    session.service.set_effects([leak])
-    in_place(leak)
+def test_formulation_and_source_axis_can_be_changed(qtbot, session, panel, wait_for_effects):
+    static_coupling = AxisEffect(
+        axis="zn", id="cross_coupling", from_axis="z", parameters={"k": 0.5}
+    )
+    session.service.set_effects([static_coupling])
+    wait_for_effects(static_coupling)
     editor = panel.editor
     editor.formulation.setCurrentIndex(editor.formulation.findData("mode"))
     editor.formulation.activated.emit(editor.formulation.currentIndex())
-    mode = AxisEffect(
+    mode_coupling = AxisEffect(
         axis="zn",
         id="cross_coupling",
         formulation="mode",
         from_axis="z",
         parameters={"k": 0.5},
     )
-    in_place(mode)
+    wait_for_effects(mode_coupling)
     assert "frequency" in editor.fields
     assert editor.fields["k"].quantity.unit == ""
     editor.source.setCurrentIndex(editor.source.findData("thx"))
@@ -252,31 +264,31 @@ def test_another_formulation_and_another_source(qtbot, session, panel, in_place)
     assert editor.fields["k"].quantity.unit == "m/rad"
 
 
-def test_effects_of_one_stage_change_places(qtbot, session, panel, in_place):
-    mode, rub = AxisEffect(axis="x", id="flexible_mode"), AxisEffect(axis="x", id="friction")
-    session.service.set_effects([mode, rub])
-    in_place(mode, rub)
+def test_effects_of_one_stage_can_be_reordered(qtbot, session, panel, wait_for_effects):
+    mode, friction = AxisEffect(axis="x", id="flexible_mode"), AxisEffect(axis="x", id="friction")
+    session.service.set_effects([mode, friction])
+    wait_for_effects(mode, friction)
     assert not panel.up.isEnabled()
     qtbot.mouseClick(panel.down, Qt.MouseButton.LeftButton)
-    in_place(rub, mode)
+    wait_for_effects(friction, mode)
     assert panel.editor.title.text() == "X: Flexible mode"
     assert panel.table.currentRow() == 1
 
 
 def test_the_robot_is_saved_and_its_effects_are_loaded(
-    qtbot, window, session, loop, in_place, tmp_path
+    qtbot, window, session, panel_with_hysteresis, wait_for_effects, tmp_path
 ):
     path = tmp_path / "mine.toml"
-    loop.all_off.setChecked(True)
-    loop.save_robot(path)
+    panel_with_hysteresis.all_off.setChecked(True)
+    panel_with_hysteresis.save_robot(path)
     qtbot.waitUntil(path.exists, timeout=LONG_MS)
-    qtbot.waitUntil(lambda: "Saved" in newest_notice(window), timeout=LONG_MS)
-    assert load_robot(path).effects == (LOOP,)
-    loop.all_off.setChecked(False)
-    qtbot.mouseClick(loop.remove, Qt.MouseButton.LeftButton)
-    in_place()
-    loop.load_effects(path)
-    in_place(LOOP)
+    qtbot.waitUntil(lambda: "Saved" in get_newest_notice(window), timeout=LONG_MS)
+    assert load_robot(path).effects == (HYSTERESIS,)
+    panel_with_hysteresis.all_off.setChecked(False)
+    qtbot.mouseClick(panel_with_hysteresis.remove, Qt.MouseButton.LeftButton)
+    wait_for_effects()
+    panel_with_hysteresis.load_effects(path)
+    wait_for_effects(HYSTERESIS)
 
 
 def test_a_save_dialog_asks_before_it_replaces_a_file(panel):
@@ -289,107 +301,118 @@ def test_a_save_dialog_asks_before_it_replaces_a_file(panel):
 
 
 @pytest.mark.parametrize("robot", ["picma", "rotemina"])
-def test_effects_that_do_not_fit_or_are_none_leave_the_list(
-    qtbot, window, session, loop, tmp_path, robot
+def test_a_file_with_foreign_or_no_effects_keeps_the_list(
+    qtbot, window, session, panel_with_hysteresis, tmp_path, robot
 ):
     path = tmp_path / "other.toml"
-    text = shipped_text(robot) + ('\n[[axis.p.effect]]\nid = "delay"\n' if robot == "picma" else "")
+    text = read_shipped_robot(robot) + (
+        '\n[[axis.p.effect]]\nid = "delay"\n' if robot == "picma" else ""
+    )
     path.write_text(text, "utf-8")
-    loop.load_effects(path)
-    wanted = "no such axis" if robot == "picma" else "has no effects"
-    qtbot.waitUntil(lambda: wanted in newest_notice(window), timeout=LONG_MS)
-    assert loop.chain.asked == session.service.effects == (LOOP,)
+    panel_with_hysteresis.load_effects(path)
+    reason = "no such axis" if robot == "picma" else "has no effects"
+    qtbot.waitUntil(lambda: reason in get_newest_notice(window), timeout=LONG_MS)
+    assert panel_with_hysteresis.chain.requests == session.service.effects == (HYSTERESIS,)
 
 
-def shipped_text(robot):
+def read_shipped_robot(robot):
     return resources.files("rotemina.resources.robots").joinpath(f"{robot}.toml").read_text("utf-8")
 
 
-def test_what_takes_long_is_prepared_while_the_window_lives(qtbot, window, session, panel):
+def test_the_window_stays_alive_while_effects_are_prepared(qtbot, window, session, panel):
     driver = session.driver
-    plain, gate = driver._set_effects, threading.Event()
+    set_effects, may_continue = driver._set_effects, threading.Event()
 
-    def slow(effects, permit):
-        gate.wait(30.0)
-        plain(effects, permit)
+    def set_effects_slowly(effects, permit):
+        may_continue.wait(30.0)
+        set_effects(effects, permit)
 
-    driver._set_effects = slow
+    driver._set_effects = set_effects_slowly
     try:
-        choose(panel.add.menu(), "θx", "Hysteresis").trigger()
+        find_action(panel.add.menu(), "θx", "Hysteresis").trigger()
         qtbot.waitUntil(lambda: panel.status.text() == "preparing …", timeout=LONG_MS)
         qtbot.waitSignals([window.workbench.refreshed] * 3, timeout=LONG_MS).wait()
         assert session.service.effects == ()
     finally:
-        gate.set()
+        may_continue.set()
     qtbot.waitUntil(lambda: panel.status.text() == "1 effect, 1 on", timeout=LONG_MS)
-    assert session.service.effects == (LOOP,)
+    assert session.service.effects == (HYSTERESIS,)
 
 
-def test_what_the_simulator_refuses_later_is_shown_as_not_applied(qtbot, window, session, loop):
+def test_a_late_refusal_of_the_simulator_is_shown_as_not_applied(
+    qtbot, window, session, panel_with_hysteresis
+):
     driver = session.driver
-    plain = driver._set_effects
+    set_effects = driver._set_effects
 
     def refuse(effects, permit):
         raise EffectError("unstable with it")
 
     driver._set_effects = refuse
-    field = loop.editor.fields["width"]
+    field = panel_with_hysteresis.editor.fields["width"]
     type_in(qtbot, field, "200")
-    qtbot.waitUntil(lambda: loop.status.text() == "Not applied: unstable with it", timeout=LONG_MS)
-    assert field.not_applied
-    assert newest_notice(window) == "unstable with it"
-    assert session.service.effects == (LOOP,)
-    driver._set_effects = plain
-    loop.editor.fields["shape"].slider.setValue(0)
-    qtbot.waitUntil(lambda: not field.not_applied, timeout=LONG_MS)
-    assert loop.status.text() == "1 effect, 1 on"
+    qtbot.waitUntil(
+        lambda: panel_with_hysteresis.status.text() == "Not applied: unstable with it",
+        timeout=LONG_MS,
+    )
+    assert field.is_not_applied
+    assert get_newest_notice(window) == "unstable with it"
+    assert session.service.effects == (HYSTERESIS,)
+    driver._set_effects = set_effects
+    panel_with_hysteresis.editor.fields["shape"].slider.setValue(0)
+    qtbot.waitUntil(lambda: not field.is_not_applied, timeout=LONG_MS)
+    assert panel_with_hysteresis.status.text() == "1 effect, 1 on"
     assert session.service.effects[0].parameters["width"] == 2e-4
 
 
 def test_broken_effects_are_named_and_left_out(make_robot_window, monkeypatch):
-    effects, _ = all_effects()
-    found = {"hysteresis": effects["hysteresis"]}
+    effects, _ = load_all_effects()
+    working_effects = {"hysteresis": effects["hysteresis"]}
     monkeypatch.setattr(
-        panel_module, "all_effects", lambda: (found, {"creep": "effect 'creep' is <broken>"})
+        panel_module,
+        "load_all_effects",
+        lambda: (working_effects, {"creep": "effect 'creep' is <broken>"}),
     )
     panel = make_robot_window().panels["effects"]
     assert panel.left_out.text() == "1 left out"
     assert "effect 'creep' is &lt;broken&gt;".replace("'", "&#x27;") in panel.left_out.toolTip()
-    action = choose(panel.add.menu(), "Left out (1)", "creep")
+    action = find_action(panel.add.menu(), "Left out (1)", "creep")
     assert not action.isEnabled()
 
 
-def test_a_real_machine_has_effects_of_its_own(make_robot_window, monkeypatch):
-    monkeypatch.setattr(Service, "effects", property(lambda self: None))
+def test_the_panel_is_disabled_for_a_real_machine(make_robot_window, monkeypatch):
+    monkeypatch.setattr(DeviceService, "effects", property(lambda self: None))
     panel = make_robot_window().panels["effects"]
-    assert panel.status.text() == REAL_MACHINE
+    assert panel.status.text() == ONLY_SIMULATOR_TEXT
     for widget in (panel.add, panel.load, panel.save, panel.all_off, panel.table):
         assert not widget.isEnabled()
 
 
-def test_the_panel_follows_from_the_simulator_to_a_real_machine_and_back(
-    qtbot, window, loop, monkeypatch
+def test_the_panel_follows_a_change_to_a_real_machine_and_back(
+    qtbot, window, panel_with_hysteresis, monkeypatch
 ):
-    before = Service.effects
+    original_property = DeviceService.effects
     with monkeypatch.context() as patch:
-        patch.setattr(Service, "effects", property(lambda self: None))
-        qtbot.waitUntil(lambda: loop.status.text() == REAL_MACHINE, timeout=LONG_MS)
-        qtbot.waitUntil(lambda: not loop.add.isEnabled(), timeout=LONG_MS)
-        assert loop.table.rowCount() == 0
-    assert Service.effects is before
-    qtbot.waitUntil(loop.add.isEnabled, timeout=LONG_MS)
-    assert loop.chain.asked == (LOOP,)
+        patch.setattr(DeviceService, "effects", property(lambda self: None))
+        qtbot.waitUntil(
+            lambda: panel_with_hysteresis.status.text() == ONLY_SIMULATOR_TEXT, timeout=LONG_MS
+        )
+        qtbot.waitUntil(lambda: not panel_with_hysteresis.add.isEnabled(), timeout=LONG_MS)
+        assert panel_with_hysteresis.table.rowCount() == 0
+    assert DeviceService.effects is original_property
+    qtbot.waitUntil(panel_with_hysteresis.add.isEnabled, timeout=LONG_MS)
+    assert panel_with_hysteresis.chain.requests == (HYSTERESIS,)
 
 
-def test_a_lost_simulator_locks_the_panel(qtbot, window, loop):
+def test_a_lost_simulator_locks_the_panel(qtbot, window, panel_with_hysteresis):
     window.workbench.session.close()
-    qtbot.waitUntil(lambda: not loop.add.isEnabled(), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: not panel_with_hysteresis.add.isEnabled(), timeout=LONG_MS)
     window.workbench.notify(Level.INFO, "the window lives")
 
 
-def test_the_theme_changes_the_list(window, loop):
+def test_the_theme_recolours_the_list(window, panel_with_hysteresis):
     window.use_theme("light")
-    light = loop.table.item(0, 3).foreground().color().name()
+    light_colour = panel_with_hysteresis.table.item(0, 3).foreground().color().name()
     window.use_theme("dark")
-    assert light == "#1b2129"
-    assert loop.table.item(0, 3).foreground().color().name() == "#e8ebf0"
+    assert light_colour == "#1b2129"
+    assert panel_with_hysteresis.table.item(0, 3).foreground().color().name() == "#e8ebf0"

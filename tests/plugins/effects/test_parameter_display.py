@@ -1,20 +1,25 @@
-"""How parameters are shown, typed and slid."""
+"""Display of parameters, parsing of typed values, and their sliders."""
 
 from math import inf
 
 import pytest
 
-from rotemina.plugins.effects.parameter_display import SLIDER_STEPS, Quantity, ValueRefusedError
-from rotemina.sim.effects.facts import Facts
-from rotemina.sim.effects.formulation import Parameter
-from rotemina.sim.robot.file import load_robot
+from rotemina.plugins.effects.parameter_display import (
+    SLIDER_STEPS,
+    DisplayedParameter,
+    ValueRefusedError,
+)
+from rotemina.sim.effects import AxisProperties, EffectParameter
+from rotemina.sim.robot_files import load_robot
 
 ROBOT = load_robot("rotemina")
 
 
-def quantity(unit, low, high, typical, axis="thx", per=None, source_unit=""):
-    parameter = Parameter("p", "of the test", unit, low, high, typical, per)
-    return Quantity.of(parameter, Facts.of(ROBOT.axes[axis]), source_unit)
+def make_parameter(unit, low, high, typical, axis="thx", per=None, source_unit=""):
+    parameter = EffectParameter("p", "of the test", unit, low, high, typical, per)
+    return DisplayedParameter.from_parameter(
+        parameter, AxisProperties.of(ROBOT.axes[axis]), source_unit
+    )
 
 
 @pytest.mark.parametrize(
@@ -33,36 +38,43 @@ def quantity(unit, low, high, typical, axis="thx", per=None, source_unit=""):
         ("", 0.03, "x", "0.03"),
     ],
 )
-def test_the_unit_fits_the_size(unit, typical, axis, text):
-    shown = quantity(unit, 0.0, 100.0, typical, axis)
-    assert shown.text(typical) == text
-    assert shown.value(shown.number(typical)) == pytest.approx(typical, rel=1e-12)
+def test_the_unit_fits_the_typical_value(unit, typical, axis, text):
+    parameter = make_parameter(unit, 0.0, 100.0, typical, axis)
+    assert parameter.format_value(typical) == text
+    assert parameter.parse_value(parameter.format_number(typical)) == pytest.approx(
+        typical, rel=1e-12
+    )
 
 
 def test_a_coupling_has_the_units_of_both_axes():
-    assert quantity("q/…", -1.0, 1.0, 0.1, "thx", source_unit="m").text(0.5) == "0.5 rad/m"
-    assert quantity("q/…", -1.0, 1.0, 0.1, "thx", source_unit="rad").text(0.5) == "0.5"
+    assert (
+        make_parameter("q/…", -1.0, 1.0, 0.1, "thx", source_unit="m").format_value(0.5)
+        == "0.5 rad/m"
+    )
+    assert (
+        make_parameter("q/…", -1.0, 1.0, 0.1, "thx", source_unit="rad").format_value(0.5) == "0.5"
+    )
 
 
 @pytest.mark.parametrize("text", ["1_0", "٢٥", "nan", "inf", "0x10", "2 8", "", "1e", "2,8"])
-def test_only_plain_numbers_are_taken(text):
+def test_only_plain_numbers_are_accepted(text):
     with pytest.raises(ValueRefusedError, match="decimal point"):
-        quantity("q", 0.0, 1.0, 0.1).value(text)
+        make_parameter("q", 0.0, 1.0, 0.1).parse_value(text)
 
 
 def test_a_value_out_of_bounds_is_refused_with_the_bounds():
-    shown = quantity("q", 0.0, 0.5, 0.1, per="span")
+    parameter = make_parameter("q", 0.0, 0.5, 0.1, per="span")
     with pytest.raises(ValueRefusedError, match=r"600 µrad.*between 0 and 581\.775 µrad"):
-        shown.value("600")
+        parameter.parse_value("600")
     with pytest.raises(ValueRefusedError, match="at least 0 N"):
-        quantity("N", 0.0, inf, 1.0, "x").value("-1")
+        make_parameter("N", 0.0, inf, 1.0, "x").parse_value("-1")
     with pytest.raises(ValueRefusedError, match="at least 0 N"):
-        quantity("N", 0.0, inf, 1.0, "x").value("1e999")
+        make_parameter("N", 0.0, inf, 1.0, "x").parse_value("1e999")
 
 
-def test_the_bound_as_it_is_shown_is_the_bound():
-    shown = quantity("q", 0.0, 1.0 / 3.0, 0.1)
-    assert shown.value(shown.number(shown.high)) == shown.high
+def test_the_displayed_bound_is_accepted_as_the_bound():
+    parameter = make_parameter("q", 0.0, 1.0 / 3.0, 0.1)
+    assert parameter.parse_value(parameter.format_number(parameter.high)) == parameter.high
 
 
 @pytest.mark.parametrize(
@@ -79,20 +91,20 @@ def test_the_bound_as_it_is_shown_is_the_bound():
         (0.5, 4.0, 4.0),
     ],
 )
-def test_a_slider_runs_from_bound_to_bound_and_finds_back(low, high, typical):
-    shown = quantity("", low, high, typical)
-    values = [shown.at(place) for place in range(SLIDER_STEPS + 1)]
+def test_a_slider_covers_the_bounds_and_is_invertible(low, high, typical):
+    parameter = make_parameter("", low, high, typical)
+    values = [parameter.from_slider(position) for position in range(SLIDER_STEPS + 1)]
     assert values[0] == low
     assert values[-1] == high
     assert values == sorted(values)
-    assert shown.place(low) == 0
-    assert shown.place(high) == SLIDER_STEPS
-    for place in range(SLIDER_STEPS // 4, SLIDER_STEPS + 1, 50):
-        assert shown.at(shown.place(values[place])) == values[place]
-    nearest = shown.at(shown.place(typical))
+    assert parameter.to_slider(low) == 0
+    assert parameter.to_slider(high) == SLIDER_STEPS
+    for position in range(SLIDER_STEPS // 4, SLIDER_STEPS + 1, 50):
+        assert parameter.from_slider(parameter.to_slider(values[position])) == values[position]
+    nearest = parameter.from_slider(parameter.to_slider(typical))
     assert nearest == pytest.approx(typical, rel=0.02, abs=1e-12)
 
 
-def test_without_a_bound_there_is_no_slider():
-    assert not quantity("N", 0.0, inf, 1.0).bounded
-    assert quantity("N", 0.0, 2.0, 1.0).bounded
+def test_an_unbounded_parameter_has_no_slider():
+    assert not make_parameter("N", 0.0, inf, 1.0).bounded
+    assert make_parameter("N", 0.0, 2.0, 1.0).bounded

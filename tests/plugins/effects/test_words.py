@@ -1,21 +1,32 @@
-"""Words of the model that the effects panel shows: each is among those that are translated."""
+"""All texts of the effects that the panel shows are in its translation catalogue."""
 
-from rotemina.plugins.effects.words import catalogue, meaning_of, spoken
-from rotemina.sim.effects.formulation import Stage
-from rotemina.sim.effects.registry import all_effects
+from rotemina.plugins.effects.words import (
+    format_name,
+    iterate_translatable_texts,
+    translate_meaning,
+)
+from rotemina.sim.effects import EffectStage, load_all_effects
 
 
-def test_every_word_of_the_catalogue_is_said():
-    effects, _ = all_effects()
-    own = [one for one in effects.values() if type(one).__module__.startswith("rotemina.")]
-    formulations = [each for one in own for each in one.formulations]
-    said = set(catalogue())
-    assert {text for one in own for text in (one.title, one.summary)} <= said
-    assert {spoken(each.name) for each in formulations} <= said
-    assert {stage.value for stage in Stage} <= said
-    meanings = {p.meaning for each in formulations for p in each.parameters}
-    words = {text for text in meanings if len(text) > 2 and "Butterworth" not in text}
-    weights = {text for text in words if "of the play with threshold" in text}
-    assert words - weights <= said
-    assert not weights & said
-    assert {meaning_of(text) for text in weights} == weights
+def test_all_effect_texts_are_in_the_catalogue():
+    effects, _ = load_all_effects()
+    shipped_effects = [
+        effect for effect in effects.values() if type(effect).__module__.startswith("rotemina.")
+    ]
+    formulations = [
+        formulation for effect in shipped_effects for formulation in effect.formulations
+    ]
+    catalogue_texts = set(iterate_translatable_texts())
+    assert {
+        text for effect in shipped_effects for text in (effect.title, effect.summary)
+    } <= catalogue_texts
+    assert {format_name(formulation.name) for formulation in formulations} <= catalogue_texts
+    assert {stage.value for stage in EffectStage} <= catalogue_texts
+    meanings = {
+        parameter.meaning for formulation in formulations for parameter in formulation.parameters
+    }
+    full_texts = {text for text in meanings if len(text) > 2 and "Butterworth" not in text}
+    numbered_texts = {text for text in full_texts if "of the play with threshold" in text}
+    assert full_texts - numbered_texts <= catalogue_texts
+    assert not numbered_texts & catalogue_texts
+    assert {translate_meaning(text) for text in numbered_texts} == numbered_texts

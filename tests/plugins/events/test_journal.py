@@ -1,24 +1,27 @@
-"""The operator's log: every move once, with its way; stops, locks, playbacks and recordings."""
+"""The event journal: moves with start and end, stops, locks, playbacks and recordings."""
 
 from dataclasses import replace
 from datetime import datetime
 
 import pytest
 
-from rotemina.app.motion.ownership import OPERATOR, PLAYBACK
-from rotemina.app.motion.penetration.status import PenetrationStatus, Phase
+from rotemina.app.motion.device import OPERATOR, PLAYBACK
+from rotemina.app.motion.penetration import PenetrationPhase, PenetrationStatus
 from rotemina.app.motion.playback import PlaybackPhase, PlaybackState
-from rotemina.app.motion.state import Connection, SessionState
-from rotemina.app.motion.stop import LOCKED, StopRequest
-from rotemina.app.shell.help_topics import Explained
-from rotemina.app.shell.workbench import Level
-from rotemina.drivers.samples import DeviceState
-from rotemina.plugins.events.journal import Journal, Moment
-from rotemina.sim.robot.file import load_robot
+from rotemina.app.motion.state import (
+    STOP_AND_LOCK_REASON,
+    ConnectionState,
+    SessionState,
+    StopRequest,
+)
+from rotemina.app.workbench import Level, NoticeMessage
+from rotemina.drivers.contract import DeviceState
+from rotemina.plugins.events.journal import EventJournal, MachineSnapshot
+from rotemina.sim.robot_files import load_robot
 
 NOON = datetime(2024, 5, 6, 12, 0, 0)
 AT_REST = SessionState(
-    connection=Connection.CONNECTED,
+    connection=ConnectionState.CONNECTED,
     activity=DeviceState.IDLE,
     command={"x": 0.0275, "zn": 32.5e-6},
     position_known=True,
@@ -28,42 +31,42 @@ MOVING = replace(AT_REST, activity=DeviceState.MOVING, owners={"x": OPERATOR})
 
 @pytest.fixture
 def journal():
-    return Journal(load_robot("rotemina"), lambda: NOON)
+    return EventJournal(load_robot("rotemina"), lambda: NOON)
 
 
-def told(journal, *states, **others):
-    """Return what a journal tells of states that follow each other by a tenth of a second."""
-    before = journal.count
-    for number, state in enumerate(states):
-        at_s = 0.1 * (before + number)
-        parts = {"playback": PlaybackState(), "penetration": PenetrationStatus(), **others}
-        journal.look(Moment(state, at_s=at_s, **parts))
-    return [entry.text for entry in list(journal.entries)[before:]]
+def record_states(journal, *states, **others):
+    """Record states at intervals of 0.1 s, and return the texts of the new entries."""
+    old_count = journal.count
+    for index, state in enumerate(states):
+        at_s = 0.1 * (old_count + index)
+        snapshot_parts = {"playback": PlaybackState(), "penetration": PenetrationStatus(), **others}
+        journal.record_changes(MachineSnapshot(state, at_s=at_s, **snapshot_parts))
+    return [entry.text for entry in list(journal.entries)[old_count:]]
 
 
-def test_each_move_is_told_once_at_its_end_with_its_way(journal):
-    there = {"x": 0.02751, "zn": 32.5e-6}
+def test_each_move_is_one_entry_with_start_and_end(journal):
+    end_command = {"x": 0.02751, "zn": 32.5e-6}
     under_way = replace(MOVING, command={"x": 0.027503, "zn": 32.5e-6})
-    assert told(journal, AT_REST, MOVING, under_way) == []
-    assert told(journal, replace(AT_REST, command=there), AT_REST) == [
+    assert record_states(journal, AT_REST, MOVING, under_way) == []
+    assert record_states(journal, replace(AT_REST, command=end_command), AT_REST) == [
         "X 27.5000 → 27.5100 mm",
-        "X 27.5100 → 27.5000 mm",  # between two looks, so that it was never seen to move
+        "X 27.5100 → 27.5000 mm",  # a move between two snapshots
     ]
-    by_stick = replace(MOVING, owners={"x": "joystick"})
-    both = {"x": 0.02751, "zn": 33.5e-6}
-    assert told(journal, by_stick, replace(AT_REST, command=both)) == [
+    joystick_move = replace(MOVING, owners={"x": "joystick"})
+    end_of_both = {"x": 0.02751, "zn": 33.5e-6}
+    assert record_states(journal, joystick_move, replace(AT_REST, command=end_of_both)) == [
         "joystick: X 27.5000 → 27.5100 mm, Z nano 32.500 → 33.500 µm"
     ]
 
 
-def test_a_new_connection_begins_anew_and_a_playback_has_its_own_words(journal):
-    gone = replace(AT_REST, connection=Connection.DISCONNECTED)
-    elsewhere = replace(AT_REST, command={"x": 0.01, "zn": 1e-5})
-    assert told(journal, AT_REST, gone, elsewhere, driver="simulator") == [
+def test_a_new_connection_is_no_move_and_playbacks_are_named(journal):
+    disconnected = replace(AT_REST, connection=ConnectionState.DISCONNECTED)
+    at_new_position = replace(AT_REST, command={"x": 0.01, "zn": 1e-5})
+    assert record_states(journal, AT_REST, disconnected, at_new_position, driver="simulator") == [
         "Disconnected",
         "Connected: simulator",
     ]
-    played = replace(elsewhere, activity=DeviceState.PLAYING, owners={"x": PLAYBACK})
+    playback_state = replace(at_new_position, activity=DeviceState.PLAYING, owners={"x": PLAYBACK})
     playing = PlaybackState(PlaybackPhase.PLAYING)
     paused = PlaybackState(PlaybackPhase.PAUSED, row=4)
     for playback, text in (
@@ -72,22 +75,24 @@ def test_a_new_connection_begins_anew_and_a_playback_has_its_own_words(journal):
         (replace(playing, row=4), "tour resumed at row 5"),
         (PlaybackState(), "tour ended"),
     ):
-        assert told(journal, played, playback=playback, plan="tour", driver="simulator") == [text]
-    assert told(journal, AT_REST, driver="simulator") == []
+        assert record_states(
+            journal, playback_state, playback=playback, plan="tour", driver="simulator"
+        ) == [text]
+    assert record_states(journal, AT_REST, driver="simulator") == []
 
 
-def test_stops_and_locks_are_told_with_who_and_why(journal):
+def test_stops_and_locks_name_their_source_and_reason(journal):
     stop = StopRequest(OPERATOR, "", NOON)
-    lock = StopRequest(OPERATOR, LOCKED, NOON)
-    own = StopRequest("program", "the disk is full", NOON)
-    latched = replace(AT_REST, stop=lock, latched="locked", locked="locked")
-    assert told(
+    lock = StopRequest(OPERATOR, STOP_AND_LOCK_REASON, NOON)
+    program_stop = StopRequest("program", "the disk is full", NOON)
+    latched = replace(AT_REST, stop=lock, latch_reason="locked", lock_reason="locked")
+    assert record_states(
         journal,
         AT_REST,
         replace(AT_REST, stop=stop),
         latched,
         replace(AT_REST, stop=lock),
-        replace(AT_REST, stop=own),
+        replace(AT_REST, stop=program_stop),
     ) == [
         "Stopped by the operator",
         "Stopped and locked by the operator",
@@ -97,32 +102,34 @@ def test_stops_and_locks_are_told_with_who_and_why(journal):
     assert {entry.level for entry in journal.entries} == {Level.WARNING, Level.INFO}
 
 
-def test_only_a_lock_that_lasts_is_told_and_its_end(journal):
-    unknown = replace(AT_REST, stop=None, locked="home first")
-    assert told(journal, AT_REST, unknown, AT_REST) == []
-    assert told(journal, *[unknown] * 8) == ["Locked: home first"]
-    assert told(journal, *[AT_REST] * 8) == ["Motion is possible"]
+def test_only_a_lasting_lock_and_its_end_are_recorded(journal):
+    unknown = replace(AT_REST, stop=None, lock_reason="home first")
+    assert record_states(journal, AT_REST, unknown, AT_REST) == []
+    assert record_states(journal, *[unknown] * 8) == ["Locked: home first"]
+    assert record_states(journal, *[AT_REST] * 8) == ["Motion is possible"]
 
 
-def test_penetration_and_recording_are_told(journal):
-    held = PenetrationStatus(Phase.HELD, reason="stopped")
-    assert told(journal, AT_REST) == []
-    assert told(journal, AT_REST, penetration=held) == ["Penetration: held: stopped"]
+def test_penetration_recording_and_model_changes_are_recorded(journal):
+    held = PenetrationStatus(PenetrationPhase.HELD, reason="stopped")
+    assert record_states(journal, AT_REST) == []
+    assert record_states(journal, AT_REST, penetration=held) == ["Penetration: held: stopped"]
     assert journal.entries[-1].level is Level.WARNING
-    assert told(journal, AT_REST, penetration=held, recording="a.arrows") == [
+    assert record_states(journal, AT_REST, penetration=held, recording="a.arrows") == [
         "Recording a.arrows started"
     ]
-    assert told(journal, AT_REST, penetration=held, model="other") == [
+    assert record_states(journal, AT_REST, penetration=held, model="other") == [
         "Recording a.arrows ended",
         "Model in use: other",
     ]
 
 
-def test_repeats_of_a_notice_are_one_entry_and_moves_are_not(journal):
+def test_repeated_notices_share_one_entry_with_a_count(journal):
     for target in (70, 80):
-        journal.tell_notice(Level.ERROR, Explained(f"target {target} µm is outside"))
-    assert [(one.text, one.count) for one in journal.entries] == [("target 80 µm is outside", 2)]
-    journal.tell_notice(Level.ERROR, Explained("something else"))
-    journal.tell_notice(Level.ERROR, Explained("target 90 µm is outside"))
-    assert [one.count for one in journal.entries] == [2, 1, 1]
+        journal.add_notice(Level.ERROR, NoticeMessage(f"target {target} µm is outside"))
+    assert [(entry.text, entry.count) for entry in journal.entries] == [
+        ("target 80 µm is outside", 2)
+    ]
+    journal.add_notice(Level.ERROR, NoticeMessage("something else"))
+    journal.add_notice(Level.ERROR, NoticeMessage("target 90 µm is outside"))
+    assert [entry.count for entry in journal.entries] == [2, 1, 1]
     assert (journal.count, journal.repeats) == (3, 1)

@@ -1,24 +1,25 @@
-"""The faults panel: history of a real session, and a virtual board in a process of its own."""
+"""The faults panel: history of a real session, and a virtual board in a separate process."""
 
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QFileDialog
 
-from rotemina.drivers.errors import ConnectionLostError
-from rotemina.drivers.simulator.driver import Simulator
+from rotemina.drivers.contract import ConnectionLostError
+from rotemina.drivers.simulator import Simulator
 
-PANELS = {"connection"}  # that is brought to the front
+# Starting a virtual board brings the connection panel to the front.
+PANELS = {"connection"}
 
 LONG_MS = 30_000
 
 
-class Losing(Simulator):
+class DisconnectingSimulator(Simulator):
     name = "losing"
-    cut = False
+    is_cut = False
 
     def _read(self):
-        if self.cut:
+        if self.is_cut:
             raise ConnectionLostError("losing: the <cable> is torn off")
         return super()._read()
 
@@ -28,43 +29,43 @@ def panel(window):
     return window.panels["faults"]
 
 
-def rows(panel):
+def list_rows(panel):
     table = panel.table
     return [
         (table.item(row, 1).text(), table.item(row, 2).text()) for row in range(table.rowCount())
     ]
 
 
-def wait_for(qtbot, panel, *row):
-    qtbot.waitUntil(lambda: row in rows(panel), timeout=LONG_MS)
+def wait_for_row(qtbot, panel, *row):
+    qtbot.waitUntil(lambda: row in list_rows(panel), timeout=LONG_MS)
 
 
 def test_refusals_latches_and_recoveries_are_listed_newest_first(qtbot, window, panel):
-    wait_for(qtbot, panel, "recovered", "connected")
+    wait_for_row(qtbot, panel, "recovered", "connected")
     window.workbench.go_to({"x": 1.0})
     window.workbench.emergency_stop()
-    wait_for(qtbot, panel, "stop and lock", "stop and lock locked")
+    wait_for_row(qtbot, panel, "stop and lock", "stop and lock locked")
     window.workbench.release()
-    wait_for(qtbot, panel, "stop and lock", "released")
-    kinds = [kind for kind, _ in rows(panel)]
+    wait_for_row(qtbot, panel, "stop and lock", "released")
+    kinds = [kind for kind, _ in list_rows(panel)]
     assert kinds == ["stop and lock", "stop and lock", "refused", "recovered"]
-    assert "x" in rows(panel)[2][1]
+    assert "x" in list_rows(panel)[2][1]
     assert panel.table.item(0, 0).text().count(":") == 2
 
 
 def test_a_lost_device_is_listed_as_plain_text(qtbot, make_robot_window):
-    window = make_robot_window(driver=Losing)
+    window = make_robot_window(driver=DisconnectingSimulator)
     panel = window.panels["faults"]
-    wait_for(qtbot, panel, "recovered", "connected")
-    window.workbench.session.driver.cut = True
-    wait_for(qtbot, panel, "lost", "losing: the <cable> is torn off")
+    wait_for_row(qtbot, panel, "recovered", "connected")
+    window.workbench.session.driver.is_cut = True
+    wait_for_row(qtbot, panel, "lost", "losing: the <cable> is torn off")
     assert "&lt;cable&gt;" in panel.table.item(0, 2).toolTip()
     assert not panel.clear_fault.isEnabled()
     assert "reconnect" in panel.clear_fault.toolTip()
 
 
 def test_rows_are_copied_and_written_as_text(qtbot, window, panel, tmp_path, monkeypatch):
-    wait_for(qtbot, panel, "recovered", "connected")
+    wait_for_row(qtbot, panel, "recovered", "connected")
     window.workbench.go_to({"x": 1.0})
     qtbot.waitUntil(lambda: panel.table.rowCount() == 2, timeout=LONG_MS)
     qtbot.mouseClick(panel.copy, Qt.MouseButton.LeftButton)
@@ -80,26 +81,26 @@ def test_rows_are_copied_and_written_as_text(qtbot, window, panel, tmp_path, mon
     assert target.read_text("utf-8").splitlines() == lines
 
 
-def test_the_list_can_be_emptied_and_goes_on(qtbot, window, panel):
-    wait_for(qtbot, panel, "recovered", "connected")
-    qtbot.mouseClick(panel.empty, Qt.MouseButton.LeftButton)
+def test_the_list_can_be_cleared_and_new_rows_still_appear(qtbot, window, panel):
+    wait_for_row(qtbot, panel, "recovered", "connected")
+    qtbot.mouseClick(panel.clear_rows, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: panel.table.rowCount() == 0, timeout=LONG_MS)
     qtbot.waitUntil(lambda: not panel.save.isEnabled(), timeout=LONG_MS)
     window.workbench.go_to({"x": 1.0})
     qtbot.waitUntil(lambda: panel.table.rowCount() == 1, timeout=LONG_MS)
 
 
-def test_a_chosen_row_stays_chosen_while_others_come(qtbot, window, panel):
-    wait_for(qtbot, panel, "recovered", "connected")
+def test_a_selected_row_stays_selected_when_rows_are_added(qtbot, window, panel):
+    wait_for_row(qtbot, panel, "recovered", "connected")
     panel.table.selectRow(0)
     window.workbench.go_to({"x": 1.0})
     qtbot.waitUntil(lambda: panel.table.rowCount() == 2, timeout=LONG_MS)
-    assert [entry.text for entry in panel.table.chosen()] == ["connected"]
+    assert [entry.text for entry in panel.table.list_selected_entries()] == ["connected"]
 
 
 def test_without_a_board_nothing_can_be_injected(window, panel):
-    assert panel.injection.start.isEnabled()
-    assert not panel.injection.end.isEnabled()
+    assert panel.injection.start_button.isEnabled()
+    assert not panel.injection.end_button.isEnabled()
     for row in panel.injection.rows:
         assert not row.button.isEnabled()
         assert "start it first" in row.button.toolTip()
@@ -107,31 +108,31 @@ def test_without_a_board_nothing_can_be_injected(window, panel):
             assert field.accessibleName()
 
 
-def test_a_virtual_board_serves_takes_faults_and_ends_with_the_window(qtbot, window, panel):
+def test_a_virtual_board_starts_accepts_faults_and_ends_with_the_window(qtbot, window, panel):
     injection, board = panel.injection, panel.injection.board
-    qtbot.mouseClick(injection.start, Qt.MouseButton.LeftButton)
-    assert not injection.start.isEnabled()
+    qtbot.mouseClick(injection.start_button, Qt.MouseButton.LeftButton)
+    assert not injection.start_button.isEnabled()
     qtbot.waitUntil(lambda: len(board.ports) == 2, timeout=LONG_MS)
     device = window.panels["connection"].device
     assert device.choice.currentText() == "mc68hc11"
-    values = device.form.values()
+    values = device.form.read_values()
     assert (values["port"], values["second_port"]) == tuple(port for port, _ in board.ports)
-    assert not [row for row in rows(panel) if row[0] == "refused"]
+    assert not [row for row in list_rows(panel) if row[0] == "refused"]
     row = next(row for row in injection.rows if row.fault.title == "Cable")
     qtbot.waitUntil(row.button.isEnabled, timeout=LONG_MS)
     qtbot.mouseClick(row.button, Qt.MouseButton.LeftButton)
-    wait_for(qtbot, panel, "injected", "silence 2.0 s")
+    wait_for_row(qtbot, panel, "injected", "silence 2.0 s")
     board.inject("nonsense")
-    qtbot.waitUntil(lambda: rows(panel)[0][0] == "refused", timeout=LONG_MS)
-    assert "unknown command" in rows(panel)[0][1]
+    qtbot.waitUntil(lambda: list_rows(panel)[0][0] == "refused", timeout=LONG_MS)
+    assert "unknown command" in list_rows(panel)[0][1]
     assert window.close()
-    assert not board.running
+    assert not board.is_running
 
 
-def test_a_board_that_cannot_be_served_says_why(qtbot, make_robot_window):
+def test_a_board_that_fails_to_start_is_reported(qtbot, make_robot_window):
     window = make_robot_window("emps")
     panel = window.panels["faults"]
-    panel.injection._start()
-    qtbot.waitUntil(lambda: not panel.injection.board.running, timeout=LONG_MS)
-    qtbot.waitUntil(lambda: any("ended: " in text for _, text in rows(panel)), timeout=LONG_MS)
-    assert panel.injection.start.isEnabled()
+    panel.injection._start_board()
+    qtbot.waitUntil(lambda: not panel.injection.board.is_running, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: any("ended: " in text for _, text in list_rows(panel)), timeout=LONG_MS)
+    assert panel.injection.start_button.isEnabled()

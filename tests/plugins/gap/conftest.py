@@ -1,4 +1,4 @@
-"""A small diagnosis made by hand, of a record whose cause is known, and a window with the page."""
+"""A synthetic diagnosis of a record with a known cause, and a window with the gap panel."""
 
 import gc
 import threading
@@ -10,57 +10,58 @@ from PySide6.QtCore import QCoreApplication, QEvent
 from PySide6.QtWidgets import QMainWindow
 
 from rotemina.app.motion.session import MotionSession
-from rotemina.app.shell import theme as themes
-from rotemina.app.shell.application import make_application
-from rotemina.app.shell.workbench import Run, Workbench
-from rotemina.drivers.simulator.driver import Simulator
-from rotemina.plugins.gap.diagnosis_answer import Answer
+from rotemina.app.shell.startup.application import make_application
+from rotemina.app.widgets.style import theme as themes
+from rotemina.app.workbench import ComparedRun, Workbench
+from rotemina.drivers.simulator import Simulator
+from rotemina.plugins.gap.answer import DiagnosisAnswer
 from rotemina.plugins.gap.panel import GapPanel
-from rotemina.sim.comparison.comparison import compare
-from rotemina.sim.gap.fit.evidence import Evidence
-from rotemina.sim.gap.location.located_gap import locate
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.robot.model import AxisEffect
-from rotemina.sim.simulation.simulation import simulate
+from rotemina.sim.comparison import compare
+from rotemina.sim.gap.fit import Evidence
+from rotemina.sim.gap.location import locate_gap
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot import AxisEffect
+from rotemina.sim.robot_files import load_robot
+from rotemina.sim.simulation import simulate
 
 ROBOT = load_robot("rotemina")
-LOOP = AxisEffect(axis="thx", id="hysteresis", parameters={"width": 1.2e-4})
+HYSTERESIS = AxisEffect(axis="thx", id="hysteresis", parameters={"width": 1.2e-4})
 
 
 @pytest.fixture(scope="session")
 def record():
-    """θx under hysteresis, for two seconds; θy does as it is told."""
+    """Return a record of two seconds: θx has hysteresis, θy follows its command."""
     time_s = np.arange(1000) / 500.0
     signals = {}
     for axis, rate_hz in (("thx", 1.0), ("thy", 0.5)):
-        own = ROBOT.axes[axis]
+        description = ROBOT.axes[axis]
         wave = np.sin(2 * np.pi * rate_hz * time_s) * np.linspace(0.05, 0.3, 1000)
-        signals[axis, Tap.CMD] = sum(own.range) / 2 + own.span * wave
-    asked = Record.from_signals(time_s, signals, {"thx": "rad", "thy": "rad"})
-    return simulate(ROBOT, [LOOP], asked, np.random.default_rng(4))
+        signals[axis, Tap.CMD] = sum(description.range) / 2 + description.span * wave
+    commands = Record.from_signals(time_s, signals, {"thx": "rad", "thy": "rad"})
+    return simulate(ROBOT, [HYSTERESIS], commands, np.random.default_rng(4))
 
 
 @pytest.fixture(scope="session")
 def diagnosis(make_diagnosis, record):
-    """Hysteresis on θx, or creep; nothing on θy."""
+    """Return a diagnosis: hysteresis or creep on θx, no gap on θy."""
 
-    def places(axis):
-        return locate(Evidence.of(ROBOT, axis, [record]), np.random.default_rng(0))
+    def locate_axis_gap(axis):
+        return locate_gap(Evidence.of(ROBOT, axis, [record]), np.random.default_rng(0))
 
-    return replace(make_diagnosis(places, "thy"), experiments=())
+    return replace(make_diagnosis(locate_axis_gap, "thy"), experiments=())
 
 
-class Host(QMainWindow):
-    """A window of nothing but the page: the other panels take their time to be made."""
+class GapPanelWindow(QMainWindow):
+    """A window with only the gap panel, because the full window takes long to create."""
 
     def __init__(self, workbench):
         super().__init__()
         self.workbench = workbench
         workbench.setParent(self)
-        self.told = []  # the latest last
+        # Texts of the notices, newest last.
+        self.notices = []
         self.brought_up = []
-        workbench.noticed.connect(lambda _, text: self.told.append(text))
+        workbench.notice_posted.connect(lambda _, text: self.notices.append(text))
         self.panel = GapPanel(workbench)
         self.setCentralWidget(self.panel)
         self.resize(945, 300)
@@ -69,19 +70,20 @@ class Host(QMainWindow):
         self.brought_up.append(name)
 
     def use_theme(self, name):
-        self.workbench.set_theme(themes.theme_named(name))
+        self.workbench.set_theme(themes.find_theme(name))
 
 
 @pytest.fixture
 def window(qtbot, settings, tmp_path):
-    """A window with the page on the simulated RoTeMiNa, connected and idle."""
-    gc.disable()  # as the program does: the session's thread must not free what is Qt's
+    """Yield a window with the panel on the simulated RoTeMiNa, connected and idle."""
+    # As in the program: the session thread must not free Qt objects.
+    gc.disable()
     make_application()
     session = MotionSession(Simulator(ROBOT, {"settle_s": 0.02}))
-    host = Host(Workbench(session, settings, themes.DARK, tmp_path / "played"))
+    host = GapPanelWindow(Workbench(session, settings, themes.DARK, tmp_path / "played"))
     host.show()
     host.workbench.start()
-    qtbot.waitUntil(lambda: session.snapshot().locked is None, timeout=20_000)
+    qtbot.waitUntil(lambda: session.snapshot().lock_reason is None, timeout=20_000)
     yield host
     host.workbench.close()
     host.hide()
@@ -97,14 +99,16 @@ def panel(window):
 
 
 @pytest.fixture
-def chosen(panel, record):
-    """The panel with a record."""
-    panel.records.take(Run("day one.csv", compare(panel.workbench.robot, record)))
+def panel_with_record(panel, record):
+    """Return the panel with one chosen record."""
+    panel.records.tick_run(ComparedRun("day one.csv", compare(panel.workbench.robot, record)))
     return panel
 
 
 @pytest.fixture
-def answered(chosen, diagnosis, record):
-    """The panel with an answer."""
-    chosen.take_answer(Answer.of(diagnosis, ["day one.csv"], [record]))
-    return chosen
+def panel_with_answer(panel_with_record, diagnosis, record):
+    """Return the panel with an answer to its record."""
+    panel_with_record.take_answer(
+        DiagnosisAnswer.from_diagnosis(diagnosis, ["day one.csv"], [record])
+    )
+    return panel_with_record

@@ -1,4 +1,4 @@
-"""The blind test as the page runs it: a process of its own, its progress, its stop, its result."""
+"""The blind test page: its separate process, progress, stop and result."""
 
 import json
 import sys
@@ -6,9 +6,9 @@ import sys
 import pytest
 from PySide6.QtCore import Qt
 
-from rotemina.plugins.gap import blind_run
-from rotemina.plugins.gap.blind_figures import BlindResult, step
-from rotemina.plugins.gap.blind_page import BlindPage, title
+from rotemina.plugins.gap.blind import BlindPage, blind_run
+from rotemina.plugins.gap.blind.blind_figures import BlindResult, parse_progress
+from rotemina.plugins.gap.blind.blind_page import translate_outcome
 from rotemina.sim.errors import InputError
 
 LONG_MS = 30_000
@@ -51,16 +51,16 @@ def result(tmp_path):
 @pytest.fixture
 def page(window, monkeypatch, tmp_path):
     script = WORKER.replace("SCORE", json.dumps(SCORE))
-    monkeypatch.setattr(blind_run, "_WORKER", ("-c", script))
+    monkeypatch.setattr(blind_run, "_COMMAND_ARGUMENTS", ("-c", script))
     (tmp_path / "blind" / "RoTeMiNa-seed-1").mkdir(parents=True)
     window.panel.show_blind_test()
     assert isinstance(window.panel.blind, BlindPage)
     return window.panel.blind
 
 
-def test_figures_stand_beside_their_levels(result):
-    reached = {row.cells[0]: row.reached for row in result.rows}
-    assert reached == {
+def test_figures_are_compared_with_their_target_levels(result):
+    levels_reached = {row.cells[0]: row.reached for row in result.rows}
+    assert levels_reached == {
         "… where the gap is ≥ 5 floors": True,
         "mean size of the set": False,
         "false alarms on healthy machines": True,
@@ -72,15 +72,15 @@ def test_figures_stand_beside_their_levels(result):
     assert result.rows[-1].cells[2] == "–"
 
 
-def test_shares_of_the_matrix_are_of_what_is_there(result):
+def test_shares_of_the_matrix_refer_to_the_true_cause(result):
     assert result.names == ("creep", "none")
-    assert result.share("creep", "creep") == pytest.approx(2 / 3)
-    assert result.share("none", "creep") == 0.0
-    assert title("none") == "no gap"
-    assert title("creep") == "Creep"
+    assert result.compute_share("creep", "creep") == pytest.approx(2 / 3)
+    assert result.compute_share("none", "creep") == 0.0
+    assert translate_outcome("none") == "no gap"
+    assert translate_outcome("creep") == "Creep"
 
 
-def test_a_result_that_cannot_be_read_is_told(tmp_path):
+def test_an_unreadable_result_is_refused(tmp_path):
     with pytest.raises(InputError, match="run it again"):
         BlindResult.read(tmp_path / "missing.json")
     (tmp_path / "half.json").write_text("{")
@@ -88,32 +88,32 @@ def test_a_result_that_cannot_be_read_is_told(tmp_path):
         BlindResult.read(tmp_path / "half.json")
 
 
-def test_steps_are_read_from_what_the_process_says():
-    assert step("case_0003: done (4 of 12)") == (4, 12)
-    assert step("anything else") is None
+def test_progress_is_parsed_from_the_output_of_the_process():
+    assert parse_progress("case_0003: done (4 of 12)") == (4, 12)
+    assert parse_progress("anything else") is None
 
 
-def test_a_test_runs_and_its_result_is_shown(qtbot, window, page):
-    told = []
-    page.run.progressed.connect(lambda *each: told.append(each))
+def test_a_blind_test_runs_and_shows_its_result(qtbot, window, page):
+    progress = []
+    page.run.progressed.connect(lambda *counts: progress.append(counts))
     assert page.nothing.isVisible()
     with qtbot.waitSignal(page.run.finished, timeout=LONG_MS):
         qtbot.mouseClick(page.start, Qt.MouseButton.LeftButton)
         assert not page.start.isEnabled()
         assert page.stop.isEnabled()
-    assert told == [(1, 2)]
+    assert progress == [(1, 2)]
     assert page.doing.text() == "3 of 12 cases scored"
     assert page.shown.isVisible()
-    assert page.figures.texts()[0][0] == "… where the gap is ≥ 5 floors"
-    assert page.matrix.texts() == [["Creep", "2", "1"], ["no gap", "", "4"]]
+    assert page.figures.read_texts()[0][0] == "… where the gap is ≥ 5 floors"
+    assert page.matrix.read_texts() == [["Creep", "2", "1"], ["no gap", "", "4"]]
     assert "33.3 %" in page.matrix.item(0, 2).toolTip()
     window.use_theme("light")
     assert page.matrix.item(0, 1).background().color().alpha() > 0
     page.seed.clear()
-    assert not page.start.isEnabled()  # until there is a seed
+    assert not page.start.isEnabled()  # a test needs a seed
 
 
-def test_a_test_can_be_stopped_and_ends_with_the_window(qtbot, window, page):
+def test_a_blind_test_can_be_stopped_and_ends_with_the_window(qtbot, window, page):
     page.cases.setText("2")
     with qtbot.waitSignal(page.run.progressed, timeout=LONG_MS):
         page.begin(score=False)
@@ -127,13 +127,13 @@ def test_a_test_can_be_stopped_and_ends_with_the_window(qtbot, window, page):
     assert not page.run.running
 
 
-def test_a_test_that_fails_says_why(qtbot, window, page, monkeypatch):
+def test_a_failed_blind_test_is_reported(qtbot, window, page, monkeypatch):
     page.cases.setText("3")
     with qtbot.waitSignal(page.run.failed, timeout=LONG_MS):
         page.begin(score=False)
-    assert "this cannot be" in window.told[-1]
+    assert "this cannot be" in window.notices[-1]
     monkeypatch.setattr(sys, "executable", "/nowhere/python")
     with qtbot.waitSignal(page.run.failed, timeout=LONG_MS):
         page.begin(score=True)
-    assert "cannot be started" in window.told[-1]
+    assert "cannot be started" in window.notices[-1]
     assert not page.run.running

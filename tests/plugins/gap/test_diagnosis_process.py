@@ -1,4 +1,4 @@
-"""The process of a diagnosis, started for real: its answer, refusals, stop and death."""
+"""The real diagnosis process: its answers, refusals, stop and unexpected end."""
 
 import os
 import subprocess
@@ -11,47 +11,47 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from rotemina.plugins.gap import diagnosis_process
-from rotemina.plugins.gap.diagnosis_process import (
+from rotemina.plugins.gap.diagnosing import diagnosis_process
+from rotemina.plugins.gap.diagnosing.diagnosis_process import (
     DiagnosisError,
+    DiagnosisFailure,
     DiagnosisProcess,
-    Failure,
-    Request,
-    read,
-    write,
+    DiagnosisRequest,
+    receive_messages,
+    send_message,
 )
 from rotemina.sim.errors import InputError
-from rotemina.sim.gap.diagnosis_pipeline import diagnose
-from rotemina.sim.gap.output.document import as_json
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.simulation.simulation import simulate
+from rotemina.sim.gap.output import as_json
+from rotemina.sim.gap.pipeline import diagnose
+from rotemina.sim.robot_files import load_robot
+from rotemina.sim.simulation import simulate
 
 ROBOT = load_robot("rotemina")
 
 
-class EnoughError(Exception):
-    """Nothing more is to be heard."""
+class StopListeningError(Exception):
+    """Raised by a listener that stops the diagnosis."""
 
 
 @pytest.fixture
-def started(monkeypatch):
-    """Every process that was started; none is left in the end."""
-    made, popen = [], subprocess.Popen
+def started_processes(monkeypatch):
+    """Yield the list of all started processes, and check that all of them have ended."""
+    processes, popen = [], subprocess.Popen
 
-    def note(*given, **options):
-        made.append(popen(*given, **options))
-        return made[-1]
+    def start_and_note(*arguments, **options):
+        processes.append(popen(*arguments, **options))
+        return processes[-1]
 
-    monkeypatch.setattr(subprocess, "Popen", note)
-    yield made
-    assert all(one.poll() is not None for one in made)
+    monkeypatch.setattr(subprocess, "Popen", start_and_note)
+    yield processes
+    assert all(worker.poll() is not None for worker in processes)
 
 
 @pytest.fixture
-def process(started):
-    made = DiagnosisProcess()
-    yield made
-    made.close()
+def process(started_processes):
+    client = DiagnosisProcess()
+    yield client
+    client.close()
 
 
 @pytest.fixture(scope="module")
@@ -59,130 +59,136 @@ def healthy(record):
     return simulate(ROBOT, [], record, np.random.default_rng(5))
 
 
-def test_it_answers_what_the_diagnosis_itself_does(process, record):
+def test_the_process_gives_the_same_diagnosis_as_a_direct_call(process, record):
     steps = []
-    answer = process.answer(ROBOT, ["one"], [record], steps.append)
+    answer = process.diagnose(ROBOT, ["one"], [record], steps.append)
     assert as_json(answer.diagnosis) == as_json(diagnose(ROBOT, [record]))
-    assert answer.records == (record,)  # itself, which nobody can write to
+    assert answer.records == (record,)  # the same read-only object
     assert answer.names == ("one",)
     assert set(answer.traces) == {"thx", "thy"}
-    stages = [one.stage for one in steps]
+    stages = [step.stage for step in steps]
     assert {"reading", "where", "screening", "fitting", "deciding", "drawing"} <= set(stages)
-    assert any(one.ranking is not None for one in steps)
+    assert any(step.ranking is not None for step in steps)
 
 
 @pytest.mark.slow
-def test_one_process_answers_again_and_again(process, started, healthy):
+def test_one_process_serves_several_diagnoses(process, started_processes, healthy):
     for name in ("one", "two"):
-        assert process.answer(ROBOT, [name], [healthy], lambda _: None).names == (name,)
-    assert len(started) == 1
+        assert process.diagnose(ROBOT, [name], [healthy], lambda _: None).names == (name,)
+    assert len(started_processes) == 1
 
 
 @pytest.mark.slow
 @pytest.mark.skipif(not hasattr(os, "SCHED_IDLE"), reason="a policy of Linux")
-def test_it_has_its_share_of_the_cores_until_the_machine_moves(process, started, healthy):
-    process.stand_back()  # there is none yet
+def test_the_process_runs_at_normal_priority_until_it_is_lowered(
+    process, started_processes, healthy
+):
+    process.lower_priority()  # has no effect before the start
     for policy in (os.SCHED_OTHER, os.SCHED_IDLE, os.SCHED_OTHER):
         if policy == os.SCHED_IDLE:
-            process.stand_back()
+            process.lower_priority()
         else:
-            process.answer(ROBOT, ["record"], [healthy], lambda _: None)
-        threads = [int(one.name) for one in Path(f"/proc/{started[-1].pid}/task").iterdir()]
+            process.diagnose(ROBOT, ["record"], [healthy], lambda _: None)
+        threads = [
+            int(entry.name) for entry in Path(f"/proc/{started_processes[-1].pid}/task").iterdir()
+        ]
         assert {os.sched_getscheduler(thread) for thread in threads} == {policy}
-        assert {os.getpriority(os.PRIO_PROCESS, one) for one in threads} == {
+        assert {os.getpriority(os.PRIO_PROCESS, thread) for thread in threads} == {
             min(os.getpriority(os.PRIO_PROCESS, 0) + 10, 19)
         }
-    assert len(started) == 2  # none is raised again
+    assert len(started_processes) == 2  # the lowered process is replaced, never raised again
 
 
 @pytest.mark.skipif(not hasattr(os, "SCHED_IDLE"), reason="a policy of Linux")
-def test_a_thread_that_ends_while_it_stands_back_spares_no_other(monkeypatch):
-    asked = []
+def test_an_ended_thread_does_not_keep_others_from_being_lowered(monkeypatch):
+    calls = []
 
-    def gone(thread, policy, _):
-        asked.append((thread, policy))
+    def raise_thread_gone(thread, policy, _):
+        calls.append((thread, policy))
         raise ProcessLookupError(thread)
 
-    monkeypatch.setattr(os, "sched_setscheduler", gone)
-    process, goes_on = DiagnosisProcess(), threading.Event()
+    monkeypatch.setattr(os, "sched_setscheduler", raise_thread_gone)
+    process, may_end = DiagnosisProcess(), threading.Event()
     process._process = SimpleNamespace(pid=os.getpid())
-    other = threading.Thread(target=goes_on.wait)
+    other = threading.Thread(target=may_end.wait)
     other.start()
-    process.stand_back()
-    goes_on.set()
+    process.lower_priority()
+    may_end.set()
     other.join()
-    assert {(os.getpid(), os.SCHED_IDLE), (other.native_id, os.SCHED_IDLE)} <= set(asked)
-    before = list(asked)
-    process.stand_back()  # it does already
-    assert asked == before
+    assert {(os.getpid(), os.SCHED_IDLE), (other.native_id, os.SCHED_IDLE)} <= set(calls)
+    earlier_calls = list(calls)
+    process.lower_priority()  # the priority is already low
+    assert calls == earlier_calls
 
 
-def test_what_cannot_be_diagnosed_is_refused_in_the_same_words(process, healthy):
-    short = healthy.part(slice(0, 12))
-    with pytest.raises(InputError) as here:
+def test_invalid_records_are_refused_with_the_message_of_a_direct_call(process, healthy):
+    short = healthy.select_rows(slice(0, 12))
+    with pytest.raises(InputError) as direct_error:
         diagnose(ROBOT, [short])
-    with pytest.raises(InputError) as there:
-        process.answer(ROBOT, ["one"], [short], lambda _: None)
-    assert str(there.value) == str(here.value)
-    assert process.answer(ROBOT, ["one"], [healthy], lambda _: None).diagnosis.causes == ()
+    with pytest.raises(InputError) as process_error:
+        process.diagnose(ROBOT, ["one"], [short], lambda _: None)
+    assert str(process_error.value) == str(direct_error.value)
+    assert process.diagnose(ROBOT, ["one"], [healthy], lambda _: None).diagnosis.causes == ()
 
 
 @pytest.mark.slow
-def test_what_the_listener_raises_ends_the_work_and_the_process_stays(
-    process, started, record, healthy
+def test_an_exception_of_the_listener_stops_the_work_and_keeps_the_process(
+    process, started_processes, record, healthy
 ):
-    def until_fitting(progress):
+    def stop_at_fitting(progress):
         if progress.stage == "fitting":
-            raise EnoughError
+            raise StopListeningError
 
-    with pytest.raises(EnoughError):
-        process.answer(ROBOT, ["one"], [record], until_fitting)
-    assert process.answer(ROBOT, ["one"], [healthy], lambda _: None).diagnosis.causes == ()
-    assert len(started) == 1
+    with pytest.raises(StopListeningError):
+        process.diagnose(ROBOT, ["one"], [record], stop_at_fitting)
+    assert process.diagnose(ROBOT, ["one"], [healthy], lambda _: None).diagnosis.causes == ()
+    assert len(started_processes) == 1
 
 
-def test_a_process_that_dies_is_told_and_another_takes_its_place(process, started, record, healthy):
+def test_a_killed_process_is_reported_and_replaced(process, started_processes, record, healthy):
     def kill(progress):
         if progress.stage == "fitting":
-            started[-1].kill()
+            started_processes[-1].kill()
 
     with pytest.raises(InputError, match=r"ended \(status -9\).*diagnose again"):
-        process.answer(ROBOT, ["one"], [record], kill)
-    assert process.answer(ROBOT, ["one"], [healthy], lambda _: None).diagnosis.causes == ()
+        process.diagnose(ROBOT, ["one"], [record], kill)
+    assert process.diagnose(ROBOT, ["one"], [healthy], lambda _: None).diagnosis.causes == ()
 
 
 @pytest.mark.slow
-def test_a_fault_of_the_program_brings_its_traceback(process, healthy):
-    with pytest.raises(DiagnosisError, match=r"^AttributeError: ") as fault:
-        process.answer(None, ["one"], [healthy], lambda _: None)
-    assert "Traceback" in fault.value.__notes__[0]  # in the log, not in the notice
+def test_a_program_error_keeps_its_traceback(process, healthy):
+    with pytest.raises(DiagnosisError, match=r"^AttributeError: ") as error:
+        process.diagnose(None, ["one"], [healthy], lambda _: None)
+    assert "Traceback" in error.value.__notes__[0]  # for the log only, not for the notice
 
 
-def test_what_cannot_be_sent_leaves_the_process_as_it_was(process, started, healthy):
+def test_an_unpicklable_request_leaves_the_process_usable(process, started_processes, healthy):
     with pytest.raises((TypeError, AttributeError, PicklingError)):
-        process.answer(lambda: None, ["one"], [healthy], lambda _: None)
-    assert process.answer(ROBOT, ["one"], [healthy], lambda _: None).diagnosis.causes == ()
+        process.diagnose(lambda: None, ["one"], [healthy], lambda _: None)
+    assert process.diagnose(ROBOT, ["one"], [healthy], lambda _: None).diagnosis.causes == ()
 
 
-def test_a_process_that_does_not_heed_a_stop_is_ended(process, started, record, monkeypatch):
-    monkeypatch.setattr(diagnosis_process, "_PATIENCE_S", 0.0)
+def test_a_process_that_ignores_a_stop_is_ended(process, started_processes, record, monkeypatch):
+    monkeypatch.setattr(diagnosis_process, "_END_TIMEOUT_S", 0.0)
 
-    def until_fitting(progress):
+    def stop_at_fitting(progress):
         if progress.stage == "fitting":
-            raise EnoughError
+            raise StopListeningError
 
-    with pytest.raises(EnoughError):
-        process.answer(ROBOT, ["one"], [record], until_fitting)
-    assert started[0].wait(20.0) is not None
+    with pytest.raises(StopListeningError):
+        process.diagnose(ROBOT, ["one"], [record], stop_at_fitting)
+    assert started_processes[0].wait(20.0) is not None
 
 
-def test_the_process_ends_with_whoever_started_it(record):
+def test_the_process_ends_when_its_input_is_closed(record):
     pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
-    with subprocess.Popen([sys.executable, *diagnosis_process._WORKER], **pipes) as worker:
-        write(Request(1, ROBOT, ("one",), (record,)), worker.stdin)
-        stages = (message.stage for message in read(worker.stdout))
-        assert "fitting" in stages  # it is at work
+    with subprocess.Popen(
+        [sys.executable, *diagnosis_process._WORKER_ARGUMENTS], **pipes
+    ) as worker:
+        send_message(DiagnosisRequest(1, ROBOT, ("one",), (record,)), worker.stdin)
+        stages = (message.stage for message in receive_messages(worker.stdout))
+        assert "fitting" in stages
         worker.stdin.close()
-        *_, last = read(worker.stdout)
+        *_, last_message = receive_messages(worker.stdout)
         assert worker.wait(20.0) == 0
-    assert last == Failure("stopped")
+    assert last_message == DiagnosisFailure("stopped")

@@ -1,4 +1,4 @@
-"""Where the parts of the gap page stand, at the sizes of two screens, and what they tell."""
+"""Layout of the gap page at two screen sizes, and the content of its parts."""
 
 from dataclasses import replace
 from itertools import pairwise
@@ -8,15 +8,14 @@ import pytest
 from PySide6.QtCore import QPoint, QRect, Qt
 from PySide6.QtWidgets import QApplication
 
-from rotemina.app.shell.theme import DARK
-from rotemina.app.shell.workbench import Run
-from rotemina.plugins.gap.records import Records
-from rotemina.plugins.gap.unseen_motion_reduction import Proof, prove
-from rotemina.sim.comparison.comparison import compare
-from rotemina.sim.comparison.gap import gap_text
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.records.writing import write_record
-from rotemina.sim.robot.file import load_robot
+from rotemina.app.widgets.style.theme import DARK
+from rotemina.app.workbench import ComparedRun
+from rotemina.plugins.gap.answer import UnseenMotionResult
+from rotemina.plugins.gap.answer.unseen_motion_reduction import measure_reductions
+from rotemina.plugins.gap.diagnosing import RecordSelection
+from rotemina.sim.comparison import compare, format_gap
+from rotemina.sim.records import Record, Tap, write_record
+from rotemina.sim.robot_files import load_robot
 
 ROBOT = load_robot("rotemina")
 LONG_MS = 30_000
@@ -26,8 +25,8 @@ def click(qtbot, button):
     qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
 
 
-def six(answer):
-    """Return an answer about six axes; one has no gap."""
+def make_six_axis_answer(answer):
+    """Return an answer about six axes, one of them without a gap."""
     thx, thy = answer.diagnosis.axes.values()
     axes = {axis: replace(thx, axis=axis) for axis in ("x", "y", "z", "thx", "zn")}
     units = {axis: ROBOT.unit(axis) for axis in ROBOT.axes}
@@ -37,108 +36,127 @@ def six(answer):
     return replace(answer, diagnosis=diagnosis, records=(record,))
 
 
-def within(widget, panel):
+def find_rectangle(widget, panel):
     return QRect(widget.mapTo(panel, QPoint()), widget.size())
 
 
-def test_the_rail_stands_at_the_side_of_a_large_page_and_above_a_small_one(window, answered):
-    cells = answered.result.cells
-    cells.show_answer(answered.answer)
+def test_the_rail_is_left_of_a_large_page_and_above_a_small_one(window, panel_with_answer):
+    cells = panel_with_answer.result.cells
+    cells.show_answer(panel_with_answer.answer)
     window.resize(1900, 800)
     QApplication.processEvents()
-    rail, page = within(answered.rail, answered), within(answered.result.headline, answered)
+    rail, headline = (
+        find_rectangle(panel_with_answer.rail, panel_with_answer),
+        find_rectangle(panel_with_answer.result.headline, panel_with_answer),
+    )
     assert rail.width() == 320
-    assert rail.right() < page.left()
-    assert page.height() >= 120
-    assert page.width() <= 1400
-    assert answered.rail.list.isVisible()
+    assert rail.right() < headline.left()
+    assert headline.height() >= 120
+    assert headline.width() <= 1400
+    assert panel_with_answer.rail.list.isVisible()
     window.resize(1270, 540)
     QApplication.processEvents()
-    rail, page = within(answered.rail, answered), within(answered.result.headline, answered)
-    assert rail.bottom() < page.top()
+    rail, headline = (
+        find_rectangle(panel_with_answer.rail, panel_with_answer),
+        find_rectangle(panel_with_answer.result.headline, panel_with_answer),
+    )
+    assert rail.bottom() < headline.top()
     assert rail.height() <= 40
-    assert not answered.rail.list.isVisible()
+    assert not panel_with_answer.rail.list.isVisible()
     controls = [
-        within(one, answered) for one in (answered.rail.menu, answered.robots, answered.start)
+        find_rectangle(widget, panel_with_answer)
+        for widget in (
+            panel_with_answer.rail.menu,
+            panel_with_answer.robots,
+            panel_with_answer.start,
+        )
     ]
-    assert all(one.right() < other.left() for one, other in pairwise(controls))
+    assert all(left.right() < right.left() for left, right in pairwise(controls))
 
 
 @pytest.mark.parametrize(("width", "columns"), [(1900, 6), (1270, 3)])
-def test_six_cells_stand_in_one_row_or_in_two(window, answered, width, columns):
-    answered.result.cells.show_answer(six(answered.answer))
+def test_six_cells_fill_one_or_two_rows(window, panel_with_answer, width, columns):
+    panel_with_answer.result.cells.show_answer(make_six_axis_answer(panel_with_answer.answer))
     window.resize(width, 800)
     QApplication.processEvents()
-    places = [within(cell, answered.result.cells) for cell in answered.result.cells.cells]
-    assert len({place.left() for place in places}) == columns
-    assert len({place.top() for place in places}) == 6 // columns
-    assert all(place.width() >= 220 and place.height() == 96 for place in places)
+    rectangles = [
+        find_rectangle(cell, panel_with_answer.result.cells)
+        for cell in panel_with_answer.result.cells.cards
+    ]
+    assert len({rectangle.left() for rectangle in rectangles}) == columns
+    assert len({rectangle.top() for rectangle in rectangles}) == 6 // columns
+    assert all(rectangle.width() >= 220 and rectangle.height() == 96 for rectangle in rectangles)
     assert not any(
-        one.intersects(other) for n, one in enumerate(places) for other in places[n + 1 :]
+        first.intersects(second)
+        for index, first in enumerate(rectangles)
+        for second in rectangles[index + 1 :]
     )
 
 
-def test_a_cell_draws_both_gaps_from_zero_with_the_floor_and_chooses_its_axis(qtbot, answered):
-    first, second = answered.result.cells.cells
-    before, after, floor = first.bars()
+def test_a_cell_draws_both_gaps_and_the_floor_and_selects_its_axis(qtbot, panel_with_answer):
+    first, second = panel_with_answer.result.cells.cards
+    before, after, floor = first.compute_bars()
     assert before.left() == after.left()
     assert after.width() / before.width() == pytest.approx(7.7e-7 / 3.3e-5, rel=1e-3)
     assert (floor - before.left()) / before.width() == pytest.approx(4e-7 / 3.3e-5, rel=1e-3)
     assert first.figures == "33.0 µrad → 0.770 µrad"
-    assert answered.result.cells.current == "thx"
+    assert panel_with_answer.result.cells.current == "thx"
     click(qtbot, second)
-    assert answered.result.cells.current == "thy"
+    assert panel_with_answer.result.cells.current == "thy"
     assert not second.grab().toImage().isNull()
 
 
-def test_records_are_ticked_in_the_list_with_the_gap_of_each(qtbot, window, panel, record):
-    window.resize(1900, 800)  # a smaller one has a menu in the list's place
-    bench = panel.workbench
-    runs = [Run(name, compare(bench.robot, record)) for name in ("first", "second")]
+def test_records_are_ticked_in_a_list_that_shows_their_gaps(qtbot, window, panel, record):
+    window.resize(1900, 800)  # a smaller window has a menu instead of the list
+    workbench = panel.workbench
+    runs = [ComparedRun(name, compare(workbench.robot, record)) for name in ("first", "second")]
     for run in runs:
-        bench.run_changed.emit(run)
-    rows = panel.rail.list
-    assert [rows.topLevelItem(row).text(0) for row in range(2)] == ["second", "first"]
-    worst = gap_text(runs[0].gaps["thx", Tap.MEAS].rms, "rad")
-    qtbot.waitUntil(lambda: rows.topLevelItem(1).text(1) == f"θx {worst}", timeout=LONG_MS)
-    rows.topLevelItem(1).setCheckState(0, Qt.CheckState.Checked)
-    assert [one.name for one in panel.records.chosen] == ["first", "second"]
-    rows.topLevelItem(0).setCheckState(0, Qt.CheckState.Unchecked)
-    assert [one.name for one in panel.records.chosen] == ["first"]
+        workbench.run_changed.emit(run)
+    record_list = panel.rail.list
+    assert [record_list.topLevelItem(row).text(0) for row in range(2)] == ["second", "first"]
+    largest_gap = format_gap(runs[0].gaps["thx", Tap.MEAS].rms, "rad")
+    qtbot.waitUntil(
+        lambda: record_list.topLevelItem(1).text(1) == f"θx {largest_gap}", timeout=LONG_MS
+    )
+    record_list.topLevelItem(1).setCheckState(0, Qt.CheckState.Checked)
+    assert [run.name for run in panel.records.chosen] == ["first", "second"]
+    record_list.topLevelItem(0).setCheckState(0, Qt.CheckState.Unchecked)
+    assert [run.name for run in panel.records.chosen] == ["first"]
 
 
-def test_what_an_earlier_session_has_kept_is_read_when_it_is_ticked(qtbot, window, panel, record):
+def test_a_record_of_an_earlier_session_is_read_when_it_is_ticked(qtbot, window, panel, record):
     folder = window.workbench.played_folder
     folder.mkdir(parents=True)
     write_record(record, folder / "2026-01-02_tour.csv.gz")
-    records = Records(window.workbench, panel)
+    records = RecordSelection(window.workbench, panel)
     window.workbench.library.refresh()
     qtbot.waitUntil(lambda: bool(records.listed), timeout=LONG_MS)
-    (kept,) = records.listed
+    (listed_record,) = records.listed
     assert not records.chosen
-    records.tick(kept, ticked=True)
+    records.tick(listed_record, ticked=True)
     qtbot.waitUntil(lambda: bool(records.chosen), timeout=LONG_MS)
-    qtbot.waitUntil(lambda: kept.gap.startswith("θx"), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: listed_record.gap.startswith("θx"), timeout=LONG_MS)
 
 
-def test_a_motion_on_which_the_model_is_worse_is_red_beside_one_on_which_it_is_better(
-    answered, window
-):
-    run = Run("tuesday", compare(ROBOT, answered.answer.records[0]))
-    good = prove(
-        answered.answer.diagnosis, answered._candidate, run, window.workbench.session.memory
+def test_only_motions_with_a_worse_model_are_marked_red(panel_with_answer, window):
+    run = ComparedRun("tuesday", compare(ROBOT, panel_with_answer.answer.records[0]))
+    better = measure_reductions(
+        panel_with_answer.answer.diagnosis,
+        panel_with_answer._candidate,
+        run,
+        window.workbench.session.memory,
     )
-    worse = Proof("wednesday", (replace(good.shrunk[0], times=1.0 / 1.5),))
-    answered.result.proof.show_proof(good)
-    answered.result.proof.show_proof(worse)
-    table = answered.result.proof.table
-    assert [row[0] for row in table.texts()][:2] == ["wednesday", "tuesday"]
-    assert table.texts()[0][4] == "worse: 1.5 × larger"
+    worse = UnseenMotionResult("wednesday", (replace(better.reductions[0], factor=1.0 / 1.5),))
+    panel_with_answer.result.unseen_motion.show_result(better)
+    panel_with_answer.result.unseen_motion.show_result(worse)
+    table = panel_with_answer.result.unseen_motion.table
+    assert [row[0] for row in table.read_texts()][:2] == ["wednesday", "tuesday"]
+    assert table.read_texts()[0][4] == "worse: 1.5 × larger"
     assert table.item(0, 4).foreground().color().name() == DARK.danger_text
-    assert table.texts()[1][4].startswith("better: ")
-    assert not table.selectedItems()  # a selection would hide the red
-    answered.result.headline.show_answer(answered.answer, worse)
-    assert answered.result.headline.sentence.text().startswith(
+    assert table.read_texts()[1][4].startswith("better: ")
+    assert not table.selectedItems()  # a selection would hide the colour
+    panel_with_answer.result.headline.show_answer(panel_with_answer.answer, worse)
+    assert panel_with_answer.result.headline.sentence.text().startswith(
         "Worse on wednesday: θx 1.5 × larger"
     )
-    assert answered.result.headline.property("tone") == "worse"
+    assert panel_with_answer.result.headline.property("tone") == "worse"

@@ -1,19 +1,17 @@
-"""A hidden machine in the window: drawn, played, revealed beside what was said, and counted."""
-
-from dataclasses import replace
+"""A hidden machine in the window: drawn, moved, revealed with the diagnosis, and scored."""
 
 import pytest
 from PySide6.QtWidgets import QMessageBox
 
-from rotemina.app.blind.hidden_machine import HiddenMachine, Secret
-from rotemina.plugins.gap import hidden_machine
-from rotemina.plugins.gap.diagnosis_answer import Answer
+from rotemina.app.blind import HiddenEffects, HiddenMachineSimulator
+from rotemina.plugins.gap.answer import DiagnosisAnswer
+from rotemina.plugins.gap.blind import hidden_machine
 
 LONG_MS = 60_000
 
 
-class ToldSecret(Secret):
-    """A secret of which the causes are said."""
+class KnownHiddenEffects(HiddenEffects):
+    """Hidden effects whose causes are known to the test."""
 
     __slots__ = ("_causes",)
 
@@ -27,43 +25,45 @@ class ToldSecret(Secret):
 
 
 @pytest.fixture
-def hiding(qtbot, window, monkeypatch):
-    monkeypatch.setattr(hidden_machine, "draw_secret", lambda *_: ToldSecret({("thx", "creep")}))
+def hidden_trial(qtbot, window, monkeypatch):
+    monkeypatch.setattr(
+        hidden_machine, "draw_hidden_effects", lambda *_: KnownHiddenEffects({("thx", "creep")})
+    )
     panel = window.panel
     panel.hidden_trial.begin(1)
     session = window.workbench.session
-    qtbot.waitUntil(lambda: panel.hidden_trial.secret is not None, timeout=LONG_MS)
-    qtbot.waitUntil(lambda: session.snapshot().locked is None, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: panel.hidden_trial.hidden_effects is not None, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: session.snapshot().lock_reason is None, timeout=LONG_MS)
     return panel.hidden_trial
 
 
-def boxes(window):
+def find_boxes(window):
     return [box for box in window.findChildren(QMessageBox) if box.isVisible()]
 
 
-def test_it_is_driven_like_any_other_and_revealed_beside_the_answer(
-    qtbot, window, hiding, diagnosis, record
+def test_a_hidden_machine_moves_like_any_other_and_is_revealed_with_the_answer(
+    qtbot, window, hidden_trial, diagnosis, record
 ):
     session = window.workbench.session
-    assert isinstance(session.driver, HiddenMachine)
+    assert isinstance(session.driver, HiddenMachineSimulator)
     assert session.service.effects == ()
-    assert "More → Reveal" in window.told[-1]
+    assert "More → Reveal" in window.notices[-1]
     session.jog("zn", 1e-6)
-    answer = Answer.of(diagnosis, ["day one.csv"], [record])  # hysteresis, or creep
-    hiding.reveal(answer)
-    (box,) = boxes(window)
+    # The diagnosis names hysteresis or creep.
+    answer = DiagnosisAnswer.from_diagnosis(diagnosis, ["day one.csv"], [record])
+    hidden_trial.reveal(answer)
+    (box,) = find_boxes(window)
     assert box.text().startswith("Correct")
     assert "The machine has: θx creep" in box.informativeText()
     assert "Score: 1 of 1" in box.informativeText()
     box.close()
     qtbot.waitUntil(lambda: session.driver.name == "simulator", timeout=LONG_MS)
-    assert hiding.secret is None
+    assert hidden_trial.hidden_effects is None
 
 
-def test_what_is_not_named_counts_against_it(window, hiding, diagnosis):
-    hiding.reveal(None)
-    (box,) = boxes(window)
+def test_revealing_without_an_answer_scores_zero(window, hidden_trial):
+    hidden_trial.reveal(None)
+    (box,) = find_boxes(window)
     assert box.text() == "Not correct."
     assert "The diagnosis names: nothing" in box.informativeText()
     assert "Score: 0 of 1" in box.informativeText()
-    assert replace(diagnosis).causes  # untouched

@@ -1,76 +1,90 @@
-"""Words of the diagnosis that the page shows: each is marked for translation."""
+"""Texts of the diagnosis that the page shows: all of them can be translated."""
 
 import re
 
 from PySide6.QtCore import QTranslator
 
-from rotemina.app.cli.language import wording as wording_in
-from rotemina.app.shell.engine_words import WindowWording
-from rotemina.plugins.gap import words
-from rotemina.sim.blind.figures_table import ROWS
-from rotemina.sim.gap.location.regimes import Regime
-from rotemina.sim.gap.output import wording
-from rotemina.sim.gap.output.report import words as report
-from rotemina.sim.gap.output.report.page import report_text
-from rotemina.sim.gap.output.report.texts import TEXTS
-from rotemina.sim.gap.output.summary import summary
-from rotemina.sim.gap.output.wording import effect_on
-from rotemina.sim.messages import AxisName, Listed, message
-from rotemina.sim.quantities import amount
+from rotemina.app.cli.terminal import load_wording
+from rotemina.app.language import WindowWording
+from rotemina.plugins.gap.answer import words
+from rotemina.sim.blind import FIGURE_ROWS
+from rotemina.sim.gap.location import OperatingRegime
+from rotemina.sim.gap.output import (
+    make_report_text,
+    make_summary_text,
+    name_effect,
+    report_words as report,
+    wording,
+)
+from rotemina.sim.gap.output.report_texts import PAGE_TEXTS
+from rotemina.sim.messages import (
+    AxisName,
+    FieldList,
+    message,
+)
+from rotemina.sim.units import format_quantity
 
 
-def test_every_word_of_the_diagnosis_is_marked_as_the_diagnosis_says_it():
-    assert {regime: regime.value for regime in Regime} == report.REGIMES
-    assert {text for text, _, _ in ROWS.values()} == set(words.FIGURES)
+def test_translatable_names_match_those_of_the_diagnosis():
+    assert {regime: regime.value for regime in OperatingRegime} == report.REGIMES
+    assert {text for text, _, _ in FIGURE_ROWS.values()} == set(words.FIGURE_NAMES)
 
 
-class Loud(QTranslator):
-    """A language in which all is written in capital letters but what stands in fields."""
+class UpperCaseTranslator(QTranslator):
+    """A language that writes everything in capital letters, except for the fields."""
 
     def translate(self, _context, text, _comment=None, _number=-1):
         parts = re.split(r"(\{\w+\})", text)
         return "".join(part if part.startswith("{") else part.upper() for part in parts)
 
 
-def test_all_of_a_message_is_translated_and_what_stands_in_it(qapp):
-    held = message("gap", "{name} of {moved} while {held} is held")
-    test = held.fill(name=message("gap", "chirp"), moved=AxisName("zn"), held=amount(5e-6, "m"))
-    effects = Listed(
-        (effect_on("creep", None), effect_on("cross_coupling", "thy")), one_of_them=True
+def test_a_message_is_translated_together_with_its_fields(qapp):
+    hold_message = message("gap", "{name} of {moved} while {held} is held")
+    test = hold_message.fill(
+        name=message("gap", "chirp"), moved=AxisName("zn"), held=format_quantity(5e-6, "m")
     )
-    said = message("gap", "play {test} to tell {effects}").fill(test=test, effects=effects)
-    translator = Loud()
+    effects = FieldList(
+        (name_effect("creep", None), name_effect("cross_coupling", "thy")), one_of_them=True
+    )
+    instruction = message("gap", "play {test} to tell {effects}").fill(test=test, effects=effects)
+    translator = UpperCaseTranslator()
     qapp.installTranslator(translator)
     try:
-        shown = WindowWording().of(said)
+        text = WindowWording().format_message(instruction)
     finally:
         qapp.removeTranslator(translator)
-    assert (
-        shown == "PLAY CHIRP OF Z nano WHILE 5 µm IS HELD TO TELL CREEP OR CROSS COUPLING FROM θy"
-    )
+    assert text == "PLAY CHIRP OF Z nano WHILE 5 µm IS HELD TO TELL CREEP OR CROSS COUPLING FROM θy"
 
 
-def test_an_effect_stands_within_a_sentence_as_its_language_writes_it():
+def test_effect_names_in_a_sentence_follow_the_case_of_the_language():
     assert words.effect_title("creep") == "Creep"
     assert words.effect_word("creep") == "creep"
-    assert words.within("Creep", "Kriechen") == "Kriechen"
+    assert words.fit_in_sentence("Creep", "Kriechen") == "Kriechen"
     assert words.effect_title("of a plugin") == "of a plugin"
 
 
-def test_the_window_says_the_answer_as_the_report_does_with_its_own_names(diagnosis, record):
-    found = wording.summary(diagnosis, [record])
-    said = [WindowWording().of(message) for message in found]
-    assert [text.replace("θx", "thx").replace("θy", "thy") for text in said] == [*map(str, found)]
+def test_the_window_and_the_report_use_the_same_sentences(diagnosis, record):
+    summary = wording.write_summary(diagnosis, [record])
+    window_texts = [WindowWording().format_message(message) for message in summary]
+    assert [text.replace("θx", "thx").replace("θy", "thy") for text in window_texts] == [
+        *map(str, summary)
+    ]
 
 
-def test_summary_and_report_are_german_where_german_is_chosen(diagnosis, record):
-    german = wording_in("de")
-    english, shown = (summary(diagnosis, [record], one).splitlines() for one in (None, german))
-    own = ("width =", "The rest depends on time.")  # of this answer alone: no text of ours
-    same = [one for one in english if one in shown and not one.lstrip().startswith(own)]
-    assert same == []
-    assert any("Hysterese" in line and "0,91" in line for line in shown)
-    page = report_text(diagnosis, [record], wording=german)
+def test_summary_and_report_are_written_in_german(diagnosis, record):
+    german = load_wording("de")
+    english_lines, german_lines = (
+        make_summary_text(diagnosis, [record], language).splitlines() for language in (None, german)
+    )
+    untranslated_starts = ("width =", "The rest depends on time.")  # content of this answer
+    unchanged_lines = [
+        line
+        for line in english_lines
+        if line in german_lines and not line.lstrip().startswith(untranslated_starts)
+    ]
+    assert unchanged_lines == []
+    assert any("Hysterese" in line and "0,91" in line for line in german_lines)
+    page = make_report_text(diagnosis, [record], wording=german)
     assert '<html lang="de">' in page
-    long = [text for text in TEXTS if len(text) > 40 and "{" not in text]
-    assert [text for text in long if text in page] == []
+    long_texts = [text for text in PAGE_TEXTS if len(text) > 40 and "{" not in text]
+    assert [text for text in long_texts if text in page] == []

@@ -1,21 +1,19 @@
-"""Devices without a window: their looping by hand, on a clock set by hand."""
+"""Input devices without a window, stepped by tests on a virtual clock."""
 
 from math import inf
 
 import pytest
 
-from rotemina.app.motion.teleoperation.input_devices import InputDevices
-from rotemina.drivers.clock import VirtualClock
-from rotemina.drivers.inputs.device import InputIdentity
-from rotemina.drivers.inputs.hub import InputHub
-from rotemina.drivers.inputs.pad import Pad
+from rotemina.app.motion.inputs import InputDevices
+from rotemina.drivers.contract import VirtualClock
+from rotemina.drivers.inputs import InputHub, InputIdentity, InputPad
 
 ROBOT = ("x", "y", "z", "thx", "thy", "zn")
 TICK_S = 0.005
 
 
-class Stick(Pad):
-    """A pad that is taken for a joystick which streams."""
+class StickPad(InputPad):
+    """A pad that appears as a streaming joystick."""
 
     def __init__(self, clock, label="stick", axes=("X", "Y", "Z"), buttons=("1", "2", "3")):
         super().__init__(label, axes, buttons, lease_s=inf, clock=clock)
@@ -26,30 +24,30 @@ class Stick(Pad):
         return self.identity.key
 
 
-class Bench:
-    """Sticks, the devices that are open, and the time."""
+class InputBench:
+    """Sticks, the opened input devices and a virtual clock."""
 
     def __init__(self, clock, folder, *sticks):
         self.clock = clock
         self.devices = InputDevices(
-            InputHub({one.identity.key: one for one in sticks}), ROBOT, folder
+            InputHub({stick.identity.key: stick for stick in sticks}), ROBOT, folder
         )
-        self.devices.look()
-        self.heard = []
-        self.devices.listen(self.heard.append)
+        self.devices.detect_changes()
+        self.updates = []
+        self.devices.add_listener(self.updates.append)
         self.run()
 
     def run(self, seconds=0.2):
-        """Let the loop run, and return what it heard."""
-        del self.heard[:]
+        """Run the loop, and return the updates that the listener received."""
+        del self.updates[:]
         for _ in range(round(seconds / TICK_S)):
             self.clock.advance(TICK_S)
             self.devices.step(self.clock())
-        return list(self.heard)
+        return list(self.updates)
 
     def view(self, key):
         self.run(0.05)
-        return next(v for v in self.devices.view.devices if v.device.identity.key == key)
+        return next(view for view in self.devices.view.devices if view.device.identity.key == key)
 
 
 @pytest.fixture
@@ -59,17 +57,17 @@ def clock():
 
 @pytest.fixture
 def make_stick(clock):
-    return lambda *args, **options: Stick(clock, *args, **options)
+    return lambda *args, **options: StickPad(clock, *args, **options)
 
 
 @pytest.fixture
 def make_bench(clock, tmp_path):
-    made = []
+    benches = []
 
     def make(*sticks):
-        made.append(Bench(clock, tmp_path, *sticks))
-        return made[-1]
+        benches.append(InputBench(clock, tmp_path, *sticks))
+        return benches[-1]
 
     yield make
-    for bench in made:
+    for bench in benches:
         bench.devices.close()

@@ -1,91 +1,108 @@
-"""*Move it now*, for a row of the mapping."""
+"""Finding the control that the operator moves for a row of the mapping."""
 
-from rotemina.app.motion.teleoperation.moved_control import Kind
-from rotemina.plugins.inputs.control_finding import BUTTON_WAIT_S, Finding
-
-
-def look(bench, finding, seconds):
-    """Let the loop run, and return what was found."""
-    for heard in bench.run(seconds):
-        finding.receive(heard)
-    return finding.look(bench.clock())
+from rotemina.app.motion.inputs import ControlKind, moved_control
+from rotemina.plugins.inputs.control_finding import BUTTON_WAIT_S, ControlFinder
+from rotemina.sim.messages import message
 
 
-def test_an_axis_of_a_device_that_was_silent_until_now(make_bench, make_stick):
+def run_and_find(bench, finder, seconds):
+    """Run the loop, and return the search result."""
+    for update in bench.run(seconds):
+        finder.receive(update)
+    return finder.find_control(bench.clock())
+
+
+def test_an_axis_of_a_so_far_silent_device_is_found(make_bench, make_stick):
     stick = make_stick()
     bench = make_bench(stick)
-    finding = Finding(bench.view(stick.key), axis=True)
-    assert finding.look(bench.clock()).message == "move the axis now"
+    finder = ControlFinder(bench.view(stick.key), axis=True)
+    assert finder.find_control(bench.clock()).message == "move the axis now"
     stick.deflect("Y", -0.9)
-    found = look(bench, finding, 0.1)
-    found = found.detected
-    assert (found.control, found.kind, found.direction) == ("Y", Kind.AXIS, -1)
+    moved = run_and_find(bench, finder, 0.1).moved_control
+    assert (moved.control, moved.kind, moved.direction) == ("Y", ControlKind.AXIS, -1)
 
 
-def test_a_button_goes_before_the_axis_that_moves_with_it(make_bench, make_stick):
+def test_a_button_takes_precedence_over_an_axis(make_bench, make_stick):
     stick = make_stick()
     bench = make_bench(stick)
-    finding = Finding(bench.view(stick.key), axis=False)
+    finder = ControlFinder(bench.view(stick.key), axis=False)
     stick.deflect("Z", 1.0)
-    found = look(bench, finding, 0.1)
-    assert found.detected is None  # a button may come
+    result = run_and_find(bench, finder, 0.1)
+    assert result.moved_control is None  # a button may still be pressed
     stick.hold("2")
-    found = look(bench, finding, 0.05)
-    assert found.detected.control == "2"
+    result = run_and_find(bench, finder, 0.05)
+    assert result.moved_control.control == "2"
 
 
-def test_an_axis_alone_is_taken_a_moment_later(make_bench, make_stick):
+def test_an_axis_alone_is_accepted_after_a_short_wait(make_bench, make_stick):
     stick = make_stick()
     bench = make_bench(stick)
-    finding = Finding(bench.view(stick.key), axis=False)
-    assert finding.look(bench.clock()).message == "press the button, or move the axis, now"
+    finder = ControlFinder(bench.view(stick.key), axis=False)
+    assert finder.find_control(bench.clock()).message == "press the button, or move the axis, now"
     stick.deflect("Z", 1.0)
-    found = look(bench, finding, 0.1)
-    assert found.detected is None
-    found = look(bench, finding, BUTTON_WAIT_S + 0.05)
-    assert found.detected.control == "Z"
+    result = run_and_find(bench, finder, 0.1)
+    assert result.moved_control is None
+    result = run_and_find(bench, finder, BUTTON_WAIT_S + 0.05)
+    assert result.moved_control.control == "Z"
 
 
-def test_two_at_once_are_named(make_bench, make_stick):
+def test_two_controls_moved_together_are_named(make_bench, make_stick):
     stick = make_stick()
     bench = make_bench(stick)
-    finding = Finding(bench.view(stick.key), axis=False)
+    finder = ControlFinder(bench.view(stick.key), axis=False)
     stick.hold("1")
     stick.hold("3")
-    found = look(bench, finding, 0.05)
-    assert found.detected is None
-    assert "1 (stick) and 3 (stick) moved together" in found.message
+    result = run_and_find(bench, finder, 0.05)
+    assert result.moved_control is None
+    assert "1 (stick) and 3 (stick) moved together" in result.message
 
 
-def test_another_device_is_passed_over(make_bench, make_stick):
+def test_axes_moved_together_take_precedence_whatever_the_wording(
+    make_bench, make_stick, monkeypatch
+):
+    def reword(context, template):
+        return message(context, template.replace(" moved together; move only", ": only"))
+
+    monkeypatch.setattr(moved_control, "message", reword)
+    stick = make_stick()
+    bench = make_bench(stick)
+    finder = ControlFinder(bench.view(stick.key), axis=False)
+    stick.deflect("X", 1.0)
+    stick.deflect("Y", 1.0)
+    result = run_and_find(bench, finder, 0.1)
+    assert result.moved_control is None
+    assert result.message == "X (stick) and Y (stick): only one"
+
+
+def test_controls_of_other_devices_are_ignored(make_bench, make_stick):
     stick, other = make_stick(), make_stick("other")
     bench = make_bench(stick, other)
-    finding = Finding(bench.view(stick.key), axis=True)
+    finder = ControlFinder(bench.view(stick.key), axis=True)
     other.deflect("X", 1.0)
-    found = look(bench, finding, 0.1)
-    assert found.detected is None
+    result = run_and_find(bench, finder, 0.1)
+    assert result.moved_control is None
 
 
-def test_what_is_let_go_of_was_not_moved(make_bench, make_stick):
+def test_returning_to_rest_does_not_count_as_a_movement(make_bench, make_stick):
     stick = make_stick()
     stick.deflect("X", 1.0)
     bench = make_bench(stick)
-    finding = Finding(bench.view(stick.key), axis=True)
+    finder = ControlFinder(bench.view(stick.key), axis=True)
     stick.deflect("X", 0.0)
-    assert look(bench, finding, 0.1).detected is None
+    assert run_and_find(bench, finder, 0.1).moved_control is None
     bench.run(1.0)
     stick.deflect("X", 1.0)
-    assert look(bench, finding, 0.1).detected.direction == 1
+    assert run_and_find(bench, finder, 0.1).moved_control.direction == 1
 
 
-def test_what_was_moved_before_is_passed_over(make_bench, make_stick):
+def test_earlier_movements_are_ignored(make_bench, make_stick):
     stick = make_stick()
     bench = make_bench(stick)
     stick.deflect("X", 1.0)
-    before = bench.run(0.1)
+    earlier_updates = bench.run(0.1)
     stick.deflect("X", 0.0)
-    finding = Finding(bench.view(stick.key), axis=True)
-    for heard in before:  # a screen takes it up late
-        finding.receive(heard)
+    finder = ControlFinder(bench.view(stick.key), axis=True)
+    for update in earlier_updates:  # the panel receives them late
+        finder.receive(update)
     stick.deflect("Z", -1.0)
-    assert look(bench, finding, 0.1).detected.control == "Z"
+    assert run_and_find(bench, finder, 0.1).moved_control.control == "Z"

@@ -1,127 +1,135 @@
-"""Changes of a profile: what they change, what they leave, and what is refused for them."""
+"""Edits of a profile: their effect, the parts that stay unchanged, and refused edits."""
 
 import pytest
 
-from rotemina.app.motion.teleoperation.axis_calibration import AxisCalibration, Calibration
-from rotemina.app.motion.teleoperation.intent import Action
-from rotemina.app.motion.teleoperation.moved_control import Detected, Kind
-from rotemina.app.motion.teleoperation.profile import (
+from rotemina.app.errors import InputProfileError
+from rotemina.app.motion.inputs import (
     ActionMapping,
     AxisMapping,
+    ControlKind,
     DeviceMapping,
+    InputAxisCalibration,
+    InputCalibration,
+    InputProfile,
+    MovedControl,
+    OperatorAction,
     OperatorRole,
-    Profile,
-    ProfileError,
+    PluggedDevice,
     SilencePolicy,
+    check_profile,
 )
-from rotemina.app.motion.teleoperation.profile_check import PluggedDevice, check_profile
-from rotemina.drivers.inputs.device import InputIdentity
-from rotemina.plugins.inputs.profile_edits import Edited, exchanged, threshold, turned
+from rotemina.drivers.inputs import InputIdentity
+from rotemina.plugins.inputs.profile_edits import (
+    ProfileEditor,
+    compute_threshold,
+    exchange_seats,
+    is_inversion_needed,
+)
 
 ROBOT = ("x", "y", "z", "thx", "thy", "zn")
 
 
-def plugged(key):
+def make_device(key):
     return PluggedDevice(InputIdentity(key, key, "hid"), ("X", "Y"), ("1", "2"))
 
 
-STICK, PEDAL = plugged("hid:stick"), plugged("hid:pedal")
-STOPS = (ActionMapping(control="1", action=Action.STOP),)
-BENCH = Profile(
+STICK, PEDAL = make_device("hid:stick"), make_device("hid:pedal")
+STOP_MAPPINGS = (ActionMapping(control="1", action=OperatorAction.STOP),)
+PROFILE = InputProfile(
     name="Bench",
     devices=(
         DeviceMapping(key="hid:st*", axes=(AxisMapping(control="X", drives="x", inverted=True),)),
-        DeviceMapping(key="hid:pedal", seat=OperatorRole.TRAINEE, actions=STOPS),
+        DeviceMapping(key="hid:pedal", seat=OperatorRole.TRAINEE, actions=STOP_MAPPINGS),
     ),
 )
 
 
-def edited(profile=BENCH, device=STICK):
-    return Edited(profile, device, (STICK, PEDAL))
+def make_editor(profile=PROFILE, device=STICK):
+    return ProfileEditor(profile, device, (STICK, PEDAL))
 
 
-def test_a_target_gets_another_control_and_all_else_stays():
-    changed = edited().with_axis("x", "Y")
-    assert edited(changed).axis("x") == AxisMapping(control="Y", drives="x")
-    assert changed.devices[0].key == "hid:st*"  # the pattern stays one
-    assert changed.devices[1] == BENCH.devices[1]
-    assert edited().axis("x").inverted  # what was edited has not changed
-    assert edited(edited(changed).without_axis("x")).axis("x") is None
+def test_a_target_gets_another_control_and_the_rest_stays():
+    changed = make_editor().with_axis("x", "Y")
+    assert make_editor(changed).find_axis_mapping("x") == AxisMapping(control="Y", drives="x")
+    assert changed.devices[0].key == "hid:st*"  # the pattern is kept
+    assert changed.devices[1] == PROFILE.devices[1]
+    assert make_editor().find_axis_mapping("x").inverted  # the edited profile itself is unchanged
+    assert make_editor(make_editor(changed).without_axis("x")).find_axis_mapping("x") is None
 
 
-def test_an_action_gets_another_control_and_may_lose_it():
-    changed = edited(device=PEDAL).with_action(Action.STOP, "Y", -0.5)
-    assert edited(changed, PEDAL).actions(Action.STOP) == (
-        ActionMapping(control="Y", action=Action.STOP, at=-0.5),
+def test_an_action_gets_another_control_and_loses_it():
+    changed = make_editor(device=PEDAL).with_action(OperatorAction.STOP, "Y", -0.5)
+    assert make_editor(changed, PEDAL).find_action_mappings(OperatorAction.STOP) == (
+        ActionMapping(control="Y", action=OperatorAction.STOP, at=-0.5),
     )
-    moved = edited(changed, PEDAL).with_threshold(Action.STOP, 0.8)
-    assert edited(moved, PEDAL).actions(Action.STOP)[0].at == 0.8
-    gone = edited(moved, PEDAL).without_action(Action.STOP)
-    assert edited(gone, PEDAL).actions(Action.STOP) == ()
+    with_threshold = make_editor(changed, PEDAL).with_threshold(OperatorAction.STOP, 0.8)
+    assert make_editor(with_threshold, PEDAL).find_action_mappings(OperatorAction.STOP)[0].at == 0.8
+    without_action = make_editor(with_threshold, PEDAL).without_action(OperatorAction.STOP)
+    assert make_editor(without_action, PEDAL).find_action_mappings(OperatorAction.STOP) == ()
 
 
-@pytest.mark.parametrize("at", [0.05, -0.09, 1.2])
-def test_a_threshold_that_cannot_be_is_refused(at):
+@pytest.mark.parametrize("threshold", [0.05, -0.09, 1.2])
+def test_a_threshold_out_of_bounds_is_refused(threshold):
     with pytest.raises(
-        ProfileError, match=r"stop: the threshold of .* % of the deflection must be"
+        InputProfileError, match=r"stop: the threshold of .* % of the deflection must be"
     ):
-        edited(device=PEDAL).with_threshold(Action.STOP, at)
+        make_editor(device=PEDAL).with_threshold(OperatorAction.STOP, threshold)
 
 
-def test_two_owners_come_out_of_it_and_are_both_named_where_it_is_used():
-    changed = edited(edited().with_axis("y", "Y")).with_axis("thx", "X")
-    with pytest.raises(ProfileError, match=r"'Y' of hid:st\* .*'X' of hid:st\*"):
+def test_a_profile_with_two_controls_for_one_target_is_refused():
+    changed = make_editor(make_editor().with_axis("y", "Y")).with_axis("thx", "X")
+    with pytest.raises(InputProfileError, match=r"'Y' of hid:st\* .*'X' of hid:st\*"):
         check_profile(changed, ROBOT)
 
 
-def test_a_device_that_the_profile_lacks_is_added():
-    other = plugged("hid:other")
-    view = Edited(BENCH, other, (STICK, PEDAL, other))
-    assert view.mapping is None
-    changed = view.with_action(Action.TAKE_OVER, "2")
-    assert [each.key for each in changed.devices] == ["hid:st*", "hid:pedal", "hid:other"]
+def test_a_missing_device_is_added_to_the_profile():
+    other = make_device("hid:other")
+    editor = ProfileEditor(PROFILE, other, (STICK, PEDAL, other))
+    assert editor.mapping is None
+    changed = editor.with_action(OperatorAction.TAKE_OVER, "2")
+    assert [mapping.key for mapping in changed.devices] == ["hid:st*", "hid:pedal", "hid:other"]
 
 
-def test_without_a_profile_one_is_made():
-    changed = Edited(None, STICK, (STICK,)).with_axis("x", "X")
+def test_an_edit_without_a_profile_creates_one():
+    changed = ProfileEditor(None, STICK, (STICK,)).with_axis("x", "X")
     assert changed.devices[0].axes == (AxisMapping(control="X", drives="x"),)
     check_profile(changed, ROBOT)
 
 
-def test_a_device_continues_while_silent_only_if_that_was_chosen():
-    assert edited().mapping.when_silent is SilencePolicy.STOP
-    changed = edited().with_silence(SilencePolicy.CONTINUE)
-    assert edited(changed).mapping.when_silent is SilencePolicy.CONTINUE
-    assert edited(changed).axis("x") == edited().axis("x")
-    assert changed.devices[1] == BENCH.devices[1]
+def test_a_silent_device_continues_only_if_that_was_chosen():
+    assert make_editor().mapping.when_silent is SilencePolicy.STOP
+    changed = make_editor().with_silence(SilencePolicy.CONTINUE)
+    assert make_editor(changed).mapping.when_silent is SilencePolicy.CONTINUE
+    assert make_editor(changed).find_axis_mapping("x") == make_editor().find_axis_mapping("x")
+    assert changed.devices[1] == PROFILE.devices[1]
 
 
-def test_a_device_takes_a_seat_or_none():
+def test_a_device_gets_a_seat_or_is_removed():
     assert (
-        edited(edited(device=PEDAL).with_seat(OperatorRole.TRAINER), PEDAL).mapping.seat
+        make_editor(make_editor(device=PEDAL).with_seat(OperatorRole.TRAINER), PEDAL).mapping.seat
         is OperatorRole.TRAINER
     )
-    alone = edited(device=PEDAL).with_seat(None)
-    assert [each.key for each in alone.devices] == ["hid:st*"]
-    with pytest.raises(ProfileError, match="would have no device"):
-        edited(alone).with_seat(None)
+    without_pedal = make_editor(device=PEDAL).with_seat(None)
+    assert [mapping.key for mapping in without_pedal.devices] == ["hid:st*"]
+    with pytest.raises(InputProfileError, match="would have no device"):
+        make_editor(without_pedal).with_seat(None)
 
 
-def test_seats_are_exchanged_at_once():
-    assert [each.seat for each in exchanged(BENCH).devices] == [
+def test_the_seats_of_both_devices_are_exchanged():
+    assert [mapping.seat for mapping in exchange_seats(PROFILE).devices] == [
         OperatorRole.TRAINEE,
         OperatorRole.TRAINER,
     ]
-    assert exchanged(exchanged(BENCH)) == BENCH
+    assert exchange_seats(exchange_seats(PROFILE)) == PROFILE
 
 
 @pytest.mark.parametrize("inverted", [False, True])
 @pytest.mark.parametrize("direction", [1, -1])
-def test_the_way_in_which_it_was_moved_is_forwards(inverted, direction):
-    calibration = Calibration(device="a", axes={"X": AxisCalibration(inverted=inverted)})
-    found = Detected("a", "X", Kind.AXIS, direction)
-    deflection = calibration.axis("X").deflection(direction * 1.0)
-    turn = -1.0 if turned(found, calibration) else 1.0
-    assert turn * deflection > 0.0
-    assert threshold(found, calibration) * deflection > 0.0
-    assert threshold(Detected("a", "1", Kind.BUTTON, 1), calibration) is None
+def test_the_direction_of_the_movement_becomes_positive(inverted, direction):
+    calibration = InputCalibration(device="a", axes={"X": InputAxisCalibration(inverted=inverted)})
+    moved_control = MovedControl("a", "X", ControlKind.AXIS, direction)
+    deflection = calibration.find_axis("X").compute_deflection(direction * 1.0)
+    sign = -1.0 if is_inversion_needed(moved_control, calibration) else 1.0
+    assert sign * deflection > 0.0
+    assert compute_threshold(moved_control, calibration) * deflection > 0.0
+    assert compute_threshold(MovedControl("a", "1", ControlKind.BUTTON, 1), calibration) is None

@@ -1,64 +1,69 @@
-"""The choice of a profile: remembered, changed, kept, and what happens to a bad one."""
+"""The choice of a profile: remembered, edited and saved, and invalid profiles."""
 
 import pytest
 
-from rotemina.app.motion.teleoperation.profile import (
-    AxisMapping,
-    DeviceMapping,
-    Profile,
-    ProfileError,
+from rotemina.app.errors import InputProfileError
+from rotemina.app.motion.inputs import AxisMapping, DeviceMapping, InputProfile
+from rotemina.app.settings import UserSettings
+from rotemina.plugins.inputs.profile_edits import ProfileEditor
+from rotemina.plugins.inputs.profiles import (
+    AUTOMATIC_PROFILE,
+    PROFILE_KEY,
+    ProfileChoice,
+    make_valid_name,
 )
-from rotemina.app.settings import Settings
-from rotemina.plugins.inputs.profile_edits import Edited
-from rotemina.plugins.inputs.profiles import AUTOMATIC, SETTING, ProfileChoice, plain_name
 
 ROBOT = ("x", "y", "z", "thx", "thy", "zn")
 
 
-def choice(bench, settings):
+def make_choice(bench, settings):
     return ProfileChoice(bench.devices, settings, ROBOT)
 
 
-def driven(bench):
+def list_driven_targets(bench):
     bench.run()
-    return {axis.drives for one in bench.devices.view.devices for axis in one.axes} - {None}
+    return {axis.drives for device in bench.devices.view.devices for axis in device.axes} - {None}
 
 
-def drives(target, name="Mine"):
+def make_profile(target, name="Mine"):
     axes = (AxisMapping(control="X", drives=target),)
-    return Profile(name=name, devices=(DeviceMapping(key="hid:*", axes=axes),))
+    return InputProfile(name=name, devices=(DeviceMapping(key="hid:*", axes=axes),))
 
 
-def write(bench, name, text):
-    folder = bench.devices.keep(drives("x", "folder")).parent
+def write_profile_file(bench, name, text):
+    folder = bench.devices.save_profile(make_profile("x", "folder")).parent
     (folder / f"{name}.toml").write_text(text, "utf-8")
 
 
-def test_what_was_saved_is_used_at_the_next_start(make_bench, make_stick, settings):
+def test_a_saved_profile_is_used_at_the_next_start(make_bench, make_stick, settings):
     bench = make_bench(make_stick())
-    first = choice(bench, settings)
-    assert first.begin() is None
-    plugged = tuple(one.device for one in bench.devices.view.devices)
-    first.edit(Edited(bench.devices.profile, plugged[0], plugged).without_axis("x"))
-    assert first.changed
-    assert driven(bench) == {"y", "z"}
-    path = first.save("Without x")
+    first_choice = make_choice(bench, settings)
+    assert first_choice.use_last_profile() is None
+    devices = tuple(view.device for view in bench.devices.view.devices)
+    first_choice.use_changed_profile(
+        ProfileEditor(bench.devices.profile, devices[0], devices).without_axis("x")
+    )
+    assert first_choice.is_changed
+    assert list_driven_targets(bench) == {"y", "z"}
+    path = first_choice.save("Without x")
     assert path.name == "Without x.toml"
-    assert (first.chosen, first.changed) == ("Without x", False)
+    assert (first_choice.chosen, first_choice.is_changed) == ("Without x", False)
     bench.devices.close()
 
-    again = make_bench(make_stick())
-    second = choice(again, Settings(settings.folder / "settings.json"))
-    assert second.begin() is None
-    assert second.chosen == "Without x"
-    assert driven(again) == {"y", "z"}
-    second.choose(AUTOMATIC)
+    next_bench = make_bench(make_stick())
+    next_choice = make_choice(next_bench, UserSettings(settings.folder / "settings.json"))
+    assert next_choice.use_last_profile() is None
+    assert next_choice.chosen == "Without x"
+    assert list_driven_targets(next_bench) == {"y", "z"}
+    next_choice.choose_profile(AUTOMATIC_PROFILE)
     assert settings.folder.exists()
-    assert Settings(settings.folder / "settings.json").get(SETTING, "?") == AUTOMATIC
+    assert (
+        UserSettings(settings.folder / "settings.json").get(PROFILE_KEY, "?") == AUTOMATIC_PROFILE
+    )
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "problem"),
     [
         (None, "there is no profile 'Mine' any more"),
         ("name = 'Mine'\nfoo = 1", "foo = 1: unknown key"),
@@ -68,90 +73,88 @@ def test_what_was_saved_is_used_at_the_next_start(make_bench, make_stick, settin
         ),
     ],
 )
-def test_a_bad_or_missing_one_is_told_and_an_automatic_one_used(
-    make_bench, make_stick, settings, text, said
+def test_a_bad_or_missing_profile_is_replaced_by_an_automatic_one(
+    make_bench, make_stick, settings, text, problem
 ):
     bench = make_bench(make_stick())
     if text is not None:
-        write(bench, "Mine", text)
-    settings.set(SETTING, "Mine")
-    profiles = choice(bench, settings)
-    told = profiles.begin()
-    assert said in told
-    assert told.endswith("An automatic profile is used instead.")
-    assert profiles.chosen == AUTOMATIC
+        write_profile_file(bench, "Mine", text)
+    settings.set(PROFILE_KEY, "Mine")
+    profiles = make_choice(bench, settings)
+    message = profiles.use_last_profile()
+    assert problem in message
+    assert message.endswith("An automatic profile is used instead.")
+    assert profiles.chosen == AUTOMATIC_PROFILE
     assert bench.devices.profile.name == "Automatic"
-    assert settings.get(SETTING, "") == "Mine"  # it may come back
+    assert settings.get(PROFILE_KEY, "") == "Mine"  # the file may return
 
 
-def test_bad_ones_are_offered_with_what_is_wrong(make_bench, make_stick, settings):
+def test_bad_profiles_are_listed_with_their_problem(make_bench, make_stick, settings):
     bench = make_bench(make_stick())
-    bench.devices.keep(drives("x", "Good"))
-    bench.devices.keep(drives("q", "Other robot"))
-    write(bench, "Broken", "name =")
-    offers = {offer.name: offer for offer in choice(bench, settings).look()}
-    assert offers[AUTOMATIC].problem is offers["Good"].problem is None
-    assert "not valid TOML" in offers["Broken"].problem
-    assert "does not have" in offers["Other robot"].problem
+    bench.devices.save_profile(make_profile("x", "Good"))
+    bench.devices.save_profile(make_profile("q", "Other robot"))
+    write_profile_file(bench, "Broken", "name =")
+    options = {option.name: option for option in make_choice(bench, settings).read_options()}
+    assert options[AUTOMATIC_PROFILE].problem is options["Good"].problem is None
+    assert "not valid TOML" in options["Broken"].problem
+    assert "does not have" in options["Other robot"].problem
 
 
 def test_changes_are_discarded(make_bench, make_stick, settings):
     bench = make_bench(make_stick())
-    profiles = choice(bench, settings)
-    profiles.edit(drives("zn"))
-    assert driven(bench) == {"zn"}
+    profiles = make_choice(bench, settings)
+    profiles.use_changed_profile(make_profile("zn"))
+    assert list_driven_targets(bench) == {"zn"}
     profiles.discard()
-    assert driven(bench) == {"x", "y", "z"}
-    assert not profiles.changed
+    assert list_driven_targets(bench) == {"x", "y", "z"}
+    assert not profiles.is_changed
 
 
-def test_changes_of_one_whose_file_has_gone_are_discarded_all_the_same(
-    make_bench, make_stick, settings
-):
+def test_changes_of_a_profile_without_a_file_are_discarded_too(make_bench, make_stick, settings):
     bench = make_bench(make_stick())
-    profiles = choice(bench, settings)
-    profiles.edit(drives("zn"))
+    profiles = make_choice(bench, settings)
+    profiles.use_changed_profile(make_profile("zn"))
     profiles.save("Mine").unlink()
-    profiles.edit(drives("thx"))
-    with pytest.raises(ProfileError, match="any more"):
+    profiles.use_changed_profile(make_profile("thx"))
+    with pytest.raises(InputProfileError, match="any more"):
         profiles.discard()
-    assert (profiles.chosen, profiles.changed) == (AUTOMATIC, False)
-    assert driven(bench) == {"x", "y", "z"}
+    assert (profiles.chosen, profiles.is_changed) == (AUTOMATIC_PROFILE, False)
+    assert list_driven_targets(bench) == {"x", "y", "z"}
 
 
-def test_a_change_that_cannot_be_used_changes_nothing(make_bench, make_stick, settings):
+def test_an_invalid_change_changes_nothing(make_bench, make_stick, settings):
     bench = make_bench(make_stick())
-    profiles = choice(bench, settings)
-    with pytest.raises(ProfileError, match="does not have"):
-        profiles.edit(drives("q"))
-    assert not profiles.changed
-    assert driven(bench) == {"x", "y", "z"}
+    profiles = make_choice(bench, settings)
+    with pytest.raises(InputProfileError, match="does not have"):
+        profiles.use_changed_profile(make_profile("q"))
+    assert not profiles.is_changed
+    assert list_driven_targets(bench) == {"x", "y", "z"}
 
 
 @pytest.mark.parametrize("name", ["", "../evil", "a/b", " x", "x" * 61])
-def test_a_name_that_no_file_can_have_is_refused(make_bench, make_stick, settings, name):
-    profiles = choice(make_bench(make_stick()), settings)
-    with pytest.raises(ProfileError, match="cannot be the name of a profile"):
+def test_a_name_that_is_no_file_name_is_refused(make_bench, make_stick, settings, name):
+    profiles = make_choice(make_bench(make_stick()), settings)
+    with pytest.raises(InputProfileError, match="cannot be the name of a profile"):
         profiles.save(name)
 
 
-def test_without_a_profile_there_is_nothing_to_keep(make_bench, settings):
-    with pytest.raises(ProfileError, match="map a control first"):
-        choice(make_bench(), settings).save("Mine")
+def test_saving_without_a_profile_is_refused(make_bench, settings):
+    with pytest.raises(InputProfileError, match="map a control first"):
+        make_choice(make_bench(), settings).save("Mine")
 
 
-def test_a_name_is_taken_whatever_its_case(make_bench, make_stick, settings):
+def test_profile_names_are_not_case_sensitive(make_bench, make_stick, settings):
     bench = make_bench(make_stick())
-    bench.devices.keep(drives("x", "Mine"))
-    assert choice(bench, settings).exists("mine")
-    assert not choice(bench, settings).exists("yours")
+    bench.devices.save_profile(make_profile("x", "Mine"))
+    assert make_choice(bench, settings).has_profile("mine")
+    assert not make_choice(bench, settings).has_profile("yours")
 
 
-def test_a_name_is_suggested_that_may_be_kept(make_bench, make_stick, settings):
+def test_a_valid_name_is_suggested(make_bench, make_stick, settings):
     bench = make_bench(make_stick())
-    profiles = choice(bench, settings)
-    assert profiles.suggestion() == "stick"
+    profiles = make_choice(bench, settings)
+    assert profiles.suggest_name() == "stick"
     profiles.save("Mine")
-    assert profiles.suggestion() == "Mine"
-    assert plain_name("Maker/Stick™ <3>") == "Maker Stick 3"
-    assert plain_name("***") == "Profile"
+    assert profiles.suggest_name() == "Mine"
+    assert make_valid_name("Maker/Stick™ <3>") == "Maker Stick 3"
+    assert make_valid_name("***") == "Profile"

@@ -1,61 +1,63 @@
-"""What is said of devices that drive, wait, look on, or cannot be used."""
+"""Texts about devices that control, wait, watch or cannot be used."""
 
 from dataclasses import replace
 
 import pytest
 
-from rotemina.app.motion.teleoperation.input_arbiter import DevicesView
-from rotemina.app.motion.teleoperation.intent import Action
-from rotemina.drivers.errors import DriverError
-from rotemina.drivers.inputs.pad import Pad
+from rotemina.app.motion.inputs import InputDisplayState, OperatorAction
+from rotemina.drivers.contract import DriverError
+from rotemina.drivers.inputs import InputPad
 from rotemina.plugins.inputs.words import (
+    ACTION_NAMES,
     ACTION_TIPS,
-    ACTIONS,
-    axis_targets,
-    entries,
-    headline,
-    target_name,
-    troubles,
-    udev_rule,
+    describe_control,
+    format_target_name,
+    list_axis_targets,
+    list_device_entries,
+    list_problems,
+    make_udev_rule,
 )
 
 
-def standings(bench):
+def list_statuses(bench):
     bench.run(0.05)
-    return {one.name: one.standing for one in entries(bench.devices.view, bench.devices.hub)}
+    return {
+        entry.name: entry.status
+        for entry in list_device_entries(bench.devices.view, bench.devices.hub)
+    }
 
 
-def test_every_action_has_its_words():
-    assert set(ACTIONS) == set(ACTION_TIPS) == set(Action)
-    assert len(set(ACTIONS.values())) == len(ACTIONS)
+def test_every_action_has_a_name_and_a_tip():
+    assert set(ACTION_NAMES) == set(ACTION_TIPS) == set(OperatorAction)
+    assert len(set(ACTION_NAMES.values())) == len(ACTION_NAMES)
 
 
-def test_axes_that_the_stick_moves_are_not_offered_twice():
-    targets = axis_targets(("x", "y", "z", "thx", "thy", "zn"))
+def test_each_axis_target_is_offered_once():
+    targets = list_axis_targets(("x", "y", "z", "thx", "thy", "zn"))
     assert targets == ("x", "y", "z", "thx", "thy", "zn")
-    assert [target_name(target) for target in targets[2:4]] == ["Stick Z", "θx"]
+    assert [format_target_name(target) for target in targets[2:4]] == ["Stick Z", "θx"]
 
 
-def test_a_device_waits_and_then_drives(make_bench, make_stick):
+def test_a_deflected_device_waits_before_it_controls(make_bench, make_stick):
     stick = make_stick()
     stick.deflect("Y", 0.5)
     bench = make_bench(stick)
-    assert standings(bench) == {"stick": "trainer, waiting for Y"}
+    assert list_statuses(bench) == {"stick": "trainer, waiting for Y"}
     stick.deflect("Y", 0.0)
     bench.run()
-    assert standings(bench) == {"stick": "trainer, in control"}
-    assert headline(bench.devices.view, 0) == "stick may control the robot."
+    assert list_statuses(bench) == {"stick": "trainer, in control"}
+    assert describe_control(bench.devices.view, 0) == "stick may control the robot."
     bench.devices.open_mapping()
-    assert standings(bench) == {"stick": "trainer, being set up"}
-    assert headline(bench.devices.view, 0) == "Set-up: no device controls the robot."
+    assert list_statuses(bench) == {"stick": "trainer, being set up"}
+    assert describe_control(bench.devices.view, 0) == "Set-up: no device controls the robot."
 
 
-def test_one_that_the_profile_lacks_does_nothing(make_bench, make_stick):
+def test_a_device_outside_the_profile_does_nothing(make_bench, make_stick):
     bench = make_bench(make_stick("a"), make_stick("b"))
-    assert standings(bench) == {"a": "trainer, in control", "b": "not in the profile"}
+    assert list_statuses(bench) == {"a": "trainer, in control", "b": "not in the profile"}
 
 
-def test_one_that_cannot_be_opened_is_there_with_what_to_do(make_bench, make_stick):
+def test_a_device_that_cannot_be_opened_is_listed_with_a_remedy(make_bench, make_stick):
     stick = make_stick()
     permission = (
         "stick: no permission; put the rule into /etc/udev/rules.d/70-rotemina-inputs.rules"
@@ -67,38 +69,41 @@ def test_one_that_cannot_be_opened_is_there_with_what_to_do(make_bench, make_sti
     stick.open = refuse
     bench = make_bench(stick)
     view, hub = bench.devices.view, bench.devices.hub
-    [entry] = entries(view, hub)
-    assert (entry.standing, entry.problem) == ("cannot be used", permission)
-    told = troubles(view, hub)
-    assert told[0].text == permission
-    assert 'ATTRS{idVendor}=="046d", ATTRS{idProduct}=="c215"' in told[0].remedy
-    assert headline(view, 1) == "No input device is connected. One problem, see below."
+    [entry] = list_device_entries(view, hub)
+    assert (entry.status, entry.problem) == ("cannot be used", permission)
+    problems = list_problems(view, hub)
+    assert problems[0].text == permission
+    assert 'ATTRS{idVendor}=="046d", ATTRS{idProduct}=="c215"' in problems[0].remedy
+    assert describe_control(view, 1) == "No input device is connected. One problem, see below."
 
 
 def test_a_source_that_fails_is_named(make_bench, make_stick):
     stick = make_stick()
 
-    def broken():
+    def fail():
         raise RuntimeError("a bug")
 
-    stick.devices = broken
+    stick.devices = fail
     bench = make_bench(stick)
-    told = troubles(bench.devices.view, bench.devices.hub)
-    assert told[0].text.startswith(f"{stick.key}: it cannot look for devices")
+    problems = list_problems(bench.devices.view, bench.devices.hub)
+    assert problems[0].text.startswith(f"{stick.key}: it cannot search for devices")
 
 
 @pytest.mark.parametrize("key", ["keys:pad", "board:simulator", "hid:x"])
-def test_no_rule_helps_what_is_no_joystick(key):
-    assert udev_rule(key) is None
+def test_only_joysticks_get_a_udev_rule(key):
+    assert make_udev_rule(key) is None
 
 
-def test_nothing_is_told_of_nothing():
-    view = DevicesView()
-    assert headline(view, 0) == "No input device is connected."
-    assert headline(replace(view, setting_up=True), 1) == "Set-up: no device controls the robot."
+def test_without_devices_the_text_says_so():
+    view = InputDisplayState()
+    assert describe_control(view, 0) == "No input device is connected."
+    assert (
+        describe_control(replace(view, is_mapping_open=True), 1)
+        == "Set-up: no device controls the robot."
+    )
 
 
-def test_what_was_plugged_in_comes_before_the_pad(make_bench, make_stick, clock):
-    bench = make_bench(Pad("pad", clock=clock), make_stick())
-    assert list(standings(bench)) == ["stick", "pad"]
-    assert standings(bench)["pad"] == "trainee, watching"
+def test_plugged_in_devices_are_listed_before_the_pad(make_bench, make_stick, clock):
+    bench = make_bench(InputPad("pad", clock=clock), make_stick())
+    assert list(list_statuses(bench)) == ["stick", "pad"]
+    assert list_statuses(bench)["pad"] == "trainee, watching"

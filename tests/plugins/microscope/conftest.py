@@ -1,22 +1,24 @@
-"""A microscope that shows what the test says, and notes what it is asked for."""
+"""A fake microscope whose status is set by the test, and which notes all calls."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from rotemina.app.cameras.feed import FeedState, FeedView
-from rotemina.app.microscope.calibration_file import (
-    MicroscopeCalibration,
-    StageCalibration,
-    View,
-)
+from rotemina.app.cameras import FeedState, FeedView
+from rotemina.app.microscope import MicroscopeStatus, ScaleSource, StageCalibration
+from rotemina.app.microscope.calibration_file import CalibratedRegion, MicroscopeCalibration
 from rotemina.app.microscope.click_target import PlannedMove
-from rotemina.app.microscope.status import MicroscopeStatus, ScaleSource
-from rotemina.drivers.cameras.camera import CameraIdentity
-from rotemina.drivers.cameras.frame import Frame, Region
-from rotemina.drivers.cameras.settings import CameraDescription, CameraSettings, PixelType, Trigger
-from rotemina.drivers.gate import Permit
+from rotemina.drivers.cameras import (
+    CameraDescription,
+    CameraFrame,
+    CameraIdentity,
+    CameraSettings,
+    CameraTrigger,
+    PixelType,
+    SensorRegion,
+)
+from rotemina.drivers.contract import Permit
 
 PIXEL_M = 0.335e-6
 
@@ -26,10 +28,10 @@ def make_frame(number=0, pixels=None, bits=12, host_time_s=5.0):
         rng = np.random.default_rng(number)
         pixels = rng.integers(100, 4000, (103, 130)).astype(np.uint16)
     rows, columns = pixels.shape[:2]
-    return Frame(pixels, host_time_s, number, bits, Region(0, 0, columns, rows), 0.01)
+    return CameraFrame(pixels, host_time_s, number, bits, SensorRegion(0, 0, columns, rows), 0.01)
 
 
-def calibrated():
+def make_calibration():
     stage = StageCalibration(
         date="2026-03-04T05:06:07+00:00",
         matrix=((1.0 / PIXEL_M, 0.0), (0.0, 1.0 / PIXEL_M)),
@@ -38,17 +40,17 @@ def calibrated():
         tip_px=(65.0, 51.0),
         residual_px=0.07,
     )
-    view = View(left=0, top=0, width=130, height=103)
+    view = CalibratedRegion(left=0, top=0, width=130, height=103)
     return MicroscopeCalibration(camera="fake:0", objective="20x", view=view, micro=stage)
 
 
-def live_sight():
+def make_live_status():
     identity = CameraIdentity("fake:0", "Fake", "fake")
-    can = CameraDescription(
+    description = CameraDescription(
         130,
         103,
         (PixelType.MONO16,),
-        (Trigger.FREE, Trigger.SOFTWARE),
+        (CameraTrigger.FREE, CameraTrigger.SOFTWARE),
         exposure_s=(1e-4, 1.0),
     )
     feed = FeedView(
@@ -57,7 +59,7 @@ def live_sight():
         age_s=0.012,
         rate_hz=30.0,
         settings=CameraSettings(exposure_s=0.01),
-        description=can,
+        description=description,
     )
     return MicroscopeStatus(
         cameras=(identity,),
@@ -65,20 +67,20 @@ def live_sight():
         feed=feed,
         objective="20x",
         objectives=("20x",),
-        calibration=calibrated(),
+        calibration=make_calibration(),
         pixel_m=PIXEL_M,
         scale_source=ScaleSource.CALIBRATION,
     )
 
 
 class FakeMicroscope:
-    """Has the methods that the panel calls; ``asked`` has their names and arguments."""
+    """Fake of the microscope; ``calls`` contains the names and arguments of all calls."""
 
     def __init__(self):
-        self.status = live_sight()
-        self.asked = []
+        self.status = make_live_status()
+        self.calls = []
         self.listeners = []
-        self.refuses = None
+        self.refusal = None
         self.confirm = False
 
     def change(self, **changes):
@@ -91,44 +93,47 @@ class FakeMicroscope:
     def camera(self):
         return self
 
-    def listen(self, tell):
-        self.listeners.append(tell)
-        return lambda: self.listeners.remove(tell)
+    def listen(self, listener):
+        self.listeners.append(listener)
+        return lambda: self.listeners.remove(listener)
 
     def plan(self, pixel, *, stage=None):
-        self._ask("plan", tuple(pixel), stage)
+        self._note_call("plan", tuple(pixel), stage)
         ghost = np.asarray(pixel)
         self.change(
-            planned=PlannedMove(ghost, ghost, 0.5, "micro", {"x": 0.0275}, 2e-5, self.confirm)
+            planned_move=PlannedMove(ghost, ghost, 0.5, "micro", {"x": 0.0275}, 2e-5, self.confirm)
         )
 
     def cancel_plan(self):
-        self._ask("cancel_plan")
-        self.change(planned=None)
+        self._note_call("cancel_plan")
+        self.change(planned_move=None)
 
     def go(self, *, permit, confirmed=False):
         assert isinstance(permit, Permit)
-        self._ask("go", confirmed)
-        self.change(planned=None)
+        self._note_call("go", confirmed)
+        self.change(planned_move=None)
 
     def visit_next(self, *, permit, confirmed=False):
         assert isinstance(permit, Permit)
-        self._ask("visit_next", confirmed)
+        self._note_call("visit_next", confirmed)
 
-    def _ask(self, name, *given):
-        self.asked.append((name, *given))
-        if self.refuses is not None:
-            raise self.refuses
+    def _note_call(self, name, *arguments):
+        self.calls.append((name, *arguments))
+        if self.refusal is not None:
+            raise self.refusal
 
     def __getattr__(self, name):
-        def asked(*given, **named):
-            self._ask(
+        def record_call(*arguments, **options):
+            self._note_call(
                 name,
-                *(tuple(g) if isinstance(g, np.ndarray) else g for g in given),
-                *named.values(),
+                *(
+                    tuple(argument) if isinstance(argument, np.ndarray) else argument
+                    for argument in arguments
+                ),
+                *options.values(),
             )
 
-        return asked
+        return record_call
 
 
 @pytest.fixture
@@ -137,5 +142,5 @@ def microscope():
 
 
 @pytest.fixture
-def frame_of():
+def make_numbered_frame():
     return lambda number: make_frame(number, host_time_s=5.0 + 0.1 * number)

@@ -1,4 +1,4 @@
-"""Snapshots and films of a microscope that gives what the test says."""
+"""Snapshots and videos of a fake microscope."""
 
 import json
 from datetime import UTC, datetime
@@ -10,14 +10,14 @@ import pytest
 import tifffile
 from PIL import Image
 
-from rotemina.app.microscope.errors import MicroscopeError
+from rotemina.app.errors import MicroscopeError
 from rotemina.app.motion.state import SessionState
-from rotemina.plugins.microscope.contrast import Contrast, Table
+from rotemina.plugins.microscope.contrast import ColourTable, ContrastSettings
 from rotemina.plugins.microscope.picture_saving import (
     VideoCapture,
-    circumstances,
-    progress,
-    summary,
+    describe_video,
+    format_progress,
+    make_circumstances,
     write_pictures,
 )
 
@@ -26,89 +26,90 @@ STATE = SessionState(command={"x": 0.01}, measured={"x": 0.0101})
 
 
 @pytest.fixture
-def filming(microscope, tmp_path):
-    made = VideoCapture(microscope, tmp_path / "videos", lambda _: None, now=lambda: NOW)
-    yield made
-    if made.video is not None:
-        made.end().close()
+def video_capture(microscope, tmp_path):
+    capture = VideoCapture(microscope, tmp_path / "videos", lambda _: None, now=lambda: NOW)
+    yield capture
+    if capture.video is not None:
+        capture.end().close()
 
 
-def recorder(name="session"):
+def make_recorder(name="session"):
     notes = []
     writer = SimpleNamespace(path=Path(f"/recordings/{name}.arrows"), began_s=2.5)
-    return SimpleNamespace(writer=writer, note=notes.append, notes=notes)
+    return SimpleNamespace(writer=writer, record_note=notes.append, notes=notes)
 
 
-def test_a_snapshot_is_what_the_camera_gave_and_what_was_seen(microscope, tmp_path):
+def test_a_snapshot_has_the_raw_and_the_displayed_picture(microscope, tmp_path):
     frame = microscope.status.feed.frame
-    about = circumstances(microscope.status, STATE, NOW, "a.arrows")
-    contrast = Contrast(auto=False, table=Table.INVERTED)
-    tiff, png = write_pictures(tmp_path / "pictures", frame, contrast, about, "one")
+    circumstances = make_circumstances(microscope.status, STATE, NOW, "a.arrows")
+    contrast = ContrastSettings(auto=False, table=ColourTable.INVERTED)
+    tiff, png = write_pictures(tmp_path / "pictures", frame, contrast, circumstances, "one")
     with tifffile.TiffFile(tiff) as file:
         np.testing.assert_array_equal(file.pages[0].asarray(), frame.pixels)
-        facts = json.loads(file.pages[0].description)
-    assert facts["taken"] == "2026-03-04T05:06:07.890+00:00"
-    assert (facts["camera"], facts["objective"]) == ("Fake (fake:0)", "20x")
-    assert facts["pixel_m"] == microscope.status.pixel_m
-    assert (facts["command"], facts["measured"]) == ({"x": 0.01}, {"x": 0.0101})
-    assert facts["recording"] == "a.arrows"
+        metadata = json.loads(file.pages[0].description)
+    assert metadata["taken"] == "2026-03-04T05:06:07.890+00:00"
+    assert (metadata["camera"], metadata["objective"]) == ("Fake (fake:0)", "20x")
+    assert metadata["pixel_m"] == microscope.status.pixel_m
+    assert (metadata["command"], metadata["measured"]) == ({"x": 0.01}, {"x": 0.0101})
+    assert metadata["recording"] == "a.arrows"
     with Image.open(png) as image:
-        seen = np.asarray(image)
+        displayed = np.asarray(image)
     expected = 255 - np.rint(255.0 * frame.pixels / 4095)
-    np.testing.assert_array_equal(seen[..., 1], expected)
+    np.testing.assert_array_equal(displayed[..., 1], expected)
     (tmp_path / "pictures" / "taken").write_text("")
     with pytest.raises(MicroscopeError, match="cannot be created"):
-        write_pictures(tmp_path / "pictures" / "taken", frame, contrast, about, "one")
+        write_pictures(tmp_path / "pictures" / "taken", frame, contrast, circumstances, "one")
 
 
-def test_a_film_has_every_picture_that_is_told_until_it_ends(microscope, filming, frame_of):
-    path = filming.begin(microscope.status, STATE, None)
+def test_a_video_has_every_picture_until_it_ends(microscope, video_capture, make_numbered_frame):
+    path = video_capture.begin(microscope.status, STATE, None)
     assert path.name == "2026-03-04_05-06-07-890000.tif"
     with pytest.raises(MicroscopeError, match="end it first"):
-        filming.begin(microscope.status, STATE, None)
-    (tell,) = microscope.listeners
+        video_capture.begin(microscope.status, STATE, None)
+    (listener,) = microscope.listeners
     for number in range(5):
-        tell(frame_of(number))
-    status = filming.end().close()
+        listener(make_numbered_frame(number))
+    status = video_capture.end().close()
     assert microscope.listeners == []
-    assert (status.pictures, filming.status) == (5, None)
-    assert summary(path, status) == f"Saved {path}: 5 pictures of 0.4 s"
-    assert progress(status).startswith("5 pictures, 0 s, 0 MB")
+    assert (status.pictures, video_capture.status) == (5, None)
+    assert describe_video(path, status) == f"Saved {path}: 5 pictures of 0.4 s"
+    assert format_progress(status).startswith("5 pictures, 0 s, 0 MB")
     with tifffile.TiffFile(path) as file:
-        facts = [json.loads(page.description) for page in file.pages]
-    assert [one["number"] for one in facts] == list(range(5))
-    assert facts[0]["objective"] == "20x"
+        metadata = [json.loads(page.description) for page in file.pages]
+    assert [entry["number"] for entry in metadata] == list(range(5))
+    assert metadata[0]["objective"] == "20x"
     with pytest.raises(MicroscopeError, match="no video"):
-        filming.end()
+        video_capture.end()
     microscope.feed(frame=None)
     with pytest.raises(MicroscopeError, match="no picture"):
-        filming.begin(microscope.status, STATE, None)
+        video_capture.begin(microscope.status, STATE, None)
 
 
-def test_a_film_of_a_recording_says_so_and_so_does_the_recording(microscope, filming):
-    running = recorder()
-    path = filming.begin(microscope.status, STATE, running)
+def test_a_video_and_its_recording_name_each_other(microscope, video_capture):
+    recorder = make_recorder()
+    path = video_capture.begin(microscope.status, STATE, recorder)
     assert path.name == "session.tif"
-    assert running.notes == ["video session.tif"]
+    assert recorder.notes == ["video session.tif"]
     microscope.listeners[0](microscope.status.feed.frame)
-    filming.end().close()
+    video_capture.end().close()
     with tifffile.TiffFile(path) as file:
-        facts = json.loads(file.pages[0].description)
-    assert (facts["recording"], facts["recording_began_s"]) == ("session.arrows", 2.5)
-    assert filming.begin(microscope.status, STATE, running).name == "session_2.tif"
+        metadata = json.loads(file.pages[0].description)
+    assert (metadata["recording"], metadata["recording_began_s"]) == ("session.arrows", 2.5)
+    assert video_capture.begin(microscope.status, STATE, recorder).name == "session_2.tif"
 
 
-def test_films_follow_recordings_where_that_is_wanted(microscope, filming):
-    first, second = recorder("one"), recorder("two")
-    assert filming.due(first) is None  # nobody wants it
-    filming.follows = True
-    assert filming.due(first) is True
-    filming.begin(microscope.status, STATE, first)
-    assert filming.due(first) is None
-    assert filming.due(None) is False
-    filming.end().close()
-    assert filming.due(None) is None
-    filming.begin(microscope.status, STATE, None)  # by hand: it goes on beside a recording
-    assert filming.due(second) is None
-    assert filming.due(second) is None
-    assert filming.due(None) is None
+def test_videos_follow_recordings_if_chosen(microscope, video_capture):
+    first, second = make_recorder("one"), make_recorder("two")
+    assert video_capture.follow_recording(first) is None  # not chosen yet
+    video_capture.follows_recordings = True
+    assert video_capture.follow_recording(first) is True
+    video_capture.begin(microscope.status, STATE, first)
+    assert video_capture.follow_recording(first) is None
+    assert video_capture.follow_recording(None) is False
+    video_capture.end().close()
+    assert video_capture.follow_recording(None) is None
+    # A video started by hand is independent of recordings.
+    video_capture.begin(microscope.status, STATE, None)
+    assert video_capture.follow_recording(second) is None
+    assert video_capture.follow_recording(second) is None
+    assert video_capture.follow_recording(None) is None

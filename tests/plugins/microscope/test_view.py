@@ -1,4 +1,4 @@
-"""The picture and the pointer tools in it, on a microscope that does what the test says."""
+"""The picture view and its pointer tools, with a fake microscope."""
 
 import threading
 
@@ -9,38 +9,36 @@ from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtGui import QColor, QWheelEvent
 from PySide6.QtWidgets import QApplication
 
-from rotemina.app.cameras.feed import FeedState
-from rotemina.app.microscope.errors import MicroscopeError
-from rotemina.app.microscope.status import TipSeen, TipState
-from rotemina.app.microscope.targets import Target
+from rotemina.app.cameras import FeedState
+from rotemina.app.errors import MicroscopeError
+from rotemina.app.microscope import MarkedTarget, TipState, TipStatus
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.operator_requests import Requests
-from rotemina.app.shell.theme import DARK
-from rotemina.drivers.cameras.frame import Frame, Region
-from rotemina.drivers.gate import Gate
-from rotemina.drivers.samples import DeviceState
-from rotemina.plugins.microscope.contrast import Contrast
+from rotemina.app.widgets.style.theme import DARK
+from rotemina.app.workbench import OperatorRequests
+from rotemina.drivers.cameras import CameraFrame, SensorRegion
+from rotemina.drivers.contract import DeviceState, Gate
+from rotemina.plugins.microscope.contrast import ContrastSettings
 from rotemina.plugins.microscope.histogram_view import HistogramView
-from rotemina.plugins.microscope.overlays import Layer
-from rotemina.plugins.microscope.picture import Wanted
+from rotemina.plugins.microscope.overlays import OverlayLayer
+from rotemina.plugins.microscope.picture import PictureRequest
 from rotemina.plugins.microscope.picture_view import PictureView, PointerTool
-from rotemina.plugins.microscope.pointer_tools import PointerTools
+from rotemina.plugins.microscope.pointer_tools import PointerController
 
 LEFT = Qt.MouseButton.LeftButton
 
 
 @pytest.fixture
 def view(qtbot, microscope):
-    made = PictureView(DARK)
-    qtbot.addWidget(made)
-    made.resize(260, 206)  # two screen pixels a pixel
-    made.show_status(microscope.status)
-    made.show()
-    return made
+    picture_view = PictureView(DARK)
+    qtbot.addWidget(picture_view)
+    picture_view.resize(260, 206)  # two screen pixels per picture pixel
+    picture_view.show_status(microscope.status)
+    picture_view.show()
+    return picture_view
 
 
-class FeedNotice:
-    """A session of which tools ask state, permits and stops."""
+class FakeSession:
+    """A session that provides state, permits and stops to the tools."""
 
     def __init__(self):
         gate = Gate()
@@ -57,138 +55,144 @@ class FeedNotice:
 
 @pytest.fixture
 def session():
-    return FeedNotice()
+    return FakeSession()
 
 
 @pytest.fixture
 def tools(microscope, view, session):
-    microscope.change(tip=TipSeen(TipState.TRACKED, np.array([65.0, 51.0])))
-    made = PointerTools(Requests(session), microscope, view)
-    made.said = []
-    made.asked = []
-    made._workbench.refused.connect(made.said.append)
-    made.asks.connect(made.asked.append)
-    return made
+    microscope.change(tip=TipStatus(TipState.TRACKED, np.array([65.0, 51.0])))
+    controller = PointerController(OperatorRequests(session), microscope, view)
+    controller.refusals = []
+    controller.questions = []
+    controller._workbench.refused.connect(controller.refusals.append)
+    controller.confirmation_requested.connect(controller.questions.append)
+    return controller
 
 
-def at(view, column, row):
+def to_point(view, column, row):
     return QPointF(*view.viewport.to_screen(column, row)).toPoint()
 
 
-def names(microscope):
-    return [one[0] for one in microscope.asked]
+def list_call_names(microscope):
+    return [call[0] for call in microscope.calls]
 
 
-def test_the_newest_picture_is_painted_where_it_belongs(qtbot, view, microscope):
+def test_the_newest_picture_is_painted_at_its_place_and_veiled_if_frozen(qtbot, view, microscope):
     pixels = np.zeros((103, 130), np.uint16)
     pixels[40:60, 30:50] = 4095
-    taken = Frame(pixels, 0.0, 1, 12, Region(0, 0, 130, 103))
-    for layer in Layer:
+    frame = CameraFrame(pixels, 0.0, 1, 12, SensorRegion(0, 0, 130, 103))
+    for layer in OverlayLayer:
         view.set_layer(layer, False)
-    view.set_contrast(Contrast(auto=False))
-    with qtbot.waitSignal(view.painted, check_params_cb=lambda frame: frame is taken):
-        microscope.feed(frame=taken)
+    view.set_contrast(ContrastSettings(auto=False))
+    with qtbot.waitSignal(view.painted, check_params_cb=lambda painted: painted is frame):
+        microscope.feed(frame=frame)
         view.show_status(microscope.status)
     image = view.grab().toImage()
     for column, row, level in ((31, 41, 255), (49, 59, 255), (29, 50, 0), (51, 50, 0), (40, 39, 0)):
-        place = at(view, column, row)
-        assert QColor(image.pixel(place.x(), place.y())).red() == level
+        point = to_point(view, column, row)
+        assert QColor(image.pixel(point.x(), point.y())).red() == level
     microscope.feed(state=FeedState.FROZEN, reason="the same again")
     view.show_status(microscope.status)
     veiled = view.grab().toImage()
     corner = QPoint(250, 200)
     assert QColor(image.pixel(corner)).red() == 0
-    assert QColor(veiled.pixel(corner)).red() > 0  # greyed, so that all see it
+    assert QColor(veiled.pixel(corner)).red() > 0  # a frozen picture is greyed
 
 
-def test_pictures_that_come_faster_than_they_are_drawn_are_passed_over(qtbot, view, microscope):
+def test_pictures_that_arrive_faster_than_they_are_drawn_are_skipped(qtbot, view, microscope):
     painted = []
     view.painted.connect(painted.append)
-    came = [
-        Frame(np.full((103, 130), level, np.uint16), 0.0, level, 12, Region(0, 0, 130, 103))
+    frames = [
+        CameraFrame(
+            np.full((103, 130), level, np.uint16), 0.0, level, 12, SensorRegion(0, 0, 130, 103)
+        )
         for level in (100, 1000, 2000, 4095)
     ]
-    view.set_contrast(Contrast(auto=False))
-    for frame in came:
+    view.set_contrast(ContrastSettings(auto=False))
+    for frame in frames:
         microscope.feed(frame=frame)
         view.show_status(microscope.status)
-    qtbot.waitUntil(lambda: bool(painted) and painted[-1] is came[-1])
-    assert not any(frame is came[1] or frame is came[2] for frame in painted)
-    place = at(view, 65, 30)
-    assert QColor(view.grab().toImage().pixel(place)).red() == 255
+    qtbot.waitUntil(lambda: bool(painted) and painted[-1] is frames[-1])
+    assert not any(frame is frames[1] or frame is frames[2] for frame in painted)
+    point = to_point(view, 65, 30)
+    assert QColor(view.grab().toImage().pixel(point)).red() == 255
 
 
 @pytest.fixture
-def held_work(monkeypatch):
-    """Work on pictures that goes on when it is let; on whatever thread it is not the window's."""
-    begun, let = threading.Event(), threading.Event()
-    work = Wanted.worked_out
+def blocked_rendering(monkeypatch):
+    """Block rendering outside the main thread until an event is set; yield its two events."""
+    started, may_continue = threading.Event(), threading.Event()
+    render = PictureRequest.render
 
-    def held(wanted):
+    def render_when_allowed(request):
         if threading.current_thread() is not threading.main_thread():
-            begun.set()
-            assert let.wait(10.0)
-        return work(wanted)
+            started.set()
+            assert may_continue.wait(10.0)
+        return render(request)
 
-    monkeypatch.setattr(Wanted, "worked_out", held)
-    yield begun, let
-    let.set()
+    monkeypatch.setattr(PictureRequest, "render", render_when_allowed)
+    yield started, may_continue
+    may_continue.set()
 
 
-def test_a_camera_that_is_closed_meanwhile_leaves_no_picture(qtbot, view, microscope, held_work):
-    begun, let = held_work
-    qtbot.waitUntil(lambda: not view._work.busy or begun.is_set())
-    let.clear()
-    frame = Frame(np.full((103, 130), 4095, np.uint16), 0.0, 1, 12, Region(0, 0, 130, 103))
+def test_a_camera_that_closes_during_rendering_leaves_no_picture(
+    qtbot, view, microscope, blocked_rendering
+):
+    started, may_continue = blocked_rendering
+    qtbot.waitUntil(lambda: not view._renderer.busy or started.is_set())
+    may_continue.clear()
+    frame = CameraFrame(
+        np.full((103, 130), 4095, np.uint16), 0.0, 1, 12, SensorRegion(0, 0, 130, 103)
+    )
     microscope.feed(frame=frame)
     view.show_status(microscope.status)
     microscope.feed(frame=None)
     view.show_status(microscope.status)
-    let.set()
-    qtbot.waitUntil(lambda: not view._work.busy)
-    dark = Frame(np.zeros((103, 130), np.uint16), 0.0, 2, 12, Region(0, 0, 130, 103))
-    let.clear()
+    may_continue.set()
+    qtbot.waitUntil(lambda: not view._renderer.busy)
+    dark = CameraFrame(np.zeros((103, 130), np.uint16), 0.0, 2, 12, SensorRegion(0, 0, 130, 103))
+    may_continue.clear()
     microscope.feed(frame=dark)
-    with qtbot.waitSignal(view.painted, check_params_cb=lambda one: one is dark):
-        view.show_status(microscope.status)  # which is under way when it is painted
+    with qtbot.waitSignal(view.painted, check_params_cb=lambda painted: painted is dark):
+        view.show_status(microscope.status)  # rendering is still running when the view is painted
         view.repaint()
 
 
-def test_a_view_may_go_while_its_picture_is_worked_out(qtbot, microscope, held_work):
-    begun, let = held_work
-    gone = PictureView(DARK)
-    gone.show_status(microscope.status)
-    assert begun.wait(10.0)
-    thread = gone._work._thread
-    shiboken6.delete(gone)
-    let.set()
-    thread.shutdown(wait=True)  # what it tells reaches nobody, and breaks nothing
+def test_a_view_may_be_deleted_while_its_picture_is_rendered(qtbot, microscope, blocked_rendering):
+    started, may_continue = blocked_rendering
+    deleted_view = PictureView(DARK)
+    deleted_view.show_status(microscope.status)
+    assert started.wait(10.0)
+    thread = deleted_view._renderer._thread
+    shiboken6.delete(deleted_view)
+    may_continue.set()
+    thread.shutdown(wait=True)  # its result must not reach the deleted view
     QApplication.processEvents()
 
 
 def test_a_zoom_does_not_wait_for_the_picture(qtbot, view, microscope):
-    for layer in Layer:
+    for layer in OverlayLayer:
         view.set_layer(layer, False)
-    view.set_contrast(Contrast(auto=False))
+    view.set_contrast(ContrastSettings(auto=False))
     pixels = np.zeros((103, 130), np.uint16)
     pixels[45:55, 60:70] = 4095
-    frame = Frame(pixels, 0.0, 1, 12, Region(0, 0, 130, 103))
+    frame = CameraFrame(pixels, 0.0, 1, 12, SensorRegion(0, 0, 130, 103))
     microscope.feed(frame=frame)
-    with qtbot.waitSignal(view.painted, check_params_cb=lambda one: one is frame):
+    with qtbot.waitSignal(view.painted, check_params_cb=lambda painted: painted is frame):
         view.show_status(microscope.status)
     view.show_one_to_one()
     image = view.grab().toImage()
     for column, row, level in ((61, 46, 255), (68, 53, 255), (58, 50, 0), (72, 50, 0)):
-        place = at(view, column, row)
-        assert QColor(image.pixel(place)).red() == level
+        point = to_point(view, column, row)
+        assert QColor(image.pixel(point)).red() == level
 
 
-def test_wheel_pan_and_keys(qtbot, view):
-    about = QPointF(60.0, 40.0)
-    held = view.viewport.to_picture(60.0, 40.0)
+def test_the_wheel_zooms_a_drag_pans_and_keys_reset(qtbot, view):
+    cursor = QPointF(60.0, 40.0)
+    anchored_pixel = view.viewport.to_picture(60.0, 40.0)
     wheel = QWheelEvent(
-        about,
-        view.mapToGlobal(about),
+        cursor,
+        view.mapToGlobal(cursor),
         QPoint(),
         QPoint(0, 240),
         Qt.MouseButton.NoButton,
@@ -198,27 +202,27 @@ def test_wheel_pan_and_keys(qtbot, view):
     )
     view.wheelEvent(wheel)
     assert view.viewport.zoom == pytest.approx(2.0 * 1.2**2)
-    assert view.viewport.to_screen(*held) == pytest.approx((60.0, 40.0))
+    assert view.viewport.to_screen(*anchored_pixel) == pytest.approx((60.0, 40.0))
     qtbot.mousePress(view, Qt.MouseButton.MiddleButton, pos=QPoint(100, 100))
     qtbot.mouseMove(view, QPoint(110, 95))
     qtbot.mouseRelease(view, Qt.MouseButton.MiddleButton, pos=QPoint(110, 95))
-    assert view.viewport.to_screen(*held) == pytest.approx((70.0, 35.0))
-    view.set_tool(PointerTool.MARK)  # the left button has other work: the space bar makes it pan
-    before = view.viewport.at
+    assert view.viewport.to_screen(*anchored_pixel) == pytest.approx((70.0, 35.0))
+    view.set_tool(PointerTool.MARK)  # with this tool, only the space bar makes the left button pan
+    view_centre = view.viewport.at
     with qtbot.assertNotEmitted(view.pressed):
         qtbot.keyPress(view, Qt.Key.Key_Space)
         qtbot.mousePress(view, LEFT, pos=QPoint(100, 100))
         qtbot.mouseMove(view, QPoint(90, 100))
         qtbot.mouseRelease(view, LEFT, pos=QPoint(90, 100))
         qtbot.keyRelease(view, Qt.Key.Key_Space)
-    assert view.viewport.at != before
+    assert view.viewport.at != view_centre
     qtbot.keyClick(view, Qt.Key.Key_1)
     assert view.viewport.zoom == pytest.approx(1.0)
     qtbot.keyClick(view, Qt.Key.Key_F)
     assert view.viewport.zoom == pytest.approx(2.0)
 
 
-def test_nothing_moves_unless_the_mode_is_on(qtbot, view, microscope, tools):
+def test_clicks_move_nothing_unless_the_move_tool_is_chosen(qtbot, view, microscope, tools):
     for tool in (
         PointerTool.PAN,
         PointerTool.MARK,
@@ -226,107 +230,115 @@ def test_nothing_moves_unless_the_mode_is_on(qtbot, view, microscope, tools):
         PointerTool.CELL,
         PointerTool.MEASURE,
     ):
-        tools.choose(tool)
-        qtbot.mouseClick(view, LEFT, pos=at(view, 80, 40))
-    assert names(microscope) == ["mark_target", "track", "outline_cell", "forget_measure"]
-    tools.choose(PointerTool.MEASURE)
-    microscope.asked.clear()
-    qtbot.mousePress(view, LEFT, pos=at(view, 20, 20))
-    qtbot.mouseMove(view, at(view, 60, 50))
-    assert view.line is not None
-    qtbot.mouseRelease(view, LEFT, pos=at(view, 60, 50))
-    (name, begin, end), *_ = microscope.asked
+        tools.choose_tool(tool)
+        qtbot.mouseClick(view, LEFT, pos=to_point(view, 80, 40))
+    assert list_call_names(microscope) == [
+        "mark_target",
+        "track",
+        "outline_cell",
+        "clear_measurement",
+    ]
+    tools.choose_tool(PointerTool.MEASURE)
+    microscope.calls.clear()
+    qtbot.mousePress(view, LEFT, pos=to_point(view, 20, 20))
+    qtbot.mouseMove(view, to_point(view, 60, 50))
+    assert view.measure_line is not None
+    qtbot.mouseRelease(view, LEFT, pos=to_point(view, 60, 50))
+    (name, begin, end), *_ = microscope.calls
     assert name == "measure"
     assert np.subtract(end, begin) == pytest.approx([40.0, 30.0])
-    assert view.line is None
+    assert view.measure_line is None
 
 
-def test_a_click_plans_shows_and_goes_and_a_drag_follows(qtbot, view, microscope, tools):
-    tools.choose(PointerTool.MOVE)
-    qtbot.mousePress(view, LEFT, pos=at(view, 80, 40))
-    assert microscope.status.planned is not None  # the ghost, before anything has moved
-    assert names(microscope) == ["plan"]
-    qtbot.mouseMove(view, at(view, 90, 45))
-    qtbot.mouseRelease(view, LEFT, pos=at(view, 90, 45))
-    assert names(microscope) == ["plan", "plan", "go", "cancel_plan"]
-    assert microscope.asked[1][1] == pytest.approx((90.0, 45.0), abs=0.5)
-    assert microscope.asked[2] == ("go", False)
+def test_a_press_plans_a_move_a_drag_updates_it_and_a_release_starts_it(
+    qtbot, view, microscope, tools
+):
+    tools.choose_tool(PointerTool.MOVE)
+    qtbot.mousePress(view, LEFT, pos=to_point(view, 80, 40))
+    # The planned tip is shown before anything moves.
+    assert microscope.status.planned_move is not None
+    assert list_call_names(microscope) == ["plan"]
+    qtbot.mouseMove(view, to_point(view, 90, 45))
+    qtbot.mouseRelease(view, LEFT, pos=to_point(view, 90, 45))
+    assert list_call_names(microscope) == ["plan", "plan", "go", "cancel_plan"]
+    assert microscope.calls[1][1] == pytest.approx((90.0, 45.0), abs=0.5)
+    assert microscope.calls[2] == ("go", False)
 
 
-def test_a_large_move_waits_for_a_yes(qtbot, view, microscope, tools):
+def test_a_large_move_needs_a_confirmation(qtbot, view, microscope, tools):
     microscope.confirm = True
-    tools.choose(PointerTool.MOVE)
-    qtbot.mouseClick(view, LEFT, pos=at(view, 80, 40))
-    assert "go" not in names(microscope)
-    assert tools.asked[-1] == "Move the tip 20 µm with the micro stage, ± 0.5 px?"
+    tools.choose_tool(PointerTool.MOVE)
+    qtbot.mouseClick(view, LEFT, pos=to_point(view, 80, 40))
+    assert "go" not in list_call_names(microscope)
+    assert tools.questions[-1] == "Move the tip 20 µm with the micro stage, ± 0.5 px?"
     tools.answer(False)
-    assert (names(microscope)[-1], tools.asked[-1]) == ("cancel_plan", "")
-    tools.answer(True)  # of a question that was answered already
-    assert "go" not in names(microscope)
-    qtbot.mouseClick(view, LEFT, pos=at(view, 80, 40))
+    assert (list_call_names(microscope)[-1], tools.questions[-1]) == ("cancel_plan", "")
+    tools.answer(True)  # an answer to a question that was answered already
+    assert "go" not in list_call_names(microscope)
+    qtbot.mouseClick(view, LEFT, pos=to_point(view, 80, 40))
     tools.answer(True)
-    assert ("go", True) in microscope.asked
+    assert ("go", True) in microscope.calls
 
 
-@pytest.mark.parametrize("way", ["Esc", "stop", "hidden", "frozen", "mode off"])
-def test_what_ends_the_mode_forgets_the_move(
-    qtbot, view, microscope, tools, session, press_escape, way
+@pytest.mark.parametrize("interruption", ["Esc", "stop", "hidden", "frozen", "mode off"])
+def test_leaving_the_move_tool_cancels_the_planned_move(
+    qtbot, view, microscope, tools, session, press_escape, interruption
 ):
     microscope.confirm = True
-    tools.choose(PointerTool.MOVE)
-    qtbot.mouseClick(view, LEFT, pos=at(view, 80, 40))
-    if way == "Esc":
+    tools.choose_tool(PointerTool.MOVE)
+    qtbot.mouseClick(view, LEFT, pos=to_point(view, 80, 40))
+    if interruption == "Esc":
         press_escape(view)
-    elif way == "stop":
+    elif interruption == "stop":
         session.stop()
-    elif way == "hidden":
+    elif interruption == "hidden":
         view.hide()
-    elif way == "frozen":
+    elif interruption == "frozen":
         microscope.feed(state=FeedState.FROZEN)
     else:
-        tools.choose(PointerTool.PAN)
+        tools.choose_tool(PointerTool.PAN)
     tools.refresh(microscope.status)
     assert view.tool is PointerTool.PAN
-    assert microscope.status.planned is None
-    assert tools.asked[-1] == ""
+    assert microscope.status.planned_move is None
+    assert tools.questions[-1] == ""
     tools.answer(True)
-    assert "go" not in names(microscope)
+    assert "go" not in list_call_names(microscope)
 
 
-def test_what_speaks_against_a_move_is_said_and_nothing_is_planned(
+def test_an_objection_to_a_move_is_reported_and_nothing_is_planned(
     qtbot, view, microscope, tools, session
 ):
-    tools.choose(PointerTool.MOVE)
-    microscope.change(tip=TipSeen(TipState.LOST))
-    qtbot.mouseClick(view, LEFT, pos=at(view, 80, 40))
-    assert names(microscope) == []
-    assert "no move: the tip is not tracked" in tools.said[-1]
-    tools.choose(PointerTool.MARK)
-    against = tools.against(microscope.status, session.state)
-    assert "tip is not tracked" in against[PointerTool.MOVE]
-    assert against[PointerTool.MARK] is None
-    tools.choose(PointerTool.MOVE)
-    microscope.change(tip=TipSeen(TipState.TRACKED))
-    microscope.refuses = MicroscopeError("outside the calibrated field")
-    qtbot.mouseClick(view, LEFT, pos=at(view, 80, 40))
-    assert tools.said[-1] == "outside the calibrated field"
-    assert "go" not in names(microscope)
+    tools.choose_tool(PointerTool.MOVE)
+    microscope.change(tip=TipStatus(TipState.LOST))
+    qtbot.mouseClick(view, LEFT, pos=to_point(view, 80, 40))
+    assert list_call_names(microscope) == []
+    assert "no move: the tip is not tracked" in tools.refusals[-1]
+    tools.choose_tool(PointerTool.MARK)
+    objections = tools.find_objections(microscope.status, session.state)
+    assert "tip is not tracked" in objections[PointerTool.MOVE]
+    assert objections[PointerTool.MARK] is None
+    tools.choose_tool(PointerTool.MOVE)
+    microscope.change(tip=TipStatus(TipState.TRACKED))
+    microscope.refusal = MicroscopeError("outside the calibrated field")
+    qtbot.mouseClick(view, LEFT, pos=to_point(view, 80, 40))
+    assert tools.refusals[-1] == "outside the calibrated field"
+    assert "go" not in list_call_names(microscope)
 
 
 def test_targets_are_visited_in_order(view, microscope, tools):
-    microscope.change(targets=(Target(10.0, 20.0), Target(30.0, 40.0)))
+    microscope.change(targets=(MarkedTarget(10.0, 20.0), MarkedTarget(30.0, 40.0)))
     tools.visit_next()
-    assert microscope.asked[0] == ("plan", (10.0, 20.0), None)
-    assert names(microscope)[1:] == ["visit_next", "cancel_plan"]
+    assert microscope.calls[0] == ("plan", (10.0, 20.0), None)
+    assert list_call_names(microscope)[1:] == ["visit_next", "cancel_plan"]
     microscope.confirm = True
-    microscope.asked.clear()
+    microscope.calls.clear()
     tools.visit_next()
-    assert names(microscope) == ["plan"]
+    assert list_call_names(microscope) == ["plan"]
     tools.answer(True)
-    assert ("visit_next", True) in microscope.asked
+    assert ("visit_next", True) in microscope.calls
 
 
-def test_the_handles_of_the_histogram(qtbot):
+def test_the_handles_of_the_histogram_do_not_cross(qtbot):
     view = HistogramView(DARK)
     qtbot.addWidget(view)
     view.resize(200, 70)
@@ -335,7 +347,7 @@ def test_the_handles_of_the_histogram(qtbot):
     view.moved.connect(lambda low, high: moves.append((low, high)))
     qtbot.mousePress(view, LEFT, pos=QPoint(50, 30))
     qtbot.mouseMove(view, QPoint(80, 30))
-    qtbot.mouseMove(view, QPoint(190, 30))  # not past the other
+    qtbot.mouseMove(view, QPoint(190, 30))  # must stop before the other handle
     qtbot.mouseRelease(view, LEFT, pos=QPoint(190, 30))
     qtbot.mouseMove(view, QPoint(20, 30))
     assert moves[0] == pytest.approx((0.4, 0.75))

@@ -1,26 +1,26 @@
-"""What a plan gives, in figures and curves, and where a simulated cell is put."""
+"""Figures and curves of a plan, and the place of a simulated cell."""
 
 import numpy as np
 import pytest
 
-from rotemina.app.motion.penetration.parameters import PenetrationParameters
-from rotemina.app.motion.penetration.thrust import ThrustTrace, plan_thrust
+from rotemina.app.motion.penetration import PenetrationParameters, ThrustTrace
+from rotemina.app.motion.penetration.thrust import plan_thrust
 from rotemina.app.motion.session import MotionSession
-from rotemina.drivers.simulator.driver import Simulator
-from rotemina.plugins.penetration.cell_view import cells_text, with_cell, without_cell
+from rotemina.drivers.simulator import Simulator
+from rotemina.plugins.penetration import PlanPreview
+from rotemina.plugins.penetration.cell_view import describe_cells, with_cell, without_cell
 from rotemina.plugins.penetration.plan_preview import (
-    PlanPreview,
-    commanded_curve,
-    measured_curve,
-    wanted_curve,
+    make_commanded_curve,
+    make_desired_curve,
+    make_measured_curve,
 )
 from rotemina.sim.errors import InputError
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.robot import AxisEffect
+from rotemina.sim.robot_files import load_robot
 
 ROBOT = load_robot("rotemina")
 CREEP = AxisEffect(axis="zn", id="creep")
-ELSEWHERE = AxisEffect(axis="z", id="contact")
+CONTACT_Z = AxisEffect(axis="z", id="contact")
 
 
 @pytest.fixture(scope="module")
@@ -32,22 +32,22 @@ def plan(**parameters):
     return plan_thrust(ROBOT, PenetrationParameters(**parameters), 1e-3)
 
 
-def test_figures_are_those_of_the_plan_and_the_place(session):
-    preview = PlanPreview.of(session, PenetrationParameters())
-    assert preview.figures(ROBOT, 32.5e-6) == (
+def test_figures_show_the_plan_and_the_travel_left(session):
+    preview = PlanPreview.plan_for_session(session, PenetrationParameters())
+    assert preview.format_figures(ROBOT, 32.5e-6) == (
         "556 µm/s",
         "815 µm/s",
         "50.00 µm",
         "62.00 µm",
         "32.50 µm",
     )
-    assert preview.figures(ROBOT, None)[-1] == "–"
-    up = PlanPreview.of(session, PenetrationParameters(direction="up"))
-    assert up.figures(ROBOT, 10e-6)[-1] == "55.00 µm"
+    assert preview.format_figures(ROBOT, None)[-1] == "–"
+    up = PlanPreview.plan_for_session(session, PenetrationParameters(direction="up"))
+    assert up.format_figures(ROBOT, 10e-6)[-1] == "55.00 µm"
 
 
 @pytest.mark.parametrize(
-    ("parameters", "said"),
+    ("parameters", "problem"),
     [
         ({"axis": "q"}, "has no axis 'q'"),
         ({"axis": "thx"}, "rotates"),
@@ -55,57 +55,59 @@ def test_figures_are_those_of_the_plan_and_the_place(session):
         ({"shape": "table", "table": [[0, 0], [1, 1]], "shaping": "inverse"}, "feed-forward"),
     ],
 )
-def test_without_a_plan_it_says_why_and_gives_no_figures(session, parameters, said):
-    preview = PlanPreview.of(session, PenetrationParameters(**parameters))
+def test_an_impossible_plan_has_a_reason_and_no_figures(session, parameters, problem):
+    preview = PlanPreview.plan_for_session(session, PenetrationParameters(**parameters))
     assert preview.plan is None
-    assert said in preview.problem
-    assert set(preview.figures(ROBOT, 0.0)) == {"–"}
+    assert problem in preview.problem
+    assert set(preview.format_figures(ROBOT, 0.0)) == {"–"}
 
 
 @pytest.mark.parametrize("direction", ["down", "up"])
 @pytest.mark.parametrize("shaping", ["none", "zvd", "inverse"])
-def test_curves_go_into_the_cell_and_their_slope_is_their_speed(direction, shaping):
-    made = plan(direction=direction, shaping=shaping)
-    for curve in (wanted_curve(made), commanded_curve(made)):
-        assert curve.way[0] == 0.0
-        assert curve.way[-1] == pytest.approx(50e-6, rel=1e-3)
-        assert curve.speed.max() == pytest.approx(made.peak_speed, rel=0.02)
-        inside = (curve.time_s > 1e-3) & (curve.time_s < 0.089)
-        slope = np.gradient(curve.way, curve.time_s)[inside]
-        assert np.abs(slope - curve.speed[inside]).max() < 0.03 * made.peak_speed
+def test_the_slope_of_the_depth_curve_is_the_speed(direction, shaping):
+    thrust_plan = plan(direction=direction, shaping=shaping)
+    for curve in (make_desired_curve(thrust_plan), make_commanded_curve(thrust_plan)):
+        assert curve.depth[0] == 0.0
+        assert curve.depth[-1] == pytest.approx(50e-6, rel=1e-3)
+        assert curve.speed.max() == pytest.approx(thrust_plan.peak_speed, rel=0.02)
+        is_inside = (curve.time_s > 1e-3) & (curve.time_s < 0.089)
+        slope = np.gradient(curve.depth, curve.time_s)[is_inside]
+        assert np.abs(slope - curve.speed[is_inside]).max() < 0.03 * thrust_plan.peak_speed
 
 
-def test_what_was_measured_is_drawn_over_what_was_wanted():
-    made = plan()
+def test_the_measured_curve_covers_the_planned_thrust():
+    thrust_plan = plan()
     time_s = np.arange(-200, 300) / 1000.0
-    curve = measured_curve(ThrustTrace(time_s, made.wanted.position(time_s), made))
+    curve = make_measured_curve(
+        ThrustTrace(time_s, thrust_plan.target_shape.position(time_s), thrust_plan)
+    )
     assert curve.time_s[0] >= -0.15 * 0.09
-    assert curve.way[-1] == pytest.approx(50e-6)
-    assert curve.speed.max() == pytest.approx(made.peak_speed, rel=0.01)
-    short = measured_curve(ThrustTrace(time_s[200:203], time_s[200:203], made))
-    assert len(short.way) == 3
+    assert curve.depth[-1] == pytest.approx(50e-6)
+    assert curve.speed.max() == pytest.approx(thrust_plan.peak_speed, rel=0.01)
+    short = make_measured_curve(ThrustTrace(time_s[200:203], time_s[200:203], thrust_plan))
+    assert len(short.depth) == 3
 
 
-def test_a_cell_is_put_ahead_moved_and_taken_away():
-    once = with_cell(ROBOT, (CREEP, ELSEWHERE), "zn", 59e-6, -1.0, 0.1)
-    assert once[:2] == (CREEP, ELSEWHERE)
-    assert once[2].parameters == {"place": pytest.approx(59e-6), "stiffness": -0.1}
-    moved = with_cell(ROBOT, once, "zn", 40e-6, 1.0, 0.5)
-    assert [one.id for one in moved] == ["creep", "contact", "contact"]
+def test_a_cell_is_placed_moved_and_removed():
+    placed = with_cell(ROBOT, (CREEP, CONTACT_Z), "zn", 59e-6, -1.0, 0.1)
+    assert placed[:2] == (CREEP, CONTACT_Z)
+    assert placed[2].parameters == {"place": pytest.approx(59e-6), "stiffness": -0.1}
+    moved = with_cell(ROBOT, placed, "zn", 40e-6, 1.0, 0.5)
+    assert [effect.id for effect in moved] == ["creep", "contact", "contact"]
     assert moved[2].parameters == {"place": pytest.approx(40e-6), "stiffness": 0.5}
-    assert cells_text(ROBOT, moved, "zn") == "A cell at 40.00 µm of Z nano."
-    assert without_cell(moved, "zn") == (CREEP, ELSEWHERE)
-    assert cells_text(ROBOT, (CREEP, ELSEWHERE), "zn") == "There is no cell."
+    assert describe_cells(ROBOT, moved, "zn") == "A cell at 40.00 µm of Z nano."
+    assert without_cell(moved, "zn") == (CREEP, CONTACT_Z)
+    assert describe_cells(ROBOT, (CREEP, CONTACT_Z), "zn") == "There is no cell."
 
 
 @pytest.mark.parametrize(
-    ("at", "stiffness", "said"),
+    ("position", "stiffness", "message"),
     [
         (-1e-6, 0.1, "a cell at -1.00 µm of Z nano must be within 0.65 µm to 64.35 µm"),
         (65e-6, 0.1, "must be within 0.65 µm to 64.35 µm"),
         (50e-6, 100.0, "stiffness"),
     ],
 )
-def test_a_cell_out_of_reach_is_refused(at, stiffness, said):
-    with pytest.raises(InputError, match=said):
-        with_cell(ROBOT, (), "zn", at, -1.0, stiffness)
+def test_a_cell_out_of_reach_is_refused(position, stiffness, message):
+    with pytest.raises(InputError, match=message):
+        with_cell(ROBOT, (), "zn", position, -1.0, stiffness)

@@ -1,36 +1,39 @@
-"""What an operator types: numbers with units, and the thrust's table."""
+"""Values that an operator types: numbers with units, and the thrust table."""
 
 from dataclasses import fields
 
 import pytest
 
-from rotemina.app.motion.penetration.parameters import BOUNDS, PenetrationParameters
+from rotemina.app.motion.penetration import PARAMETER_BOUNDS, PenetrationParameters
 from rotemina.plugins.penetration.parameter_quantities import (
     QUANTITIES,
-    Group,
-    TypedError,
-    in_group,
+    ParameterGroup,
+    ParameterInputError,
+    find_quantities,
 )
-from rotemina.plugins.penetration.thrust_table_text import EXAMPLE, read_table, table_text
+from rotemina.plugins.penetration.thrust_table_text import EXAMPLE_TABLE, format_table, parse_table
 
-CHOICES = {"axis", "direction", "shape", "shaping", "table"}
+CHOICE_PARAMETERS = {"axis", "direction", "shape", "shaping", "table"}
 
 
 def test_every_parameter_can_be_typed_or_chosen():
-    assert set(QUANTITIES) == set(BOUNDS)
-    assert set(QUANTITIES) | CHOICES == {one.name for one in fields(PenetrationParameters)}
-    assert [one for group in Group for one in in_group(group)] == list(QUANTITIES.values())
+    assert set(QUANTITIES) == set(PARAMETER_BOUNDS)
+    assert set(QUANTITIES) | CHOICE_PARAMETERS == {
+        field.name for field in fields(PenetrationParameters)
+    }
+    grouped = [quantity for group in ParameterGroup for quantity in find_quantities(group)]
+    assert grouped == list(QUANTITIES.values())
 
 
 @pytest.mark.parametrize("key", QUANTITIES)
-def test_bounds_and_preset_are_taken_as_they_are_shown(key):
-    one, bound = QUANTITIES[key], BOUNDS[key]
-    for value in (bound.least, bound.most, getattr(PenetrationParameters(), key)):
-        assert one.value(one.number(value)) == value
+def test_displayed_bounds_and_presets_are_accepted(key):
+    quantity, bound = QUANTITIES[key], PARAMETER_BOUNDS[key]
+    for value in (bound.minimum, bound.maximum, getattr(PenetrationParameters(), key)):
+        assert quantity.parse_value(quantity.format_number(value)) == value
 
 
 @pytest.mark.parametrize(
-    ("key", "typed", "shown"),
+    ("key", "text", "value"),
     [
         ("depth", "12.5", 12.5e-6),
         ("approach_speed", " 20 ", 2e-5),
@@ -40,12 +43,12 @@ def test_bounds_and_preset_are_taken_as_they_are_shown(key):
         ("false_alarms_per_hour", "1e-2", 0.01),
     ],
 )
-def test_units_are_those_of_the_screen(key, typed, shown):
-    assert QUANTITIES[key].value(typed) == pytest.approx(shown, rel=1e-15)
+def test_typed_values_have_the_displayed_unit(key, text, value):
+    assert QUANTITIES[key].parse_value(text) == pytest.approx(value, rel=1e-15)
 
 
 @pytest.mark.parametrize(
-    ("typed", "said"),
+    ("text", "message"),
     [
         ("500", "Depth: 500 µm must be 1 to 100 µm"),
         ("0", "must be 1 to 100 µm"),
@@ -55,24 +58,24 @@ def test_units_are_those_of_the_screen(key, typed, shown):
         ("", "is not a number"),
     ],
 )
-def test_what_is_no_depth_is_refused_with_its_bounds(typed, said):
-    with pytest.raises(TypedError, match=said):
-        QUANTITIES["depth"].value(typed)
+def test_an_invalid_depth_is_refused_with_its_bounds(text, message):
+    with pytest.raises(ParameterInputError, match=message):
+        QUANTITIES["depth"].parse_value(text)
 
 
-def test_a_tip_says_what_it_does_and_its_bounds():
-    about, bounds = QUANTITIES["retract_speed"].tip
-    assert about == "Speed of the retraction."
+def test_a_tooltip_has_a_description_and_bounds():
+    description, bounds = QUANTITIES["retract_speed"].tip
+    assert description == "Speed of the retraction."
     assert bounds == "1 to 1000 µm/s; preset 100 µm/s"
 
 
-def test_a_table_reads_back():
-    assert read_table(table_text(EXAMPLE)) == EXAMPLE
-    assert read_table("\n 0, 0\n\n 1,1 ") == ((0.0, 0.0), (1.0, 1.0))
+def test_a_formatted_table_is_parsed_again():
+    assert parse_table(format_table(EXAMPLE_TABLE)) == EXAMPLE_TABLE
+    assert parse_table("\n 0, 0\n\n 1,1 ") == ((0.0, 0.0), (1.0, 1.0))
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("", "table: 0 points; must be 2 to 200"),
         ("0, 0", "1 points"),
@@ -86,6 +89,6 @@ def test_a_table_reads_back():
         ("\n".join(f"{k / 200}, {k / 200}" for k in range(201)), "201 points"),
     ],
 )
-def test_what_is_no_table_is_refused_with_its_line(text, said):
-    with pytest.raises(TypedError, match=said):
-        read_table(text)
+def test_an_invalid_table_is_refused_with_its_line(text, message):
+    with pytest.raises(ParameterInputError, match=message):
+        parse_table(text)

@@ -1,25 +1,29 @@
-"""What the buttons do in each phase, and what is said of it."""
+"""Labels of the buttons and texts of the status in each phase."""
 
 from dataclasses import replace
 
 import pytest
 
-from rotemina.app.motion.penetration.run_log import PenetrationRun, Verdict
-from rotemina.app.motion.penetration.status import UNDER_WAY, PenetrationStatus, Phase
-from rotemina.app.motion.penetration.thrust import ThrustMeasured
+from rotemina.app.motion.penetration import (
+    RUNNING_PHASES,
+    PenetrationPhase,
+    PenetrationRun,
+    PenetrationStatus,
+    PenetrationVerdict,
+)
+from rotemina.app.motion.penetration.thrust import MeasuredThrust
 from rotemina.app.motion.state import SessionState
+from rotemina.plugins.penetration import describe_status, format_headline
 from rotemina.plugins.penetration.words import (
-    FIXED,
-    SETTLE_S,
-    STRIP,
-    Light,
-    against_button,
-    arm_word,
-    button_word,
-    counts,
-    headline,
-    lights,
-    message,
+    LOCKED_PHASES,
+    MIN_PRESS_INTERVAL_S,
+    STRIP_PHASES,
+    PhaseLight,
+    find_arm_text,
+    find_button_objection,
+    find_button_text,
+    find_lights,
+    is_press_valid,
 )
 
 RUN = PenetrationRun(
@@ -27,88 +31,122 @@ RUN = PenetrationRun(
     robot="RoTeMiNa",
     driver="simulator",
     parameters={},
-    verdict=Verdict.DONE,
+    verdict=PenetrationVerdict.DONE,
     reason="",
     phases=tuple(
-        (name, float(at))
-        for at, name in enumerate(
+        (name, float(time_s))
+        for time_s, name in enumerate(
             ("approach", "contact", "thrust", "hold", "hold after", "retract", "done")
         )
     ),
-    thrust=ThrustMeasured(4.95e-5, 3e-7, 2e-3, 5.5e-4, 8.1e-4, 1000.0),
+    thrust=MeasuredThrust(4.95e-5, 3e-7, 2e-3, 5.5e-4, 8.1e-4, 1000.0),
 )
 
 
-@pytest.mark.parametrize("phase", Phase)
-def test_the_button_says_what_a_press_does(phase):
-    words = {Phase.RETRACT: "Hold", Phase.HELD: "Retract"}
-    usual = "Stop and retract" if phase in UNDER_WAY else "Start"
-    assert button_word(phase) == words.get(phase, usual)
-    other = {Phase.ARMED: "Disarm", Phase.HELD: "Free the axes"}
-    assert arm_word(phase) == other.get(phase, "Arm")
+@pytest.mark.parametrize("phase", PenetrationPhase)
+def test_the_button_label_names_the_action_of_a_press(phase):
+    special_labels = {PenetrationPhase.RETRACT: "Hold", PenetrationPhase.HELD: "Retract"}
+    default_label = "Stop and retract" if phase in RUNNING_PHASES else "Start"
+    assert find_button_text(phase) == special_labels.get(phase, default_label)
+    special_arm_labels = {PenetrationPhase.ARMED: "Disarm", PenetrationPhase.HELD: "Free the axes"}
+    assert find_arm_text(phase) == special_arm_labels.get(phase, "Arm")
     status = PenetrationStatus(phase)
-    assert (against_button(status, SessionState()) is None) == (
-        phase in FIXED and (phase is not Phase.HELD or SessionState().locked is None)
+    assert (find_button_objection(status, SessionState()) is None) == (
+        phase in LOCKED_PHASES
+        and (phase is not PenetrationPhase.HELD or SessionState().lock_reason is None)
     )
 
 
-def test_a_held_tip_that_cannot_be_moved_says_why():
-    status = PenetrationStatus(Phase.HELD)
-    assert against_button(status, SessionState(locked="it is latched")) == "it is latched"
-    assert against_button(status, SessionState(locked=None)) is None
+def test_the_button_of_a_locked_held_tip_is_disabled_with_the_reason():
+    status = PenetrationStatus(PenetrationPhase.HELD)
+    assert (
+        find_button_objection(status, SessionState(lock_reason="it is latched")) == "it is latched"
+    )
+    assert find_button_objection(status, SessionState(lock_reason=None)) is None
 
 
-def test_a_press_acts_as_it_was_labelled_or_not_at_all():
-    # It had said "Stop and retract", and went back by itself meanwhile: it must not be held.
-    assert not counts(Phase.HOLD, Phase.RETRACT, 10.0)
-    assert not counts(Phase.ARMED, Phase.DISARMED, 10.0) or button_word(Phase.DISARMED) == "Start"
-    assert counts(Phase.APPROACH, Phase.CONTACT, 0.0)
-    # A second click in alarm neither halts the way back nor begins one.
-    assert not counts(Phase.RETRACT, Phase.RETRACT, 0.9 * SETTLE_S)
-    assert not counts(Phase.HELD, Phase.HELD, 0.9 * SETTLE_S)
-    assert counts(Phase.RETRACT, Phase.RETRACT, SETTLE_S)
+def test_a_press_counts_only_if_it_still_does_what_its_label_said():
+    # The label was "Stop and retract", but the tip already retracts: the press must not hold it.
+    assert not is_press_valid(PenetrationPhase.HOLD, PenetrationPhase.RETRACT, 10.0)
+    assert is_press_valid(PenetrationPhase.APPROACH, PenetrationPhase.CONTACT, 0.0)
+    # A hasty second click neither halts a retraction nor starts one.
+    assert not is_press_valid(
+        PenetrationPhase.RETRACT, PenetrationPhase.RETRACT, 0.9 * MIN_PRESS_INTERVAL_S
+    )
+    assert not is_press_valid(
+        PenetrationPhase.HELD, PenetrationPhase.HELD, 0.9 * MIN_PRESS_INTERVAL_S
+    )
+    assert is_press_valid(PenetrationPhase.RETRACT, PenetrationPhase.RETRACT, MIN_PRESS_INTERVAL_S)
 
 
-@pytest.mark.parametrize("phase", sorted(UNDER_WAY))
-def test_the_present_phase_alone_is_lit(phase):
-    lit = [one for one, light in zip(STRIP, lights(PenetrationStatus(phase)), strict=True) if light]
-    found = [
-        one
-        for one, light in zip(STRIP, lights(PenetrationStatus(phase, run=RUN)), strict=True)
-        if light is Light.PRESENT
+@pytest.mark.parametrize("phase", sorted(RUNNING_PHASES))
+def test_only_the_present_phase_is_lit(phase):
+    phases_with_light = [
+        strip_phase
+        for strip_phase, light in zip(
+            STRIP_PHASES, find_lights(PenetrationStatus(phase)), strict=True
+        )
+        if light
     ]
-    assert len(lit) == len(STRIP)
-    assert found == [Phase.HOLD if phase is Phase.HOLD_AFTER else phase]
+    present_phases = [
+        strip_phase
+        for strip_phase, light in zip(
+            STRIP_PHASES, find_lights(PenetrationStatus(phase, run=RUN)), strict=True
+        )
+        if light is PhaseLight.PRESENT
+    ]
+    assert len(phases_with_light) == len(STRIP_PHASES)
+    assert present_phases == [
+        PenetrationPhase.HOLD if phase is PenetrationPhase.HOLD_AFTER else phase
+    ]
 
 
-def test_afterwards_the_strip_tells_how_far_it_came():
-    done = lights(PenetrationStatus(Phase.DONE, run=RUN))
-    assert done == (*(Light.PASSED,) * 4, Light.OFF, Light.PASSED)
-    held = replace(RUN, verdict=Verdict.HELD, phases=(*RUN.phases[:3], ("held", 3.0)))
-    found = lights(PenetrationStatus(Phase.HELD, run=held))
-    assert found == (Light.PASSED, Light.PASSED, Light.HELD, Light.OFF, Light.OFF, Light.OFF)
-    assert set(lights(PenetrationStatus(Phase.ARMED, run=RUN))) == {Light.OFF}
+def test_after_a_run_the_strip_shows_the_passed_phases():
+    done_lights = find_lights(PenetrationStatus(PenetrationPhase.DONE, run=RUN))
+    assert done_lights == (*(PhaseLight.PASSED,) * 4, PhaseLight.OFF, PhaseLight.PASSED)
+    held_run = replace(
+        RUN, verdict=PenetrationVerdict.HELD, phases=(*RUN.phases[:3], ("held", 3.0))
+    )
+    held_lights = find_lights(PenetrationStatus(PenetrationPhase.HELD, run=held_run))
+    assert held_lights == (
+        PhaseLight.PASSED,
+        PhaseLight.PASSED,
+        PhaseLight.HELD,
+        PhaseLight.OFF,
+        PhaseLight.OFF,
+        PhaseLight.OFF,
+    )
+    assert set(find_lights(PenetrationStatus(PenetrationPhase.ARMED, run=RUN))) == {PhaseLight.OFF}
 
 
-def test_what_is_said_of_each_phase():
-    held = PenetrationStatus(Phase.HELD, "a stop was requested", run=RUN)
-    assert message(held, None) == (
+def test_each_phase_is_described():
+    held = PenetrationStatus(PenetrationPhase.HELD, "a stop was requested", run=RUN)
+    assert describe_status(held, None) == (
         "Held: a stop was requested. The tip stays in place; press Retract to return it, or "
         "Free the axes to move it manually."
     )
-    assert headline(PenetrationStatus(Phase.ARMED, armed_left_s=41.6)) == "armed, 42 s"
-    assert "press Start" in message(PenetrationStatus(Phase.ARMED, armed_left_s=41.6), None)
-    back = PenetrationStatus(Phase.RETRACT, "overload: too far")
-    assert message(back, None).endswith("Why: overload: too far.")
-    done = PenetrationStatus(Phase.DONE, run=RUN)
-    assert message(done, None) == (
+    assert (
+        format_headline(PenetrationStatus(PenetrationPhase.ARMED, armed_remaining_s=41.6))
+        == "armed, 42 s"
+    )
+    assert "press Start" in describe_status(
+        PenetrationStatus(PenetrationPhase.ARMED, armed_remaining_s=41.6), None
+    )
+    retracting = PenetrationStatus(PenetrationPhase.RETRACT, "overload: too far")
+    assert describe_status(retracting, None).endswith("Reason: overload: too far.")
+    done = PenetrationStatus(PenetrationPhase.DONE, run=RUN)
+    assert describe_status(done, None) == (
         "Done: depth 49.50 µm, maximum speed 810 µm/s, error 0.30 µm from the "
         "profile. Ready to arm."
     )
-    failed = replace(RUN, verdict=Verdict.FAILED, reason="no contact within 10 µm", thrust=None)
-    assert message(PenetrationStatus(Phase.FAILED, run=failed), "the machine is moving") == (
+    failed = replace(
+        RUN, verdict=PenetrationVerdict.FAILED, reason="no contact within 10 µm", thrust=None
+    )
+    assert describe_status(
+        PenetrationStatus(PenetrationPhase.FAILED, run=failed), "the machine is moving"
+    ) == (
         "Failed: no contact within 10 µm. The tip is retracted. "
         "Cannot be armed now: the machine is moving."
     )
-    late = PenetrationStatus(Phase.DISARMED, "it was not started in time", run=RUN)
-    assert message(late, None) == "Disarmed: it was not started in time. Ready to arm."
+    timed_out = PenetrationStatus(PenetrationPhase.DISARMED, "it was not started in time", run=RUN)
+    assert describe_status(timed_out, None) == "Disarmed: it was not started in time. Ready to arm."

@@ -1,15 +1,14 @@
-"""The recorder as an operator meets it: from a stick's move to the same move played again."""
+"""The recorder panel: a move of the stick is recorded, replayed, exported and played again."""
 
 import errno
 
 import pytest
 from PySide6.QtCore import Qt, QTimer
 
-from rotemina.app.motion.recording.recording_reader import Recording
-from rotemina.drivers.samples import DeviceState
-from rotemina.plugins.recorder.recording_controls import AT_START
-from rotemina.sim.records.reading import read_record
-from rotemina.sim.records.record import Tap
+from rotemina.app.motion.recording import Recording
+from rotemina.drivers.contract import DeviceState
+from rotemina.plugins.recorder.recording_controls import AT_START_SETTING
+from rotemina.sim.records import Tap, read_record
 
 LONG_MS = 30_000
 
@@ -19,44 +18,45 @@ def click(qtbot, button):
     qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
 
 
-def notices(window):
+def list_notices(window):
     return [notice.text for notice in window.notices.notices()]
 
 
-def shown(window):
+def raise_panel(window):
     window.docks["recorder"].raise_()
     return window.panels["recorder"]
 
 
 def record_a_move(qtbot, window):
-    """Move x by the pad while it is recorded; return where it began and came to rest."""
+    """Record a move of x by the pad; return its first and last position."""
     operation, session = window.workbench.operation, window.workbench.session
-    section = shown(window).recording
-    assert not section.note.isEnabled()
+    section = raise_panel(window).recording
+    assert not section.note_field.isEnabled()
     click(qtbot, section.record)
     qtbot.waitUntil(lambda: section.record.text() == "■ End recording", timeout=LONG_MS)
     qtbot.waitUntil(window._bar.recording.isVisible, timeout=LONG_MS)
     start = session.snapshot().command["x"]
-    hand = QTimer(interval=20)
-    hand.timeout.connect(lambda: operation.pad.deflect("x", 0.8))
-    hand.start()
+    pad_timer = QTimer(interval=20)
+    pad_timer.timeout.connect(lambda: operation.pad.deflect("x", 0.8))
+    pad_timer.start()
     qtbot.waitUntil(lambda: session.snapshot().command["x"] > start + 2e-5, timeout=LONG_MS)
-    hand.stop()
+    pad_timer.stop()
     operation.pad.release_all()
-    stands = [start, 0.0]  # the latest command, and since when
+    latest_command = [start, 0.0]  # the latest command, and the time since it is constant
 
-    def rests():
-        now = session.snapshot()
-        if now.command["x"] != stands[0] or now.activity is not DeviceState.IDLE:
-            stands[:] = now.command["x"], now.device_time_s
-        return now.device_time_s > stands[1] + 0.2  # no lease of a speed lasts so long
+    def has_rested():
+        state = session.snapshot()
+        if state.command["x"] != latest_command[0] or state.activity is not DeviceState.IDLE:
+            latest_command[:] = state.command["x"], state.device_time_s
+        # This is longer than any speed command stays valid.
+        return state.device_time_s > latest_command[1] + 0.2
 
-    qtbot.waitUntil(rests, timeout=LONG_MS)
-    section.note.setText("moved by hand")
-    qtbot.keyClick(section.note, Qt.Key.Key_Return)
-    assert section.note.text() == ""
+    qtbot.waitUntil(has_rested, timeout=LONG_MS)
+    section.note_field.setText("moved by hand")
+    qtbot.keyClick(section.note_field, Qt.Key.Key_Return)
+    assert section.note_field.text() == ""
     noted_s = session.snapshot().device_time_s
-    later = noted_s + 0.1  # the last command must have stood before the end
+    later = noted_s + 0.1  # the recording must include the constant last command
     qtbot.waitUntil(lambda: session.snapshot().device_time_s > later, timeout=LONG_MS)
     click(qtbot, section.record)
     qtbot.waitUntil(window._bar.recording.isHidden, timeout=LONG_MS)
@@ -64,99 +64,105 @@ def record_a_move(qtbot, window):
 
 
 def replay_to_the_note(qtbot, window, reached):
-    """Show the one recording, jump to its note, and let the stretch end there."""
-    replaying, panel = window.workbench.replaying, shown(window)
+    """Open the only recording, jump to its note, and end the section there."""
+    replaying, panel = window.workbench.replaying, raise_panel(window)
     qtbot.waitUntil(lambda: len(panel.recordings.table.entries_model.entries) == 1, timeout=LONG_MS)
     panel.recordings.table.selectRow(0)
-    session = window.workbench.session  # which shows no recording while it moves
+    session = window.workbench.session  # recordings cannot be opened during motion
 
-    def stands():
-        now = session.snapshot()
-        return now.activity is DeviceState.IDLE and not now.queued
+    def is_at_rest():
+        state = session.snapshot()
+        return state.activity is DeviceState.IDLE and not state.queued
 
-    qtbot.waitUntil(stands, timeout=LONG_MS)
+    qtbot.waitUntil(is_at_rest, timeout=LONG_MS)
     with qtbot.waitSignal(replaying.changed, timeout=LONG_MS):
         click(qtbot, panel.recordings.open)
     replaying.paced.pause()
-    assert panel.tabs.currentIndex() == 0  # the tab under the mouse stays
+    assert panel.tabs.currentIndex() == 0  # the current tab stays
     assert panel.news.is_new(1)
     panel.tabs.setCurrentIndex(1)
-    row = [one.text for one in panel.events.model.events].index("moved by hand")
-    panel.events.jump(row)
-    there = pytest.approx(reached)
+    row = [event.text for event in panel.events.model.events].index("moved by hand")
+    panel.events.jump_to_event(row)
+    expected = pytest.approx(reached)
     source = window.workbench.source
-    qtbot.waitUntil(lambda: source.snapshot().command.get("x") == there, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: source.snapshot().command.get("x") == expected, timeout=LONG_MS)
     table = panel.events.table
     qtbot.waitUntil(lambda: table.currentIndex().row() == row, timeout=LONG_MS)
     click(qtbot, panel.recordings.end_here)
-    assert float(panel.recordings.end.text()) == pytest.approx(replaying.paced.at_s, abs=1e-3)
+    assert float(panel.recordings.end.text()) == pytest.approx(replaying.paced.position_s, abs=1e-3)
     click(qtbot, window.replay_bar.live)
 
 
-def test_a_stick_moves_x_is_recorded_shown_exported_and_played_again(qtbot, window, tmp_path):
-    bench, view = window.workbench, window.panels["recorder"].recordings
+def test_a_move_of_the_stick_is_recorded_replayed_exported_and_played_again(
+    qtbot, window, tmp_path
+):
+    workbench, view = window.workbench, window.panels["recorder"].recordings
     start, reached = record_a_move(qtbot, window)
     replay_to_the_note(qtbot, window, reached)
 
-    view.export(view.chosen, tmp_path / "part.csv")
-    qtbot.waitUntil(lambda: any("Exported" in one for one in notices(window)), timeout=LONG_MS)
+    view.export_section(view.selected_entry, tmp_path / "part.csv")
+    qtbot.waitUntil(
+        lambda: any("Exported" in notice for notice in list_notices(window)), timeout=LONG_MS
+    )
     record = read_record(tmp_path / "part.csv")
     assert record.duration_s == pytest.approx(float(view.end.text()), abs=0.2)
     assert record.signal("x", Tap.CMD)[-1] == pytest.approx(reached)
-    view.export(view.chosen, view.chosen.path)
-    why = "it is the recording itself"
-    qtbot.waitUntil(lambda: any(why in one for one in notices(window)), timeout=LONG_MS)
+    view.export_section(view.selected_entry, view.selected_entry.path)
+    message = "it is the recording itself"
+    qtbot.waitUntil(
+        lambda: any(message in notice for notice in list_notices(window)), timeout=LONG_MS
+    )
 
-    with qtbot.waitSignal(bench.plan_changed, timeout=LONG_MS):
-        click(qtbot, view.to_trajectory)
-    commands = bench.plan.trajectory.signal("x", Tap.CMD)
+    with qtbot.waitSignal(workbench.plan_changed, timeout=LONG_MS):
+        click(qtbot, view.trajectory_button)
+    commands = workbench.plan.trajectory.signal("x", Tap.CMD)
     assert commands[[0, -1]] == pytest.approx([start, reached])
-    with qtbot.waitSignal(bench.run_changed, timeout=LONG_MS):
-        bench.play()
-    assert bench.run.record.signal("x", Tap.CMD)[-1] == pytest.approx(reached, abs=1e-7)
+    with qtbot.waitSignal(workbench.run_changed, timeout=LONG_MS):
+        workbench.play()
+    assert workbench.run.record.signal("x", Tap.CMD)[-1] == pytest.approx(reached, abs=1e-7)
 
 
-def test_a_start_after_a_crash_and_a_recording_that_ends_with_the_window(
+def test_after_a_crash_files_are_recovered_and_a_full_disk_is_reported(
     qtbot, make_robot_window, make_recording, settings, tmp_path, monkeypatch
 ):
     folder = tmp_path / "recordings"
     busy = make_recording(folder / "busy.arrows", ended=False).with_name("busy.arrows.part")
     (folder / "crashed.arrows.part").write_bytes(busy.read_bytes())
-    settings.set(AT_START, True)
+    settings.set(AT_START_SETTING, True)
     window = make_robot_window()
-    panel, operation = shown(window), window.workbench.operation
+    panel, operation = raise_panel(window), window.workbench.operation
     qtbot.waitUntil(lambda: operation.recording is not None, timeout=LONG_MS)
     writer = operation.recording.writer
 
-    # What a crash left is named, apart from what others record; its own is neither.
-    qtbot.waitUntil(panel.unfinished.isVisible, timeout=LONG_MS)
-    assert "crashed.arrows.part" in panel.unfinished.text.text()
-    assert "Another program is recording busy.arrows.part" in panel.unfinished.text.text()
-    assert writer.path.name not in panel.unfinished.text.text()
-    assert notices(window) == [
+    # Files left by a crash and recordings of other programs are listed, but not the own recording.
+    qtbot.waitUntil(panel.interrupted.isVisible, timeout=LONG_MS)
+    assert "crashed.arrows.part" in panel.interrupted.text.text()
+    assert "Another program is recording busy.arrows.part" in panel.interrupted.text.text()
+    assert writer.path.name not in panel.interrupted.text.text()
+    assert list_notices(window) == [
         "Interrupted recordings: crashed.arrows.part. Recover them in the panel Recorder."
     ]
-    click(qtbot, panel.unfinished.recover)
+    click(qtbot, panel.interrupted.recover)
     qtbot.waitUntil(lambda: len(panel.recordings.table.entries_model.entries) == 1, timeout=LONG_MS)
-    assert notices(window)[0] == "Recovered crashed.arrows"
-    qtbot.waitUntil(panel.unfinished.recover.isHidden, timeout=LONG_MS)
+    assert list_notices(window)[0] == "Recovered crashed.arrows"
+    qtbot.waitUntil(panel.interrupted.recover.isHidden, timeout=LONG_MS)
     panel.recordings.table.selectRow(0)
     panel.recordings.begin.setText("1,5")
-    click(qtbot, panel.recordings.to_trajectory)
-    assert "start: '1,5' is not valid" in notices(window)[0]
+    click(qtbot, panel.recordings.trajectory_button)
+    assert "start: '1,5' is not valid" in list_notices(window)[0]
 
-    # A full disk is told, and seen, until there is room.
-    def full(*_):
+    # A full disk is reported and shown until there is free space.
+    def fail_with_full_disk(*_):
         raise OSError(errno.ENOSPC, "No space left on device")
 
-    with monkeypatch.context() as patched:
-        patched.setattr(writer._file, "append", full)
+    with monkeypatch.context() as patch:
+        patch.setattr(writer._file, "append", fail_with_full_disk)
         complaint = panel.recording.complaint
         qtbot.waitUntil(complaint.isVisible, timeout=LONG_MS)
         assert "The recording has failed: No space left" in complaint.text()
-        sign = window._bar.recording
-        qtbot.waitUntil(lambda: sign.property("tone") == "danger", timeout=LONG_MS)
-        qtbot.waitUntil(lambda: "the motion continues" in notices(window)[0], timeout=LONG_MS)
+        recording_indicator = window._bar.recording
+        qtbot.waitUntil(lambda: recording_indicator.property("tone") == "danger", timeout=LONG_MS)
+        qtbot.waitUntil(lambda: "the motion continues" in list_notices(window)[0], timeout=LONG_MS)
     qtbot.waitUntil(complaint.isHidden, timeout=LONG_MS)
 
     window.workbench.close()
@@ -164,13 +170,13 @@ def test_a_start_after_a_crash_and_a_recording_that_ends_with_the_window(
     assert list(folder.glob("*.part")) == [busy]
 
 
-def test_an_empty_remark_is_asked_for(qtbot, window):
-    section = shown(window).recording
+def test_an_empty_remark_is_refused(qtbot, window):
+    section = raise_panel(window).recording
     click(qtbot, section.record)
-    qtbot.waitUntil(section.note.isEnabled, timeout=LONG_MS)
-    assert not section.keep.isEnabled()
-    assert "type a remark first" in section.keep.toolTip()
-    qtbot.keyClick(section.note, Qt.Key.Key_Return)
-    assert notices(window)[0] == "Nothing was noted: type a remark first."
-    qtbot.keyClicks(section.note, "seen")
-    assert section.keep.isEnabled()  # at once
+    qtbot.waitUntil(section.note_field.isEnabled, timeout=LONG_MS)
+    assert not section.note_button.isEnabled()
+    assert "type a remark first" in section.note_button.toolTip()
+    qtbot.keyClick(section.note_field, Qt.Key.Key_Return)
+    assert list_notices(window)[0] == "Nothing was noted: type a remark first."
+    qtbot.keyClicks(section.note_field, "seen")
+    assert section.note_button.isEnabled()  # without a refresh

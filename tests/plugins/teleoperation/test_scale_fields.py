@@ -1,24 +1,33 @@
-"""The scale editor's fields: units, and refusals that name their bound."""
+"""The fields of the scale editor: their units, and refusals that name the bound."""
 
 from dataclasses import replace
 
 import pytest
 
-from rotemina.app.motion.teleoperation.frames import Coordinate
-from rotemina.app.motion.teleoperation.reference import Bounds, ScalingError
-from rotemina.app.motion.teleoperation.scales import Scale, Scales
-from rotemina.plugins.teleoperation.scale_fields import FIELDS, changed, shown, texts, without
+from rotemina.app.errors import ScalingError
+from rotemina.app.motion.teleoperation import CoordinateScale, FrameCoordinate, ModeScales
+from rotemina.app.motion.teleoperation.reference import CoordinateBounds
+from rotemina.plugins.teleoperation.scale_fields import (
+    FIELDS,
+    find_field_unit,
+    format_fields,
+    with_entered_value,
+    with_presets,
+)
 
-TABLE = Coordinate("x", "m", Bounds(0.0, 0.055, 0.01, 0.2), 0.0275)
-PIEZO = Coordinate("zn", "m", Bounds(0.0, 65e-6, 5e-3, 5.0), 3e-5)
-TILT = Coordinate("thx", "rad", Bounds(0.0, 1.16e-3, 0.1, 100.0), 5e-4)
-SCALE = Scale(way=5e-4, speed=1e-3, contact_gain=0.25)
+TABLE = FrameCoordinate("x", "m", CoordinateBounds(0.0, 0.055, 0.01, 0.2), 0.0275)
+PIEZO = FrameCoordinate("zn", "m", CoordinateBounds(0.0, 65e-6, 5e-3, 5.0), 3e-5)
+TILT = FrameCoordinate("thx", "rad", CoordinateBounds(0.0, 1.16e-3, 0.1, 100.0), 5e-4)
+SCALE = CoordinateScale(way=5e-4, speed=1e-3, contact_gain=0.25)
 
 
-def test_each_coordinate_has_the_units_of_its_size():
-    units = [tuple(shown(f, one).unit for f in FIELDS[:2]) for one in (TABLE, PIEZO, TILT)]
+def test_each_coordinate_has_units_that_fit_its_range():
+    units = [
+        tuple(find_field_unit(field, coordinate).unit for field in FIELDS[:2])
+        for coordinate in (TABLE, PIEZO, TILT)
+    ]
     assert units == [("mm", "mm/s"), ("µm", "µm/s"), ("µrad", "µrad/s")]
-    assert texts(SCALE, TABLE) == {
+    assert format_fields(SCALE, TABLE) == {
         "way": "0.5",
         "speed": "1",
         "time_constant_s": "0.2",
@@ -30,24 +39,24 @@ def test_each_coordinate_has_the_units_of_its_size():
 
 @pytest.mark.parametrize("coordinate", [TABLE, PIEZO, TILT])
 @pytest.mark.parametrize("field", FIELDS, ids=lambda field: field.name)
-def test_what_is_shown_and_typed_again_changes_nothing(coordinate, field):
-    scale = Scale.preset(coordinate)
-    text = texts(scale, coordinate)[field.name]
-    assert changed(scale, field.name, f" {text} ", coordinate) is scale
+def test_typing_the_displayed_value_changes_nothing(coordinate, field):
+    scale = CoordinateScale.make_preset(coordinate)
+    text = format_fields(scale, coordinate)[field.name]
+    assert with_entered_value(scale, field.name, f" {text} ", coordinate) is scale
 
 
 @pytest.mark.parametrize(
     ("name", "text", "value"),
     [("way", "0.25", 2.5e-4), ("speed", "2e-1", 2e-4), ("contact_gain", "100", 1.0)],
 )
-def test_a_typed_number_has_the_unit_beside_it(name, text, value):
-    made = changed(SCALE, name, text, TABLE)
-    assert getattr(made, name) == pytest.approx(value)
-    assert replace(made, **{name: getattr(SCALE, name)}) == SCALE
+def test_a_typed_number_has_the_unit_of_its_field(name, text, value):
+    scale = with_entered_value(SCALE, name, text, TABLE)
+    assert getattr(scale, name) == pytest.approx(value)
+    assert replace(scale, **{name: getattr(SCALE, name)}) == SCALE
 
 
 @pytest.mark.parametrize(
-    ("name", "text", "told"),
+    ("name", "text", "message"),
     [
         ("way", "0", "Distance at full stick of x: 0 mm: must be above 0 mm"),
         ("way", "60", "60 mm: must be at most the range of 55 mm"),
@@ -64,12 +73,14 @@ def test_a_typed_number_has_the_unit_beside_it(name, text, value):
         ("way", "nan", "'nan' is not a number"),
     ],
 )
-def test_what_is_refused_names_its_bound(name, text, told):
-    with pytest.raises(ScalingError, match=told):
-        changed(SCALE, name, text, TABLE)
+def test_an_invalid_value_is_refused_with_its_bound(name, text, message):
+    with pytest.raises(ScalingError, match=message):
+        with_entered_value(SCALE, name, text, TABLE)
 
 
-def test_presets_are_of_one_mode():
-    both = Scales().with_scale("micro", "x", SCALE).with_scale("nano", "zn", SCALE)
-    assert set(without(both, "micro").modes) == {"nano"}
-    assert without(both, "micro").of("micro", TABLE) == Scale.preset(TABLE)
+def test_presets_are_restored_for_one_mode_only():
+    scales = ModeScales().with_scale("micro", "x", SCALE).with_scale("nano", "zn", SCALE)
+    assert set(with_presets(scales, "micro").modes) == {"nano"}
+    assert with_presets(scales, "micro").find_scale("micro", TABLE) == CoordinateScale.make_preset(
+        TABLE
+    )

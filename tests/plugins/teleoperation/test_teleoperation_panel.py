@@ -1,4 +1,4 @@
-"""The teleoperation panel in the real window, on the simulator and the threads of both."""
+"""The teleoperation panel with a running simulator and the real threads."""
 
 import gc
 from itertools import cycle
@@ -9,20 +9,20 @@ from PySide6.QtGui import QKeyEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLineEdit, QWidget
 
-from rotemina.app.motion import operation as operation_module
+from rotemina.app.motion.inputs import OperatorAction
 from rotemina.app.motion.session import MotionSession
-from rotemina.app.motion.teleoperation.intent import Action
-from rotemina.app.motion.teleoperation.scales import LawKind, Scales
-from rotemina.app.shell import theme as themes
-from rotemina.app.shell.workbench import Workbench
-from rotemina.drivers.inputs.device import InputIdentity
-from rotemina.drivers.inputs.pad import Pad
-from rotemina.drivers.samples import DeviceState
-from rotemina.drivers.simulator.driver import Simulator
+from rotemina.app.motion.teleoperation import LawKind, ModeScales
+from rotemina.app.operation import operation as operation_module
+from rotemina.app.widgets.style import theme as themes
+from rotemina.app.workbench import Workbench
+from rotemina.drivers.contract import DeviceState
+from rotemina.drivers.inputs import InputIdentity, InputPad
+from rotemina.drivers.simulator import Simulator
 from rotemina.plugins.teleoperation.panel import TeleoperationPanel
-from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot_files import load_robot
 
-PANELS = {"connection"}  # that is brought to the front
+# One test brings the connection panel to the front.
+PANELS = {"connection"}
 
 LONG_MS = 30_000
 LEFT, RIGHT, UP = Qt.Key.Key_Left, Qt.Key.Key_Right, Qt.Key.Key_Up
@@ -30,50 +30,50 @@ LEFT, RIGHT, UP = Qt.Key.Key_Left, Qt.Key.Key_Right, Qt.Key.Key_Up
 
 @pytest.fixture
 def stick():
-    """A joystick that a test moves."""
-    made = Pad("stick", buttons=(Action.FINE,))
-    made.identity = InputIdentity("test:stick", "Bench <stick>", "test")
-    made.withdraw()
-    return made
+    """Return a joystick that the test moves."""
+    pad = InputPad("stick", buttons=(OperatorAction.FINE,))
+    pad.identity = InputIdentity("test:stick", "Bench <stick>", "test")
+    pad.unplug()
+    return pad
 
 
 @pytest.fixture(autouse=True)
-def only_these_devices(monkeypatch, stick):
-    """What is plugged into the machine that tests must move nothing."""
-    hub = operation_module.InputHub
+def only_test_devices(monkeypatch, stick):
+    """Replace the input devices of this computer, which must not move anything in a test."""
+    hub_class = operation_module.InputHub
 
-    def installed(own, *, clock):
-        return hub({**own, "test": stick})
+    def make_hub(internal_sources, *, clock):
+        return hub_class({**internal_sources, "test": stick})
 
-    monkeypatch.setattr(hub, "installed", installed)
-    monkeypatch.setattr(operation_module, "LOOK_S", 0.05)
-    monkeypatch.setattr(operation_module, "PAD_LEASE_S", 30.0)  # a busy machine is no hang
+    monkeypatch.setattr(hub_class, "from_plugins", make_hub)
+    monkeypatch.setattr(operation_module, "DEVICE_SCAN_PERIOD_S", 0.05)
+    monkeypatch.setattr(operation_module, "PAD_LEASE_S", 30.0)  # for busy computers
 
 
 @pytest.fixture
 def make_panel(qtbot, settings, tmp_path):
-    """Make panels by themselves: a whole window takes a second each."""
+    """Return a function that makes a panel without a window, which would take a second."""
     opened = []
-    gc.disable()  # as the program does: the session's thread must not free what is Qt's
+    gc.disable()  # as the program does: the session thread must not free Qt objects
 
     def make(robot="rotemina"):
         session = MotionSession(Simulator(load_robot(robot), {"settle_s": 0.02}))
-        bench = Workbench(session, settings, themes.DARK, tmp_path / "played")
-        found = TeleoperationPanel(bench)
-        themes.dress(found, themes.DARK)
-        opened.append(found)
-        found.resize(330, 1400)
-        found.show()
-        bench.start()
-        qtbot.waitUntil(lambda: found.head.word.text() == "input ready", timeout=LONG_MS)
-        return found
+        workbench = Workbench(session, settings, themes.DARK, tmp_path / "played")
+        panel = TeleoperationPanel(workbench)
+        themes.apply_theme(panel, themes.DARK)
+        opened.append(panel)
+        panel.resize(330, 1400)
+        panel.show()
+        workbench.start()
+        qtbot.waitUntil(lambda: panel.head.state_label.text() == "input ready", timeout=LONG_MS)
+        return panel
 
     yield make
-    for found in opened:
-        found.workbench.close()
-        found.hide()
-        found.deleteLater()
-        found.workbench.deleteLater()
+    for panel in opened:
+        panel.workbench.close()
+        panel.hide()
+        panel.deleteLater()
+        panel.workbench.deleteLater()
     opened.clear()
     QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
     gc.collect()
@@ -82,140 +82,146 @@ def make_panel(qtbot, settings, tmp_path):
 
 @pytest.fixture
 def panel(qtbot, make_panel):
-    """The panel, its pad ready and with the focus."""
-    found = make_panel()
-    focus(qtbot, found)
-    return found
+    """Return the panel; its pad is ready and has the focus."""
+    panel = make_panel()
+    focus_pad(qtbot, panel)
+    return panel
 
 
 @pytest.fixture
-def bench(panel):
+def workbench(panel):
     return panel.workbench
 
 
 @pytest.fixture
-def notices(bench):
+def notices(workbench):
     texts = []
-    bench.noticed.connect(lambda _, text: texts.append(text))
+    workbench.notice_posted.connect(lambda _, text: texts.append(text))
     return texts
 
 
-def focus(qtbot, panel):
+def focus_pad(qtbot, panel):
     panel.window().activateWindow()
     panel.pad.area.setFocus()
     qtbot.waitUntil(panel.pad.area.hasFocus, timeout=LONG_MS)
     qtbot.waitUntil(lambda: not panel.pad.area.visibleRegion().isEmpty(), timeout=LONG_MS)
 
 
-def steered(panel):
+def get_teleoperation_state(panel):
     return panel.workbench.operation.teleoperator.state
 
 
-def heeded(panel):
-    """Whether every stick was seen at rest: what is held before that does not count."""
-    views = steered(panel).coordinates
-    return bool(views) and not any(view.waiting or view.deflection is None for view in views)
+def are_sticks_at_rest(panel):
+    """Return whether all sticks were at rest once: deflections before that do not count."""
+    views = get_teleoperation_state(panel).coordinates
+    return bool(views) and not any(view.is_waiting or view.deflection is None for view in views)
 
 
-def driving(qtbot, panel, state=True):
-    qtbot.waitUntil(lambda: steered(panel).driving is state, timeout=LONG_MS)
+def wait_for_driving(qtbot, panel, expected=True):
+    qtbot.waitUntil(lambda: get_teleoperation_state(panel).is_driving is expected, timeout=LONG_MS)
 
 
-def write(edit, text):
+def type_value(edit, text):
     edit.setFocus()
     edit.selectAll()
     QTest.keyClicks(edit, text)
     QTest.keyClick(edit, Qt.Key.Key_Return)
 
 
-def test_a_key_moves_its_axis_until_it_is_let_go_of(qtbot, bench, panel, notices):
-    start = bench.session.snapshot().command
+def test_a_held_key_moves_its_axis_until_its_release(qtbot, workbench, panel, notices):
+    start = workbench.session.snapshot().command
     assert panel.head.device.text() == "On-screen pad"
     qtbot.waitUntil(lambda: panel.head.trust.text() == "Active", timeout=LONG_MS)
     QTest.keyPress(panel.pad.area, RIGHT)
-    driving(qtbot, panel)
-    qtbot.waitUntil(lambda: panel.head.word.text() == "in control", timeout=LONG_MS)
+    wait_for_driving(qtbot, panel)
+    qtbot.waitUntil(lambda: panel.head.state_label.text() == "in control", timeout=LONG_MS)
     qtbot.waitUntil(lambda: panel.coordinates.rows["x"].bar.value == 1.0, timeout=LONG_MS)
-    assert bench.session.snapshot().owners == {"x": "joystick"}
-    for kind in (QEvent.Type.KeyRelease, QEvent.Type.KeyPress):  # what the keyboard repeats
+    assert workbench.session.snapshot().owners == {"x": "joystick"}
+    for kind in (QEvent.Type.KeyRelease, QEvent.Type.KeyPress):  # the auto-repeat of the keyboard
         panel.pad.area.event(QKeyEvent(kind, RIGHT, Qt.KeyboardModifier.NoModifier, "", True))
-    assert bench.operation.pad._deflections["x"] == 1.0
-    qtbot.waitUntil(lambda: bench.session.snapshot().command["x"] > start["x"], timeout=LONG_MS)
+    assert workbench.operation.pad._deflections["x"] == 1.0
+    qtbot.waitUntil(lambda: workbench.session.snapshot().command["x"] > start["x"], timeout=LONG_MS)
     QTest.keyRelease(panel.pad.area, RIGHT)
-    driving(qtbot, panel, False)
-    now = bench.session.snapshot().command
-    assert now["x"] > start["x"]
-    assert now["y"] == start["y"]
+    wait_for_driving(qtbot, panel, False)
+    end = workbench.session.snapshot().command
+    assert end["x"] > start["x"]
+    assert end["y"] == start["y"]
     assert notices == []
 
 
-def test_whatever_takes_the_pad_away_ends_the_motion(qtbot, window):
+def test_losing_focus_visibility_or_permission_ends_the_motion(qtbot, window):
     panel = window.panels["teleoperation"]
-    other = QWidget()
-    qtbot.addWidget(other)
+    other_window = QWidget()
+    qtbot.addWidget(other_window)
     dock, edit = window.docks["teleoperation"], panel.editor.fields["way"]
 
-    def leave_the_window():
-        other.show()
-        other.activateWindow()
+    def activate_other_window():
+        other_window.show()
+        other_window.activateWindow()
 
-    def scroll_it_away():
+    def raise_other_dock():
         window.docks["connection"].raise_()
 
-    ways = {
+    interruptions = {
         "another field": edit.setFocus,
-        "another window": leave_the_window,
-        "another dock in front": scroll_it_away,
-        "its dock closed": dock.hide,
+        "another window": activate_other_window,
+        "another dock in front": raise_other_dock,
+        "its dock hidden": dock.hide,
         "alt": lambda: QTest.keyPress(panel.pad.area, Qt.Key.Key_Alt),
         "shift": lambda: QTest.keyPress(panel.pad.area, Qt.Key.Key_Shift),
         "stop": window.workbench.stop,
-        "a profile that is made": window.workbench.operation.devices.open_mapping,
+        "an opened mapping": window.workbench.operation.devices.open_mapping,
     }
     pad = window.workbench.operation.pad
-    # To and fro: at the end of its range the axis would stand, whatever is held.
-    for (name, take_away), key in zip(ways.items(), cycle((RIGHT, LEFT)), strict=False):
+    # The direction alternates, because the axis stops at the end of its range.
+    for (name, interrupt), key in zip(interruptions.items(), cycle((RIGHT, LEFT)), strict=False):
         dock.show()
         dock.raise_()
-        qtbot.waitUntil(lambda: panel.head.word.text() == "input ready", timeout=LONG_MS)
-        focus(qtbot, panel)
-        qtbot.waitUntil(lambda: heeded(panel), timeout=LONG_MS)
+        qtbot.waitUntil(lambda: panel.head.state_label.text() == "input ready", timeout=LONG_MS)
+        focus_pad(qtbot, panel)
+        qtbot.waitUntil(lambda: are_sticks_at_rest(panel), timeout=LONG_MS)
         QTest.keyPress(panel.pad.area, key)
-        driving(qtbot, panel)
-        take_away()
-        driving(qtbot, panel, False)
-        if name != "stop":  # there the stick must be let go of before it counts again
+        wait_for_driving(qtbot, panel)
+        interrupt()
+        wait_for_driving(qtbot, panel, False)
+        if name != "stop":  # after a stop, the stick must be released before it counts again
             qtbot.waitUntil(lambda: not any(pad._deflections.values()), timeout=LONG_MS)
         else:
-            # A window that was busy for longer than the pad's lease has let go of it by itself.
+            # If the window was busy for longer than the pad's lease, the deflection has expired.
             qtbot.waitUntil(
-                lambda: panel.head.word.text() == "waiting" or not any(pad._deflections.values()),
+                lambda: (
+                    panel.head.state_label.text() == "waiting" or not any(pad._deflections.values())
+                ),
                 timeout=LONG_MS,
             )
             QTest.qWait(50)
-            assert not steered(panel).driving
+            assert not get_teleoperation_state(panel).is_driving
         panel.pad.area.release()
-        assert not any(pad._held.values()), name
-    qtbot.waitUntil(lambda: panel.head.word.text() == "setting up", timeout=LONG_MS)
+        assert not any(pad._held_buttons.values()), name
+    qtbot.waitUntil(lambda: panel.head.state_label.text() == "setting up", timeout=LONG_MS)
     assert "being set up" in panel.pad.area.toolTip()
 
 
-def test_typing_moves_nothing_and_what_is_refused_is_put_back(qtbot, bench, panel, notices):
-    start = bench.session.snapshot().command
-    editor, steering = panel.editor, bench.operation.teleoperator
-    assert [editor.choice.itemText(n) for n in range(editor.choice.count())] == ["X", "Y", "Z"]
+def test_typing_moves_nothing_and_refused_values_are_restored(qtbot, workbench, panel, notices):
+    start = workbench.session.snapshot().command
+    editor, teleoperator = panel.editor, workbench.operation.teleoperator
+    assert [editor.choice.itemText(index) for index in range(editor.choice.count())] == [
+        "X",
+        "Y",
+        "Z",
+    ]
     assert not editor.presets.isEnabled()
-    write(editor.fields["speed"], "0.25")
-    qtbot.waitUntil(lambda: steering.scales.modes != {}, timeout=LONG_MS)
-    qtbot.waitUntil(lambda: steered(panel).coordinates != (), timeout=LONG_MS)
+    type_value(editor.fields["speed"], "0.25")
+    qtbot.waitUntil(lambda: teleoperator.scales.modes != {}, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: get_teleoperation_state(panel).coordinates != (), timeout=LONG_MS)
     law = panel.coordinates.rows["x"].law
     qtbot.waitUntil(lambda: law.text() == "full deflection = 250 µm/s", timeout=LONG_MS)
-    kept = Scales.load(bench.settings.folder / "scales.toml")
-    assert kept.modes["micro"]["x"].speed == pytest.approx(2.5e-4)
-    write(editor.fields["damping_ratio"], "0.05")
+    saved_scales = ModeScales.load(workbench.settings.folder / "scales.toml")
+    assert saved_scales.modes["micro"]["x"].speed == pytest.approx(2.5e-4)
+    type_value(editor.fields["damping_ratio"], "0.05")
     assert "Damping ratio of x: 0.05: must be at least 0.1" in notices[-1]
     assert editor.fields["damping_ratio"].text() == "1"
-    write(editor.fields["way"], "0,5")
+    type_value(editor.fields["way"], "0,5")
     assert "decimal point" in notices[-1]
     assert editor.fields["way"].text() == "0.5"
     qtbot.waitUntil(editor.presets.isEnabled, timeout=LONG_MS)
@@ -224,11 +230,11 @@ def test_typing_moves_nothing_and_what_is_refused_is_put_back(qtbot, bench, pane
     for edit in panel.findChildren(QLineEdit):
         QTest.keyClick(edit, RIGHT)
         QTest.keyClick(edit, UP)
-    assert bench.session.snapshot().command == start
-    assert not steered(panel).driving
+    assert workbench.session.snapshot().command == start
+    assert not get_teleoperation_state(panel).is_driving
 
 
-def test_modes_and_laws_are_chosen_and_the_screen_follows(qtbot, bench, panel):
+def test_modes_and_laws_can_be_chosen(qtbot, workbench, panel):
     choices, rows = panel.choices, panel.coordinates
     assert list(choices.modes.buttons) == ["micro", "nano", "hybrid", "fine", "pivot"]
     choices.modes.buttons["nano"].click()
@@ -238,46 +244,46 @@ def test_modes_and_laws_are_chosen_and_the_screen_follows(qtbot, bench, panel):
     qtbot.waitUntil(lambda: list(rows.rows) == ["thx", "thy", "zn"], timeout=LONG_MS)
     qtbot.waitUntil(lambda: choices.factor.text() == "now × 0.5", timeout=LONG_MS)
     assert choices.modes.buttons["nano"].isChecked()
-    assert not rows.rows["zn"].felt.isHidden()
+    assert not rows.rows["zn"].force_bar.isHidden()
     assert "time constant" in rows.rows["zn"].law.text()
     assert panel.editor.choice.itemText(2) == "Z nano"
-    focus(qtbot, panel)
+    focus_pad(qtbot, panel)
     QTest.keyPress(panel.pad.area, Qt.Key.Key_Control)
     qtbot.waitUntil(lambda: choices.factor.text() == "now × 0.05 (fine)", timeout=LONG_MS)
     QTest.keyRelease(panel.pad.area, Qt.Key.Key_Control, Qt.KeyboardModifier.ControlModifier)
     choices.modes.buttons["fine"].click()
-    qtbot.waitUntil(lambda: "arcsec" in panel.reserve.tilt.text(), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: "arcsec" in panel.reserve.tilt_label.text(), timeout=LONG_MS)
     qtbot.waitUntil(lambda: panel.reserve.bar.value() > 90, timeout=LONG_MS)
 
 
-def test_the_pointer_drags_and_springs_back(qtbot, bench, panel):
+def test_the_pointer_drags_the_knob_which_springs_back(qtbot, workbench, panel):
     area, left = panel.pad.area, Qt.MouseButton.LeftButton
-    panel.pad.most.setCurrentIndex(panel.pad.most.findData(0.5))
-    QTest.mousePress(area, left, pos=QPoint(64, 64))  # on the knob, where nothing moves yet
+    panel.pad.deflection_choice.setCurrentIndex(panel.pad.deflection_choice.findData(0.5))
+    QTest.mousePress(area, left, pos=QPoint(64, 64))  # on the knob, which means no deflection
     for _ in range(2):
-        with qtbot.waitSignal(area._renewing.timeout, timeout=LONG_MS):
+        with qtbot.waitSignal(area._renewal_timer.timeout, timeout=LONG_MS):
             pass
-    assert bench.operation.pad._deflections["x"] == 0.0
+    assert workbench.operation.pad._deflections["x"] == 0.0
     QTest.mouseMove(area, QPoint(64, 4))
-    driving(qtbot, panel)
-    view = steered(panel).coordinates[1]
+    wait_for_driving(qtbot, panel)
+    view = get_teleoperation_state(panel).coordinates[1]
     assert view.name == "y"
     assert 0.4 < view.deflection <= 0.5
     QTest.mouseRelease(area, left, pos=QPoint(64, 4))
-    driving(qtbot, panel, False)
+    wait_for_driving(qtbot, panel, False)
     QTest.mousePress(area, left, pos=QPoint(154, 124))
-    driving(qtbot, panel)
-    assert steered(panel).coordinates[2].deflection == pytest.approx(-0.5, abs=0.02)
+    wait_for_driving(qtbot, panel)
+    assert get_teleoperation_state(panel).coordinates[2].deflection == pytest.approx(-0.5, abs=0.02)
     QTest.mouseRelease(area, left, pos=QPoint(154, 124))
-    driving(qtbot, panel, False)
+    wait_for_driving(qtbot, panel, False)
 
 
-def test_beside_a_joystick_the_pad_takes_over_when_asked(qtbot, bench, panel, stick):
+def test_the_pad_takes_over_from_a_joystick_on_request(qtbot, workbench, panel, stick):
     assert panel.pad.take_over.isHidden()
-    stick.offer()
+    stick.plug_in()
     head = panel.head
     qtbot.waitUntil(lambda: head.device.text() == "Bench <stick>", timeout=LONG_MS)
-    qtbot.waitUntil(lambda: head.word.text() == "input ready", timeout=LONG_MS)
+    qtbot.waitUntil(lambda: head.state_label.text() == "input ready", timeout=LONG_MS)
     qtbot.waitUntil(panel.pad.take_over.isEnabled, timeout=LONG_MS)
     QTest.keyPress(panel.pad.area, RIGHT)
     assert not panel.pad._stick.busy
@@ -286,19 +292,21 @@ def test_beside_a_joystick_the_pad_takes_over_when_asked(qtbot, bench, panel, st
     QTest.mousePress(panel.pad.take_over, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: head.device.text() == "On-screen pad", timeout=LONG_MS)
     QTest.mouseRelease(panel.pad.take_over, Qt.MouseButton.LeftButton)
-    assert not bench.operation.pad._held[Action.TAKE_OVER]
+    assert not workbench.operation.pad._held_buttons[OperatorAction.TAKE_OVER]
     qtbot.waitUntil(lambda: head.trust.text() == "Active", timeout=LONG_MS)
     assert not panel.pad.take_over.isEnabled()
-    stick.deflect("x", 1.0)  # the trainer takes it back
+    stick.deflect("x", 1.0)  # the trainer takes control back
     qtbot.waitUntil(lambda: head.device.text() == "Bench <stick>", timeout=LONG_MS)
 
 
-def test_recentring_is_asked_for_only_at_rest(qtbot, bench, panel, monkeypatch):
-    asked = []
-    monkeypatch.setattr(bench.operation, "recentre", lambda joints=("zn",): asked.append(joints))
+def test_recentring_is_possible_only_at_rest(qtbot, workbench, panel, monkeypatch):
+    recentred_joints = []
+    monkeypatch.setattr(
+        workbench.operation, "recentre", lambda joints=("zn",): recentred_joints.append(joints)
+    )
     qtbot.waitUntil(panel.reserve.all.isEnabled, timeout=LONG_MS)
     panel.reserve.all.click()
-    assert asked == [("thx", "thy", "zn")]
+    assert recentred_joints == [("thx", "thy", "zn")]
     QTest.keyPress(panel.pad.area, RIGHT)
     qtbot.waitUntil(lambda: not panel.reserve.all.isEnabled(), timeout=LONG_MS)
     assert "release the stick" in panel.reserve.all.toolTip()
@@ -306,19 +314,19 @@ def test_recentring_is_asked_for_only_at_rest(qtbot, bench, panel, monkeypatch):
 
 
 @pytest.mark.slow
-def test_the_piezo_is_recentred_from_the_panel(qtbot, bench, panel):
-    session = bench.session
+def test_the_piezo_is_recentred_from_the_panel(qtbot, workbench, panel):
+    session = workbench.session
     session.jog("zn", 2e-5)
     panel.choices.modes.buttons["hybrid"].click()
     qtbot.waitUntil(lambda: 0 < panel.reserve.bar.value() < 50, timeout=LONG_MS)
     qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.IDLE, timeout=LONG_MS)
-    qtbot.waitUntil(panel.reserve.one.isEnabled, timeout=LONG_MS)
-    panel.reserve.one.click()
+    qtbot.waitUntil(panel.reserve.recentre_z_button.isEnabled, timeout=LONG_MS)
+    panel.reserve.recentre_z_button.click()
     qtbot.waitUntil(lambda: panel.reserve.bar.value() == 100, timeout=LONG_MS)
     assert session.snapshot().command["zn"] == pytest.approx(32.5e-6, abs=2e-8)
 
 
-def test_a_robot_without_stages_has_a_panel_too(make_panel):
+def test_the_panel_supports_a_robot_without_stages(make_panel):
     panel = make_panel("picma")
     assert list(panel.coordinates.rows) == ["p"]
     assert panel.reserve.isHidden()

@@ -1,180 +1,212 @@
-"""What the panel says."""
+"""Texts of the teleoperation panel."""
 
 from dataclasses import replace
 
 import pytest
 
-from rotemina.app.motion.teleoperation.axis_calibration import Calibration
-from rotemina.app.motion.teleoperation.frames import Coordinate
-from rotemina.app.motion.teleoperation.input_arbiter import DevicesView, DeviceView
-from rotemina.app.motion.teleoperation.intent import Action
-from rotemina.app.motion.teleoperation.mapped_device import AxisView
-from rotemina.app.motion.teleoperation.profile import OperatorRole
-from rotemina.app.motion.teleoperation.profile_check import PluggedDevice
-from rotemina.app.motion.teleoperation.reference import Bounds
-from rotemina.app.motion.teleoperation.scales import LawKind, Scale
-from rotemina.app.motion.teleoperation.teleoperation_state import CoordinateView, TeleoperationState
-from rotemina.app.shell.state_tone import Tone
-from rotemina.drivers.inputs.device import InputIdentity
+from rotemina.app.motion.inputs import (
+    InputAxisView,
+    InputCalibration,
+    InputDeviceView,
+    InputDisplayState,
+    OperatorAction,
+    OperatorRole,
+    PluggedDevice,
+)
+from rotemina.app.motion.teleoperation import (
+    CoordinateScale,
+    CoordinateView,
+    FrameCoordinate,
+    LawKind,
+    TeleoperationState,
+)
+from rotemina.app.motion.teleoperation.reference import CoordinateBounds
+from rotemina.app.workbench import StateTone
+from rotemina.drivers.inputs import InputIdentity
 from rotemina.plugins.teleoperation import wording
-from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot_files import load_robot
 
 ROBOT = load_robot("rotemina")
-TABLE = Coordinate("x", "m", Bounds(0.0, 0.055, 0.01, 0.2), 0.0275)
+TABLE = FrameCoordinate("x", "m", CoordinateBounds(0.0, 0.055, 0.01, 0.2), 0.0275)
 STATE = TeleoperationState("micro", LawKind.RATE)
 
 
-def device(source="hid", seat=OperatorRole.TRAINER, drives=True, problem=None, **reasons):
-    """A device whose axes x, y, z are trusted but for reasons."""
+def make_device_view(source="hid", seat=OperatorRole.TRAINER, drives=True, problem=None, **reasons):
+    """Return a device whose axes x, y and z are trusted, except those with a reason."""
     name = {"hid": "Thrust <3>", "keys": "pad"}[source]
     identity = InputIdentity(f"{source}:1", name, source)
-    axes = tuple(AxisView(a.upper(), 0.0, 0.0, a, reasons.get(a)) for a in "xyz")
-    axes += (AxisView("slider", 0.0, 0.0, None, "not at rest yet"),)
+    axes = tuple(InputAxisView(axis.upper(), 0.0, 0.0, axis, reasons.get(axis)) for axis in "xyz")
+    axes += (InputAxisView("slider", 0.0, 0.0, None, "not at rest yet"),)
     plugged = PluggedDevice(identity, ("X", "Y", "Z", "slider"), ())
-    return DeviceView(plugged, seat, drives, problem, axes, None, Calibration(device=identity.key))
+    return InputDeviceView(
+        plugged, seat, drives, problem, axes, None, InputCalibration(device=identity.key)
+    )
 
 
-STICK = DevicesView(1.0, (device(), device("keys", OperatorRole.TRAINEE, drives=False)))
-PAD = DevicesView(1.0, (device("keys"),))
+STICK = InputDisplayState(
+    1.0, (make_device_view(), make_device_view("keys", OperatorRole.TRAINEE, drives=False))
+)
+PAD = InputDisplayState(1.0, (make_device_view("keys"),))
 
 
-def view(kind, *, factor=1.0, waiting=False, **scale):
-    law = replace(Scale.preset(TABLE), **scale).law(kind, TABLE, 0.0)
+def make_coordinate_view(kind, *, factor=1.0, waiting=False, **scale):
+    law = replace(CoordinateScale.make_preset(TABLE), **scale).make_law(kind, TABLE, 0.0)
     law.rescale(factor)
     return CoordinateView("x", "m", "x", 0.0, 0.0275, waiting, law)
 
 
-def test_the_device_that_drives_is_named():
-    assert wording.driver_text(STICK) == "Thrust <3>"
-    assert wording.driver_text(PAD) == "On-screen pad"
-    assert wording.driver_text(DevicesView()) == "No device in control"
+def test_the_driving_device_is_named():
+    assert wording.name_driving_devices(STICK) == "Thrust <3>"
+    assert wording.name_driving_devices(PAD) == "On-screen pad"
+    assert wording.name_driving_devices(InputDisplayState()) == "No device in control"
 
 
-def test_trust_has_its_reasons_each_once_and_only_of_what_moves():
-    assert wording.trust_text(STICK) == "Active"
-    doubted = DevicesView(1.0, (device(x="let go of it", z="let go of it", y="jitters"),))
-    assert wording.trust_text(doubted) == "Not active: X, Z: let go of it; Y: jitters"
-    broken = DevicesView(1.0, (device(problem="no axis 'X'"),))
-    assert wording.trust_text(broken) == "Not active: no axis 'X'"
-    assert wording.trust_text(DevicesView(problems=("no profile",))) == "no profile"
+def test_trust_is_explained_with_each_reason_once():
+    assert wording.describe_trust(STICK) == "Active"
+    untrusted = InputDisplayState(
+        1.0, (make_device_view(x="let go of it", z="let go of it", y="jitters"),)
+    )
+    assert wording.describe_trust(untrusted) == "Not active: X, Z: let go of it; Y: jitters"
+    broken = InputDisplayState(1.0, (make_device_view(problem="no axis 'X'"),))
+    assert wording.describe_trust(broken) == "Not active: no axis 'X'"
+    assert wording.describe_trust(InputDisplayState(problems=("no profile",))) == "no profile"
 
 
 @pytest.mark.parametrize(
     ("state", "stale", "word", "tone"),
     [
-        (STATE, False, "input ready", Tone.QUIET),
-        (replace(STATE, driving=True, reason="x"), False, "in control", Tone.BUSY),
-        (replace(STATE, driving=True), True, "no answer", Tone.DANGER),
-        (replace(STATE, reason="a fault"), False, "blocked", Tone.WARNING),
+        (STATE, False, "input ready", StateTone.QUIET),
+        (replace(STATE, is_driving=True, reason="x"), False, "in control", StateTone.BUSY),
+        (replace(STATE, is_driving=True), True, "no answer", StateTone.DANGER),
+        (replace(STATE, reason="a fault"), False, "blocked", StateTone.WARNING),
         (
-            replace(STATE, coordinates=(view(LawKind.RATE, waiting=True),)),
+            replace(STATE, coordinates=(make_coordinate_view(LawKind.RATE, waiting=True),)),
             False,
             "waiting",
-            Tone.WARNING,
+            StateTone.WARNING,
         ),
     ],
 )
-def test_how_it_stands_is_one_word(state, stale, word, tone):
-    assert wording.standing(STICK, state, stale=stale) == (word, tone)
+def test_the_state_is_described_by_one_word_and_a_tone(state, stale, word, tone):
+    assert wording.describe_state(STICK, state, stale=stale) == (word, tone)
 
 
-def test_a_loop_that_does_not_answer_is_told_before_all_else():
-    assert "do not respond" in wording.reason_text(replace(STATE, driving=True), stale=True)
-    held = replace(STATE, reason="the machine is playing")
-    assert wording.reason_text(held, stale=False) == "Hand control waits: the machine is playing."
+def test_an_unresponsive_loop_is_reported_first():
+    assert "do not respond" in wording.explain_no_motion(
+        replace(STATE, is_driving=True), stale=True
+    )
+    waiting = replace(STATE, reason="the machine is playing")
+    assert (
+        wording.explain_no_motion(waiting, stale=False)
+        == "Hand control waits: the machine is playing."
+    )
 
 
 @pytest.mark.parametrize(
-    ("found", "why"),
+    ("display_state", "reason"),
     [
-        (DevicesView(), "being opened"),
+        (InputDisplayState(), "being opened"),
         (PAD, None),
-        (replace(PAD, setting_up=True), "being set up"),
+        (replace(PAD, is_mapping_open=True), "being set up"),
         (STICK, "Thrust <3> is in control; take over"),
-        (DevicesView(1.0, (device("keys", None, drives=False),)), "does not map the pad"),
+        (
+            InputDisplayState(1.0, (make_device_view("keys", None, drives=False),)),
+            "does not map the pad",
+        ),
     ],
 )
-def test_the_pad_says_why_it_moves_nothing(found, why):
-    told = wording.against_pad(found)
-    assert (told is None) if why is None else (why in told)
+def test_the_pad_has_a_reason_if_it_cannot_move_the_robot(display_state, reason):
+    objection = wording.find_pad_objection(display_state)
+    assert (objection is None) if reason is None else (reason in objection)
 
 
-def test_only_beside_another_device_the_pad_may_take_over():
-    assert wording.is_trainee(wording.pad_of(STICK))
-    assert not wording.is_trainee(wording.pad_of(PAD))
-    assert not wording.is_trainee(wording.pad_of(DevicesView()))
+def test_the_pad_is_a_trainee_only_next_to_another_device():
+    assert wording.is_trainee(wording.find_pad(STICK))
+    assert not wording.is_trainee(wording.find_pad(PAD))
+    assert not wording.is_trainee(wording.find_pad(InputDisplayState()))
 
 
 @pytest.mark.parametrize(
-    ("shown", "travel_m", "text"),
+    ("coordinate", "travel_m", "text"),
     [
-        (view(LawKind.POSITION, way=2e-4), 0.02, "1 mm of stick = 10 µm of tip"),
-        (view(LawKind.POSITION, way=2e-4, factor=0.1), None, "full deflection = 20 µm"),
-        (view(LawKind.RATE, speed=1.23456e-3), 0.02, "full deflection = 1.23 mm/s"),
+        (make_coordinate_view(LawKind.POSITION, way=2e-4), 0.02, "1 mm of stick = 10 µm of tip"),
         (
-            view(LawKind.RATE, speed=5e-3, factor=10.0),
+            make_coordinate_view(LawKind.POSITION, way=2e-4, factor=0.1),
+            None,
+            "full deflection = 20 µm",
+        ),
+        (make_coordinate_view(LawKind.RATE, speed=1.23456e-3), 0.02, "full deflection = 1.23 mm/s"),
+        # The speed is bounded.
+        (
+            make_coordinate_view(LawKind.RATE, speed=5e-3, factor=10.0),
             None,
             "full deflection = 8 mm/s",
-        ),  # the bound
+        ),
         (
-            view(LawKind.IMPEDANCE, speed=1e-3, factor=0.5),
+            make_coordinate_view(LawKind.IMPEDANCE, speed=1e-3, factor=0.5),
             None,
             "full deflection: 500 µm/s, time constant 0.2 s",
         ),
         (
-            view(LawKind.IMPEDANCE, speed=4e-3, factor=10.0),
+            make_coordinate_view(LawKind.IMPEDANCE, speed=4e-3, factor=10.0),
             None,
-            "full deflection: 16 mm/s, time constant 0.2 s",  # cut by the acceleration
+            "full deflection: 16 mm/s, time constant 0.2 s",  # limited by the acceleration
         ),
         (
-            view(LawKind.IMPEDANCE, way=4e-4, spring_hz=0.5),
+            make_coordinate_view(LawKind.IMPEDANCE, way=4e-4, spring_hz=0.5),
             None,
             "full deflection: 400 µm, 0.5 Hz, damping ratio 1, time constant 0.318 s",
         ),
     ],
 )
-def test_full_deflection_is_told_as_it_acts_now(shown, travel_m, text):
-    assert wording.law_text(shown, "tip", travel_m) == text
+def test_the_effect_of_a_full_deflection_is_described(coordinate, travel_m, text):
+    assert wording.describe_law(coordinate, "tip", travel_m) == text
 
 
-def test_coordinates_of_the_tip_are_no_axes():
-    assert wording.coordinate_name("micro", "x", "m") == "X"
-    assert wording.coordinate_name("hybrid", "x", "m") == "Tip x"
-    assert wording.coordinate_name("pivot", "thx", "rad") == "θx"
-    tip = wording.coordinate_scale(ROBOT, "fine", "x", "m")
-    assert tip.text(0.0274767479) == "27.47675 mm"
-    assert wording.coordinate_scale(ROBOT, "nano", "zn", "m").text(3.25e-5) == "32.500 µm"
+def test_tip_coordinates_are_named_differently_from_axes():
+    assert wording.name_coordinate("micro", "x", "m") == "X"
+    assert wording.name_coordinate("hybrid", "x", "m") == "Tip x"
+    assert wording.name_coordinate("pivot", "thx", "rad") == "θx"
+    tip = wording.find_coordinate_scale(ROBOT, "fine", "x", "m")
+    assert tip.format_with_unit(0.0274767479) == "27.47675 mm"
+    assert (
+        wording.find_coordinate_scale(ROBOT, "nano", "zn", "m").format_with_unit(3.25e-5)
+        == "32.500 µm"
+    )
 
 
-def test_the_factor_says_what_makes_it():
-    assert wording.factor_text(0.1, {Action.FINE, Action.CLUTCH}) == "now × 0.1 (fine)"
-    assert wording.factor_text(2.0, frozenset()) == "now × 2"
+def test_the_factor_is_shown_with_its_cause():
+    assert (
+        wording.format_factor(0.1, {OperatorAction.FINE, OperatorAction.CLUTCH})
+        == "now × 0.1 (fine)"
+    )
+    assert wording.format_factor(2.0, frozenset()) == "now × 2"
 
 
-def test_the_clutch_is_told_where_it_counts():
-    assert "space" in wording.clutch_text(LawKind.POSITION, frozenset())
-    assert "stop the robot" in wording.clutch_text(LawKind.RATE, frozenset())
-    assert "without the robot" in wording.clutch_text(LawKind.RATE, {Action.CLUTCH})
+def test_the_clutch_is_described_for_each_law():
+    assert "space" in wording.describe_clutch(LawKind.POSITION, frozenset())
+    assert "stop the robot" in wording.describe_clutch(LawKind.RATE, frozenset())
+    assert "without the robot" in wording.describe_clutch(LawKind.RATE, {OperatorAction.CLUTCH})
 
 
 @pytest.mark.parametrize(
-    ("left", "text"),
-    [(0.5, "50 %"), (0.1, "10 % – re-centre"), (None, "not shared in this mode")],
+    ("reserve", "text"),
+    [(0.5, "50 %"), (0.1, "10 % – re-centre"), (None, "not available in this mode")],
 )
-def test_little_range_says_what_to_do(left, text):
-    begun = replace(STATE, coordinates=(view(LawKind.RATE),), reserve=left)
-    assert wording.reserve_text(begun) == text
-    assert wording.reserve_text(STATE) == "–"
+def test_a_small_reserve_suggests_recentring(reserve, text):
+    state = replace(STATE, coordinates=(make_coordinate_view(LawKind.RATE),), reserve=reserve)
+    assert wording.format_reserve(state) == text
+    assert wording.format_reserve(STATE) == "–"
 
 
-def test_a_tilt_is_told_without_what_rounding_makes():
-    begun = replace(STATE, coordinates=(view(LawKind.RATE),))
-    assert wording.tilt_shown(replace(begun, tilt=1e-3)) == "206 arcsec (1 mrad)"
-    assert wording.tilt_shown(replace(begun, tilt=3e-16)) == "0 arcsec (0 mrad)"
-    assert wording.tilt_shown(begun) == "not in this mode"
-    assert wording.tilt_shown(STATE) == "–"
+def test_a_tilt_is_shown_without_rounding_errors():
+    state = replace(STATE, coordinates=(make_coordinate_view(LawKind.RATE),))
+    assert wording.describe_tilt(replace(state, tilt=1e-3)) == "206 arcsec (1 mrad)"
+    assert wording.describe_tilt(replace(state, tilt=3e-16)) == "0 arcsec (0 mrad)"
+    assert wording.describe_tilt(state) == "not in this mode"
+    assert wording.describe_tilt(STATE) == "–"
 
 
-def test_modes_of_other_robots_have_buttons_too():
-    assert wording.mode_choice("gantry").text == "Gantry"
-    assert wording.mode_choice("pivot").tip.endswith(".")
+def test_unknown_modes_have_button_texts_too():
+    assert wording.make_mode_texts("gantry").text == "Gantry"
+    assert wording.make_mode_texts("pivot").tip.endswith(".")

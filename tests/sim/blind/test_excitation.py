@@ -1,10 +1,10 @@
-"""Commands of the cases: rich, within the machine's limits, and of the size of real records."""
+"""Commands of the cases: rich, within the machine's limits, and as long as real records."""
 
 import numpy as np
 import pytest
 
-from rotemina.sim.blind.excitation import held_out, poor_training, training
-from rotemina.sim.robot.file import load_robot
+from rotemina.sim.blind.excitation import draw_held_out, draw_poor_training, draw_training
+from rotemina.sim.robot_files import load_robot
 
 ROBOT = load_robot("rotemina")
 STAGES = [("x", "y", "z"), ("thx", "thy", "zn")]
@@ -13,7 +13,7 @@ STAGES = [("x", "y", "z"), ("thx", "thy", "zn")]
 @pytest.mark.parametrize("names", STAGES)
 @pytest.mark.parametrize("seed", range(5))
 def test_training_is_long_rich_and_within_limits(names, seed):
-    records = training(ROBOT, names, np.random.default_rng(seed))
+    records = draw_training(ROBOT, names, np.random.default_rng(seed))
     assert len(records) == 3
     for commands in records:
         assert 500.0 <= 1.0 / commands.step_s <= 2000.0
@@ -23,29 +23,31 @@ def test_training_is_long_rich_and_within_limits(names, seed):
             assert axis.range[0] <= values.min() < values.max() <= axis.range[1]
             if axis.kind == "stepper":
                 assert np.abs(np.diff(values)).max() / commands.step_s < axis.max_speed
-    # Axes that move alike in one record do not in another: a coupling's source can be told.
-    alike = [np.abs(np.corrcoef(commands.values.T))[np.triu_indices(3, 1)] for commands in records]
-    assert np.all(np.min(alike, axis=0) < 0.8)
+    # Axes that move alike in one record do not in another, so the source of a coupling shows.
+    correlations = [
+        np.abs(np.corrcoef(commands.values.T))[np.triu_indices(3, 1)] for commands in records
+    ]
+    assert np.all(np.min(correlations, axis=0) < 0.8)
 
 
 @pytest.mark.parametrize("names", STAGES)
-def test_poor_training_moves_little_and_in_one_way(names):
+def test_poor_training_is_one_small_motion(names):
     for step in (False, True):
-        (record,) = poor_training(ROBOT, names, np.random.default_rng(1), step=step)
+        (record,) = draw_poor_training(ROBOT, names, np.random.default_rng(1), step=step)
         for i, name in enumerate(names):
             assert np.ptp(record.values[:, i]) < 0.15 * ROBOT.axes[name].span
         assert (len(np.unique(record.values[:, 0])) == 2) == step
 
 
 @pytest.mark.parametrize("names", STAGES)
-def test_the_withheld_record_stays_where_training_was_and_exercises_the_axes_first(names):
+def test_the_held_out_record_stays_within_the_training_range_and_exercises_the_axes_first(names):
     rng = np.random.default_rng(3)
     limits = {n: np.array([0.4, 0.5]) * ROBOT.axes[n].span + ROBOT.axes[n].range[0] for n in names}
-    commands = held_out(ROBOT, names, limits, rng)
-    first = commands.values[: round(1.0 / commands.step_s)]
+    commands = draw_held_out(ROBOT, names, limits, rng)
+    first_second = commands.values[: round(1.0 / commands.step_s)]
     for i, name in enumerate(names):
         low, high = limits[name]
         slack = 0.05 * (high - low)
         assert low - slack <= commands.values[:, i].min()
         assert commands.values[:, i].max() <= high + slack
-        assert np.ptp(first[:, i]) > 0.25 * (high - low)
+        assert np.ptp(first_second[:, i]) > 0.25 * (high - low)

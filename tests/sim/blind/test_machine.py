@@ -1,97 +1,107 @@
-"""The generator's machine without parts is the nominal plant; its parts do what they are named."""
+"""The generator's machine without parts is the nominal plant, and each part has its effect."""
 
 from itertools import pairwise
 
 import numpy as np
 import pytest
 
-from rotemina.sim.blind.actuator import creep, hysteresis, lost_steps
-from rotemina.sim.blind.filters import lagged, mode_poles, smoothly_shifted
-from rotemina.sim.blind.force import Loop, run_loop
+from rotemina.sim.blind import SimulationRun, build_machine
+from rotemina.sim.blind.actuator import draw_creep, draw_hysteresis, draw_lost_steps
+from rotemina.sim.blind.filters import apply_low_pass, compute_mode_poles, delay_smooth_signal
+from rotemina.sim.blind.force import ForceLoop, run_loop
 from rotemina.sim.blind.loads import (
-    backlash,
-    contact,
-    flexible_mode,
-    friction,
-    stiffness_nonlinearity,
+    draw_backlash,
+    draw_contact,
+    draw_flexible_mode,
+    draw_friction,
+    draw_stiffness_nonlinearity,
 )
-from rotemina.sim.blind.machine import Commands, machine_of
-from rotemina.sim.blind.mechanics import ROW, SLIP, hardened, load_force
-from rotemina.sim.blind.part import SimulationRun
+from rotemina.sim.blind.machine import SampledCommands
+from rotemina.sim.blind.mechanics import (
+    LOAD_ROW_LENGTH,
+    SLIP,
+    compute_hardening_share,
+    compute_load_force,
+)
 from rotemina.sim.blind.preisach import draw_plane, run_plane
-from rotemina.sim.blind.sensing import encoder_interpolation, sensor_lag
-from rotemina.sim.plant.response import nominal_response
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.file import load_robot
+from rotemina.sim.blind.sensing import draw_encoder_interpolation, draw_sensor_lag
+from rotemina.sim.plant import simulate_nominal_response
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot_files import load_robot
 
 ROBOT = load_robot("rotemina")
 
 
-def machine(names, commands):
+def make_machine(names, commands):
     columns = zip(names, commands.values.T, strict=True)
     travels = {name: np.array([column.min(), column.max()]) for name, column in columns}
-    return machine_of(ROBOT, names, travels)
+    return build_machine(ROBOT, names, travels)
 
 
-def stepper_commands(*positions_mm):
+def make_stepper_commands(*positions_mm):
     """Moves of 0.3 s, each followed by a hold of 0.3 s; the first position is held throughout."""
-    places = [positions_mm[0], *positions_mm]
-    moves = [np.concatenate([np.linspace(a, b, 300), np.full(300, b)]) for a, b in pairwise(places)]
+    positions_mm_with_start = [positions_mm[0], *positions_mm]
+    moves = [
+        np.concatenate([np.linspace(a, b, 300), np.full(300, b)])
+        for a, b in pairwise(positions_mm_with_start)
+    ]
     column = np.concatenate(moves) * 1e-3
     others = np.full((len(column), 2), 0.03)
-    return Commands(1e-3, np.column_stack([column, others]))
+    return SampledCommands(1e-3, np.column_stack([column, others]))
 
 
-def piezo_commands(shares, step_s=1e-3):
+def make_piezo_commands(shares, step_s=1e-3):
     spans = [ROBOT.axes[name].span for name in ("thx", "thy", "zn")]
-    return Commands(step_s, np.outer(shares, spans))
+    return SampledCommands(step_s, np.outer(shares, spans))
 
 
-def swing(number=3000, hertz=1.3, step_s=1e-3):
-    return 0.5 - 0.3 * np.cos(2.0 * np.pi * hertz * np.arange(number) * step_s)
+def make_swing(count=3000, frequency_hz=1.3, step_s=1e-3):
+    return 0.5 - 0.3 * np.cos(2.0 * np.pi * frequency_hz * np.arange(count) * step_s)
 
 
 @pytest.mark.parametrize("names", [("x", "y", "z"), ("thx", "thy", "zn")])
 def test_a_machine_without_parts_is_the_nominal_plant(names):
     rng = np.random.default_rng(4)
-    shares = swing(2000)[:, None] + 0.01 * rng.normal(size=(2000, 3))
+    shares = make_swing(2000)[:, None] + 0.01 * rng.normal(size=(2000, 3))
     values = shares * [1e-3 if name in "xyz" else ROBOT.axes[name].span for name in names]
-    commands = Commands(1e-3, values)
+    commands = SampledCommands(1e-3, values)
     signals = {(name, Tap.CMD): values[:, i] for i, name in enumerate(names)}
     record = Record.from_signals(
         np.arange(2000) * 1e-3, signals, {name: ROBOT.unit(name) for name in names}
     )
-    theirs = nominal_response(ROBOT, record)
-    ours = machine(names, commands).respond(commands, 0)
+    nominal = simulate_nominal_response(ROBOT, record)
+    response = make_machine(names, commands).respond(commands, 0)
     for i, name in enumerate(names):
-        gap = ours.reading[:, i] - theirs.signal(name, Tap.MEAS)
+        gap = response.reading[:, i] - nominal.signal(name, Tap.MEAS)
         assert np.abs(gap).max() < 1e-3 * ROBOT.axes[name].sensor.noise_floor
 
 
-def test_a_loop_without_imperfections_is_the_nominal_one():
+def test_a_loop_without_imperfections_is_the_nominal_loop():
     robot = load_robot("emps")
     x = np.minimum(np.arange(3000) / 1500.0, 1.0)
     command = 0.02 + 0.1 * x**3 * (10.0 - 15.0 * x + 6.0 * x**2)
     record = Record.from_signals(
         np.arange(3000) * 1e-3, {("q", Tap.CMD): command}, {"q": "m"}, {"mode": "closed_loop"}
     )
-    theirs = nominal_response(robot, record)
-    u, reading = run_loop(robot.axes["q"], Loop(np.zeros(ROW)), command, np.zeros(3000))
-    assert np.abs(u - theirs.signal("q", Tap.U)).max() < 1e-6
-    assert np.abs(reading - theirs.signal("q", Tap.MEAS)).max() < 1e-10
+    nominal = simulate_nominal_response(robot, record)
+    u, reading = run_loop(
+        robot.axes["q"], ForceLoop(np.zeros(LOAD_ROW_LENGTH)), command, np.zeros(3000)
+    )
+    assert np.abs(u - nominal.signal("q", Tap.U)).max() < 1e-6
+    assert np.abs(reading - nominal.signal("q", Tap.MEAS)).max() < 1e-10
 
 
 @pytest.fixture
-def axis():
-    return machine(("x", "y", "z"), stepper_commands(30.0, 30.1)).axes[0]
+def stepper_axis():
+    return make_machine(("x", "y", "z"), make_stepper_commands(30.0, 30.1)).axes[0]
 
 
 @pytest.fixture
-def piezo():
-    return machine(("thx", "thy", "zn"), piezo_commands(swing())).axes[0]
+def piezo_axis():
+    return make_machine(("thx", "thy", "zn"), make_piezo_commands(make_swing())).axes[0]
 
 
-def test_a_preisach_plane_remembers_turns_and_forgets_those_that_were_passed():
+def test_a_preisach_plane_forgets_turning_points_that_were_passed():
     plane = draw_plane(np.random.default_rng(1))
     out = run_plane(plane, np.array([0.0, 1.0, 0.3, 0.6, 0.4, 0.6, 0.8, 1.0, 0.0]))
     assert out[0] == 0.0
@@ -101,140 +111,141 @@ def test_a_preisach_plane_remembers_turns_and_forgets_those_that_were_passed():
     assert out[8] == pytest.approx(0.0, abs=1e-12)
 
 
-def test_a_preisach_plane_lags_behind_and_knows_no_rate():
+def test_a_preisach_plane_lags_independently_of_the_rate():
     plane = draw_plane(np.random.default_rng(2))
     slow = np.concatenate([np.linspace(0, 0.9, 901), np.linspace(0.9, 0.1, 801)])
-    quick = slow[::10]
+    fast = slow[::10]
     out = run_plane(plane, slow)
-    assert np.allclose(run_plane(plane, quick), out[::10], atol=1e-12)
+    assert np.allclose(run_plane(plane, fast), out[::10], atol=1e-12)
     up, down = out[500], out[901 + 400]
     assert slow[500] == pytest.approx(slow[901 + 400])
     assert down > up + 0.01
 
 
 @pytest.mark.parametrize("seed", range(12))
-def test_a_flexure_hardens_over_its_whole_range(piezo, seed):
-    part = stiffness_nonlinearity(piezo, np.random.default_rng(seed))
+def test_a_flexure_hardens_over_its_whole_range(piezo_axis, seed):
+    part = draw_stiffness_nonlinearity(piezo_axis, np.random.default_rng(seed))
     row = part.act(np.zeros(1), SimulationRun(1e-4, 1, 0, 0), 0.3)
-    places = np.linspace(piezo.low, piezo.low + piezo.span, 201)
-    force = np.array([hardened(row, q) for q in places])
-    bends = np.diff(force, 2) * np.sign(places[1:-1] - row[3])
+    positions = np.linspace(piezo_axis.low, piezo_axis.low + piezo_axis.span, 201)
+    force = np.array([compute_hardening_share(row, q) for q in positions])
+    curvature = np.diff(force, 2) * np.sign(positions[1:-1] - row[3])
     assert np.all(np.diff(force) >= 0.0)
-    assert np.all(bends >= -1e-9 * np.ptp(force))
+    assert np.all(curvature >= -1e-9 * np.ptp(force))
 
 
 @pytest.mark.parametrize("seed", range(6))
-def test_hysteresis_is_as_wide_as_its_size_says_and_independent_of_rate(piezo, seed):
-    part = hysteresis(piezo, np.random.default_rng(seed))
+def test_hysteresis_has_the_width_of_its_size_at_any_rate(piezo_axis, seed):
+    part = draw_hysteresis(piezo_axis, np.random.default_rng(seed))
     ramp = np.concatenate([np.linspace(0, 1, 801), np.linspace(1, 0, 801)])
-    ramp = piezo.low + piezo.span * np.concatenate([ramp, ramp])
+    ramp = piezo_axis.low + piezo_axis.span * np.concatenate([ramp, ramp])
     out = part.act(ramp, SimulationRun(5e-5, 20, 0, 0), 0.1)
     assert np.allclose(part.act(ramp[::2], SimulationRun(5e-5, 20, 0, 0), 0.1), out[::2], atol=1e-7)
     up, down = out[1602 : 1602 + 801], out[1602 + 801 :][::-1]
-    assert 0.02 < np.max(down - up) / piezo.span < 0.25
+    assert 0.02 < np.max(down - up) / piezo_axis.span < 0.25
 
 
-def test_creep_adds_its_share_per_decade_and_starts_from_rest(piezo):
-    part = creep(piezo, np.random.default_rng(3))
+def test_creep_starts_from_rest_and_adds_its_share_per_decade(piezo_axis):
+    part = draw_creep(piezo_axis, np.random.default_rng(3))
     step_s = 1e-3
-    values = np.where(np.arange(40_000) < 5000, 0.3, 0.7) * piezo.span
+    values = np.where(np.arange(40_000) < 5000, 0.3, 0.7) * piezo_axis.span
     out = part.act(values, SimulationRun(step_s, 1, 2000, 0), 0.02) - values
     assert np.all(out[:5000] == 0.0)
     decade = out[5000 + 20_000] - out[5000 + 2000]
-    assert decade / (0.4 * piezo.span) == pytest.approx(0.02, rel=0.4)
+    assert decade / (0.4 * piezo_axis.span) == pytest.approx(0.02, rel=0.4)
 
 
-def test_lost_steps_are_multiples_of_four_full_steps(axis):
-    part = lost_steps(axis, np.random.default_rng(0))
+def test_lost_steps_are_multiples_of_four_full_steps(stepper_axis):
+    part = draw_lost_steps(stepper_axis, np.random.default_rng(0))
     run = SimulationRun(1e-3, 1, 100, 7)
     values = np.interp(np.arange(4000), [500, 600, 2000, 2100], [0.03, 0.031, 0.031, 0.03])
-    lost = (values - part.act(values, run, 2.0)) / (4.0 * axis.full_step)
+    lost = (values - part.act(values, run, 2.0)) / (4.0 * stepper_axis.full_step)
     assert np.allclose(lost, np.round(lost), atol=1e-6)
     assert len(np.unique(np.round(lost))) > 1
     assert np.array_equal(part.act(values, run, 2.0), part.act(values, run, 2.0))
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_backlash_leaves_the_axis_half_its_width_behind(seed):
-    commands = stepper_commands(30.0, 30.02, 30.0, 30.02)
-    plain = machine(("x", "y", "z"), commands)
-    part = backlash(plain.axes[0], np.random.default_rng(seed)).sized(4e-6)
-    late = plain.having([part]).respond(commands, 0).motion[:, 0] - commands.values[:, 0]
-    assert late[590] == pytest.approx(-2e-6, rel=0.25)  # after a rise, long ago
-    assert late[1190] == pytest.approx(-2e-6, rel=0.25)
-    assert late[1790] == pytest.approx(2e-6, rel=0.25)
+def test_the_axis_lags_by_half_the_backlash_width(seed):
+    commands = make_stepper_commands(30.0, 30.02, 30.0, 30.02)
+    nominal = make_machine(("x", "y", "z"), commands)
+    part = draw_backlash(nominal.axes[0], np.random.default_rng(seed)).with_size(4e-6)
+    lag = nominal.with_parts([part]).respond(commands, 0).motion[:, 0] - commands.values[:, 0]
+    assert lag[590] == pytest.approx(-2e-6, rel=0.25)  # long after a rise
+    assert lag[1190] == pytest.approx(-2e-6, rel=0.25)
+    assert lag[1790] == pytest.approx(2e-6, rel=0.25)
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_a_dither_within_the_play_moves_nothing(axis, seed):
+def test_a_dither_within_the_play_does_not_move_the_axis(stepper_axis, seed):
     rise = np.linspace(0.0, 30e-6, 2000)
     dither = 0.8e-6 * np.sin(np.linspace(0.0, 60.0 * np.pi, 6000))
-    values = axis.low + np.concatenate([rise, 26.5e-6 + dither])  # off the flank
-    out = backlash(axis, np.random.default_rng(seed)).act(
+    values = stepper_axis.low + np.concatenate([rise, 26.5e-6 + dither])  # away from the flank
+    out = draw_backlash(stepper_axis, np.random.default_rng(seed)).act(
         values, SimulationRun(1e-3, 1, 0, 0), 8e-6
     )
     assert np.ptp(out[4000:]) < 1e-3 * 8e-6
-    turned = values[2000:].mean() - out[4000:].mean()
-    assert abs(turned) < 4e-6  # and it has not come to where a rise or a fall leaves it
+    offset = values[2000:].mean() - out[4000:].mean()
+    # The axis has not reached the position where a rise or a fall would leave it.
+    assert abs(offset) < 4e-6
 
 
 @pytest.mark.parametrize("speed", [1e-5, 1e-4, 1e-3, 1e-2])
-def test_slip_elements_hold_back_by_their_stribeck_force_at_any_speed(speed):
-    row, memory = np.zeros(ROW), np.zeros(12)
+def test_slip_elements_resist_with_their_stribeck_force_at_any_speed(speed):
+    row, memory = np.zeros(LOAD_ROW_LENGTH), np.zeros(12)
     row[0], row[2:9] = SLIP, (40.0, 44.0, 1.4, 2e-4, 3e-7, 3e3, 0.0)
     for _ in range(20_000):
-        force = load_force(row, memory, 0.0, speed, 0, 5e-5)
+        force = compute_load_force(row, memory, 0.0, speed, 0, 5e-5)
     assert -force == pytest.approx(40.0 * (1.0 + 0.4 / (1.0 + (speed / 2e-4) ** 2)), rel=1e-6)
     for _ in range(20_000):
-        force = load_force(row, memory, 0.0, -speed, 0, 5e-5)
+        force = compute_load_force(row, memory, 0.0, -speed, 0, 5e-5)
     assert force == pytest.approx(44.0 * (1.0 + 0.4 / (1.0 + (speed / 2e-4) ** 2)), rel=1e-6)
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_friction_holds_the_axis_within_its_force_over_the_stiffness(axis, seed):
-    commands = stepper_commands(30.0, 30.02, 30.0, 30.02)
-    plain = machine(("x", "y", "z"), commands)
-    part = friction(plain.axes[0], np.random.default_rng(seed)).sized(40.0)
-    off = plain.having([part]).respond(commands, 0).motion[:, 0] - commands.values[:, 0]
-    at_rest = np.abs(off[[590, 1190, 1790, 2390]])
-    assert np.all(at_rest < 1.7 * 40.0 / axis.stiffness)
-    assert np.ptp(off[[1190, 1790]]) > 0.2 * 40.0 / axis.stiffness
+def test_friction_deflects_the_axis_at_most_by_force_over_stiffness(stepper_axis, seed):
+    commands = make_stepper_commands(30.0, 30.02, 30.0, 30.02)
+    nominal = make_machine(("x", "y", "z"), commands)
+    part = draw_friction(nominal.axes[0], np.random.default_rng(seed)).with_size(40.0)
+    deviation = nominal.with_parts([part]).respond(commands, 0).motion[:, 0] - commands.values[:, 0]
+    at_rest = np.abs(deviation[[590, 1190, 1790, 2390]])
+    assert np.all(at_rest < 1.7 * 40.0 / stepper_axis.stiffness)
+    assert np.ptp(deviation[[1190, 1790]]) > 0.2 * 40.0 / stepper_axis.stiffness
 
 
-def test_contact_pushes_on_one_side_alone(piezo):
-    commands = piezo_commands(swing())
-    plain = machine(("thx", "thy", "zn"), commands)
-    part = contact(plain.axes[2], np.random.default_rng(1)).sized(0.5)
-    at, side = part.act(np.zeros(0), SimulationRun(1e-3, 1, 0, 0), 0.5)[[2, 5]]
-    gap = (plain.having([part]).respond(commands, 0).motion - plain.respond(commands, 0).motion)[
-        :, 2
-    ]
-    free = side * (commands.values[:, 2] - at) < -0.02 * piezo.span
-    touching = side * (commands.values[:, 2] - at) > 0.05 * plain.axes[2].span
+def test_contact_pushes_on_one_side_only(piezo_axis):
+    commands = make_piezo_commands(make_swing())
+    nominal = make_machine(("thx", "thy", "zn"), commands)
+    part = draw_contact(nominal.axes[2], np.random.default_rng(1)).with_size(0.5)
+    contact_position, side = part.act(np.zeros(0), SimulationRun(1e-3, 1, 0, 0), 0.5)[[2, 5]]
+    gap = (
+        nominal.with_parts([part]).respond(commands, 0).motion - nominal.respond(commands, 0).motion
+    )[:, 2]
+    free = side * (commands.values[:, 2] - contact_position) < -0.02 * piezo_axis.span
+    touching = side * (commands.values[:, 2] - contact_position) > 0.05 * nominal.axes[2].span
     assert np.abs(gap[free]).max() < 1e-2 * np.abs(gap).max()
     assert np.all(side * gap[touching] < 0.0)
 
 
-def test_a_flexible_mode_rings_and_leaves_the_static_gain(piezo):
-    commands = piezo_commands(np.repeat([0.3, 0.6], 2000))
-    plain = machine(("thx", "thy", "zn"), commands)
-    part = flexible_mode(plain.axes[0], np.random.default_rng(1)).sized(0.2)
-    gap = (plain.having([part]).respond(commands, 0).motion - plain.respond(commands, 0).motion)[
-        :, 0
-    ]
+def test_a_flexible_mode_rings_and_keeps_the_static_gain(piezo_axis):
+    commands = make_piezo_commands(np.repeat([0.3, 0.6], 2000))
+    nominal = make_machine(("thx", "thy", "zn"), commands)
+    part = draw_flexible_mode(nominal.axes[0], np.random.default_rng(1)).with_size(0.2)
+    gap = (
+        nominal.with_parts([part]).respond(commands, 0).motion - nominal.respond(commands, 0).motion
+    )[:, 0]
     assert np.abs(gap[2000:2100]).max() > 100.0 * np.abs(gap[-50:]).max()
 
 
 @pytest.mark.parametrize("seed", range(8))
-def test_a_sensor_lags_a_ramp_by_its_size(axis, seed):
-    part = sensor_lag(axis, np.random.default_rng(seed))
+def test_a_sensor_lags_a_ramp_by_its_lag_time(stepper_axis, seed):
+    part = draw_sensor_lag(stepper_axis, np.random.default_rng(seed))
     ramp = np.arange(60_000) * 1e-8
-    late = ramp - part.act(ramp, SimulationRun(5e-5, 20, 0, 0), 2e-3)
-    assert late[-1] == pytest.approx(2e-3 / 5e-5 * 1e-8, rel=1e-3)
+    lag = ramp - part.act(ramp, SimulationRun(5e-5, 20, 0, 0), 2e-3)
+    assert lag[-1] == pytest.approx(2e-3 / 5e-5 * 1e-8, rel=1e-3)
 
 
-def test_an_encoder_errs_with_the_period_of_its_grating(axis):
-    part = encoder_interpolation(axis, np.random.default_rng(0))
+def test_the_encoder_error_has_the_period_of_the_grating(stepper_axis):
+    part = draw_encoder_interpolation(stepper_axis, np.random.default_rng(0))
     position = np.linspace(0.0, 80e-6, 80_001)
     error = part.act(position, SimulationRun(1e-3, 1, 0, 0), 0.1) - position
     assert np.allclose(error[:40_000], error[40_000:80_000], atol=1e-12)
@@ -243,13 +254,13 @@ def test_an_encoder_errs_with_the_period_of_its_grating(axis):
 
 def test_a_filter_begins_at_rest_and_ends_at_its_input():
     values = np.concatenate([np.full(500, 2.0), np.full(30_000, 3.0)])
-    out = lagged(values, mode_poles(20.0, 0.5), 5e-5)
+    out = apply_low_pass(values, compute_mode_poles(20.0, 0.5), 5e-5)
     assert np.allclose(out[:500], 2.0, atol=1e-9)
     assert out[-1] == pytest.approx(3.0, rel=1e-6)
 
 
-def test_a_shift_leaves_less_of_a_resonance_than_noise():
-    fine = np.arange(20_000) * 5e-5
-    late = smoothly_shifted(np.sin(2.0 * np.pi * 420.0 * fine), np.full(20_000, 7.4))
-    exact = np.sin(2.0 * np.pi * 420.0 * (fine - 7.4 * 5e-5))
-    assert np.abs(late - exact)[10:].max() < 1e-5
+def test_a_delay_distorts_a_resonance_by_less_than_the_noise():
+    time_s = np.arange(20_000) * 5e-5
+    delayed = delay_smooth_signal(np.sin(2.0 * np.pi * 420.0 * time_s), np.full(20_000, 7.4))
+    exact = np.sin(2.0 * np.pi * 420.0 * (time_s - 7.4 * 5e-5))
+    assert np.abs(delayed - exact)[10:].max() < 1e-5

@@ -1,4 +1,4 @@
-"""Figures of the test from answers made by hand."""
+"""Figures of the blind test for hand-made answers."""
 
 import io
 from dataclasses import replace
@@ -6,38 +6,44 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rotemina.sim.blind.figures_table import markdown_table, page, plain_table
-from rotemina.sim.blind.intervals import resampled, share
-from rotemina.sim.blind.picture import draw_confusion
-from rotemina.sim.blind.scoring import (
-    Outcome,
-    calibration_table,
-    confusion,
-    expected_calibration_error,
-    halves,
+from rotemina.sim.blind import (
+    CaseOutcome,
+    count_confusion,
+    draw_confusion,
+    format_page,
+    format_plain_table,
     score,
+    seal_label,
+    split_by_remainder,
 )
-from rotemina.sim.blind.sealing import SealError, seal
+from rotemina.sim.blind.figures_table import format_markdown_table
+from rotemina.sim.blind.intervals import estimate_by_bootstrap, estimate_share
+from rotemina.sim.blind.scoring import compute_calibration_error, make_calibration_table
+from rotemina.sim.errors import SealError
 
 
-def effect(name, axis="x", from_axis=None, **more):
-    return {"axis": axis, "effect": name, "from_axis": from_axis, **more}
+def make_effect(name, axis="x", from_axis=None, **entries):
+    return {"axis": axis, "effect": name, "from_axis": from_axis, **entries}
 
 
-def cause(name, axis="x", probability=0.9, ambiguous=(), from_axis=None):
-    return effect(name, axis, from_axis, probability=probability, ambiguous_with=list(ambiguous))
+def make_cause(name, axis="x", probability=0.9, ambiguous=(), from_axis=None):
+    return make_effect(
+        name, axis, from_axis, probability=probability, ambiguous_with=list(ambiguous)
+    )
 
 
-def outcome(truth, causes, verdict=None, *, floors=10.0, closure=None, told=None):
+def make_outcome(truth, causes, verdict=None, *, floors=10.0, closure=None, answered_verdict=None):
     label = {"verdict": verdict or ("explained" if truth else "none"), "effects": truth}
-    answer = {"verdict": told or ("explained" if causes else "none"), "causes": causes}
-    return Outcome("case", {**label, "floors": floors}, answer, 2.0, closure)
+    answer = {"verdict": answered_verdict or ("explained" if causes else "none"), "causes": causes}
+    return CaseOutcome("case", {**label, "floors": floors}, answer, 2.0, closure)
 
 
-def test_the_first_cause_counts_and_must_sit_on_the_right_axis():
-    right = outcome([effect("creep")], [cause("creep")])
-    elsewhere = outcome([effect("creep")], [cause("creep", "y")])
-    second = outcome([effect("creep")], [cause("delay"), cause("creep")], floors=3.0)
+def test_only_the_first_cause_counts_and_only_on_the_right_axis():
+    right = make_outcome([make_effect("creep")], [make_cause("creep")])
+    elsewhere = make_outcome([make_effect("creep")], [make_cause("creep", "y")])
+    second = make_outcome(
+        [make_effect("creep")], [make_cause("delay"), make_cause("creep")], floors=3.0
+    )
     figures = score([right, elsewhere, second])
     assert figures["top_1"].value == pytest.approx(1 / 3)
     assert figures["top_1_large_gap"].value == pytest.approx(1 / 2)
@@ -45,37 +51,43 @@ def test_the_first_cause_counts_and_must_sit_on_the_right_axis():
     assert figures["set_coverage"].value == pytest.approx(2 / 3)
 
 
-def test_coupling_counts_with_its_source_alone():
-    truth = [effect("cross_coupling", from_axis="y")]
-    assert outcome(truth, [cause("cross_coupling", from_axis="y")]).exact
-    assert not outcome(truth, [cause("cross_coupling", from_axis="z")]).first_right
+def test_a_coupling_is_correct_only_with_its_source():
+    truth = [make_effect("cross_coupling", from_axis="y")]
+    assert make_outcome(truth, [make_cause("cross_coupling", from_axis="y")]).is_exact
+    assert not make_outcome(truth, [make_cause("cross_coupling", from_axis="z")]).is_first_correct
 
 
-def test_a_set_covers_what_it_holds_and_costs_its_size():
-    figures = score([outcome([effect("delay")], [cause("amplifier_lag", ambiguous=["delay"])])])
+def test_a_set_of_causes_covers_its_members_and_counts_its_size():
+    figures = score(
+        [make_outcome([make_effect("delay")], [make_cause("amplifier_lag", ambiguous=["delay"])])]
+    )
     assert figures["top_1"].value == 0.0
     assert figures["set_coverage"].value == 1.0
     assert figures["set_size"].value == 2.0
-    missed = score([outcome([effect("delay")], [cause("amplifier_lag", ambiguous=["creep"])])])
+    missed = score(
+        [make_outcome([make_effect("delay")], [make_cause("amplifier_lag", ambiguous=["creep"])])]
+    )
     assert missed["set_coverage"].value == 0.0
 
 
-def test_two_effects_are_exact_in_any_order_and_with_nothing_beside_them():
-    truth = [effect("creep"), effect("delay", "y")]
-    both = [cause("delay", "y"), cause("creep")]
-    assert score([outcome(truth, both)])["two_exact"].value == 1.0
-    assert score([outcome(truth, both[:1])])["two_exact"].value == 0.0
-    assert score([outcome(truth, [*both, cause("contact")])])["two_exact"].value == 0.0
+def test_two_effects_are_exact_in_any_order_but_not_with_a_third():
+    truth = [make_effect("creep"), make_effect("delay", "y")]
+    both = [make_cause("delay", "y"), make_cause("creep")]
+    assert score([make_outcome(truth, both)])["two_exact"].value == 1.0
+    assert score([make_outcome(truth, both[:1])])["two_exact"].value == 0.0
+    assert score([make_outcome(truth, [*both, make_cause("contact")])])["two_exact"].value == 0.0
 
 
-def test_first_class_answers_are_recalled_and_the_healthy_not_accused():
+def test_recall_of_verdicts_and_false_accusations_of_healthy_machines():
     figures = score(
         [
-            outcome([], []),
-            outcome([], [cause("delay")]),
-            outcome([effect("unknown")], [], "unknown", told="unknown"),
-            outcome([effect("unknown")], [cause("creep")], "unknown"),
-            outcome([], [], "insufficient_excitation", told="insufficient_excitation"),
+            make_outcome([], []),
+            make_outcome([], [make_cause("delay")]),
+            make_outcome([make_effect("unknown")], [], "unknown", answered_verdict="unknown"),
+            make_outcome([make_effect("unknown")], [make_cause("creep")], "unknown"),
+            make_outcome(
+                [], [], "insufficient_excitation", answered_verdict="insufficient_excitation"
+            ),
         ]
     )
     assert figures["false_accusations"].value == 0.5
@@ -83,23 +95,24 @@ def test_first_class_answers_are_recalled_and_the_healthy_not_accused():
     assert figures["insufficient_recall"].value == 1.0
 
 
-def test_a_diagnosis_that_failed_is_wrong():
-    failed = Outcome("case", {"verdict": "none", "effects": []}, {"verdict": "failed"}, 1.0)
+def test_a_failed_diagnosis_is_wrong():
+    failed = CaseOutcome("case", {"verdict": "none", "effects": []}, {"verdict": "failed"}, 1.0)
     assert score([failed])["false_accusations"].value == 1.0
-    assert not failed.right
+    assert not failed.is_correct
 
 
-def test_calibration_error_is_how_far_probabilities_are_from_what_comes_true():
-    sure = [outcome([effect("creep")], [cause("creep", probability=0.75)])] * 3
-    wrong = [outcome([effect("creep")], [cause("delay", probability=0.75)])]
-    table = calibration_table([*sure, *wrong])
-    assert expected_calibration_error(table) == pytest.approx(0.0)
-    assert expected_calibration_error(calibration_table(wrong)) == pytest.approx(0.75)
+def test_calibration_error_is_the_distance_of_probabilities_from_frequencies():
+    sure = [make_outcome([make_effect("creep")], [make_cause("creep", probability=0.75)])] * 3
+    wrong = [make_outcome([make_effect("creep")], [make_cause("delay", probability=0.75)])]
+    table = make_calibration_table([*sure, *wrong])
+    assert compute_calibration_error(table) == pytest.approx(0.0)
+    assert compute_calibration_error(make_calibration_table(wrong)) == pytest.approx(0.75)
 
 
-def test_closure_is_told_by_median_and_tenth_percentile():
+def test_closure_is_given_as_median_and_tenth_percentile():
     outcomes = [
-        outcome([effect("creep")], [cause("creep")], closure=c) for c in np.linspace(0.5, 1.0, 11)
+        make_outcome([make_effect("creep")], [make_cause("creep")], closure=c)
+        for c in np.linspace(0.5, 1.0, 11)
     ]
     figures = score(outcomes)
     assert figures["closure_median"].value == pytest.approx(0.75)
@@ -108,89 +121,100 @@ def test_closure_is_told_by_median_and_tenth_percentile():
     assert 0.5 < low < 0.75 < high < 1.0
 
 
-def test_wilsons_interval_is_the_published_one():
+def test_wilsons_interval_matches_published_values():
     # Newcombe 1998, table I: 81 of 263, and 0 of 20.
-    figure = share([True] * 81 + [False] * 182)
+    figure = estimate_share([True] * 81 + [False] * 182)
     assert (figure.low, figure.high) == (
         pytest.approx(0.2553, abs=1e-4),
         pytest.approx(0.3662, abs=1e-4),
     )
-    none = share([False] * 20)
-    assert (none.low, none.high) == (0.0, pytest.approx(0.1611, abs=1e-4))
+    figure_of_none = estimate_share([False] * 20)
+    assert (figure_of_none.low, figure_of_none.high) == (0.0, pytest.approx(0.1611, abs=1e-4))
 
 
-def test_no_cases_no_figure():
-    assert share([]).value is None
-    assert resampled(np.array([]), np.median).as_json() == {
+def test_without_cases_there_is_no_figure():
+    assert estimate_share([]).value is None
+    assert estimate_by_bootstrap(np.array([]), np.median).as_json() == {
         "value": None,
         "interval": [None, None],
         "n": 0,
     }
-    assert "–" in plain_table(score([outcome([], [])]))
+    assert "–" in format_plain_table(score([make_outcome([], [])]))
 
 
-def test_the_confusion_matrix_counts_and_is_drawn():
-    counts = confusion(
+def test_the_confusion_matrix_is_counted_and_drawn_reproducibly():
+    counts = count_confusion(
         [
-            outcome([effect("creep")], [cause("delay")]),
-            outcome([effect("creep")], [cause("creep")]),
-            outcome([], []),
+            make_outcome([make_effect("creep")], [make_cause("delay")]),
+            make_outcome([make_effect("creep")], [make_cause("creep")]),
+            make_outcome([], []),
         ]
     )
     assert counts == {("creep", "delay"): 1, ("creep", "creep"): 1, ("none", "none"): 1}
     file = io.BytesIO()
     draw_confusion(counts, file)
     assert file.getvalue().startswith(b"<?xml")
-    again = io.BytesIO()
-    draw_confusion(counts, again)
-    assert again.getvalue() == file.getvalue()
+    second_file = io.BytesIO()
+    draw_confusion(counts, second_file)
+    assert second_file.getvalue() == file.getvalue()
 
 
-def test_tables_hold_every_figure_that_any_case_has():
-    outcomes = [outcome([effect("creep")], [cause("creep")], closure=0.9)]
+def test_tables_contain_every_figure_that_has_cases():
+    outcomes = [make_outcome([make_effect("creep")], [make_cause("creep")], closure=0.9)]
     figures = score(outcomes)
-    text = page(figures, outcomes, "confusion.svg", "2 cases of seed `3`", {"naive": figures})
+    text = format_page(
+        figures, outcomes, "confusion.svg", "2 cases of seed `3`", {"naive": figures}
+    )
     assert "| first cause correct, one effect | (≥ 92 %) | 100.0 % (20.7–100.0) | 100.0 %" in text
     assert "![Confusion matrix" in text
-    counted = [one for one in figures.values() if one.number > 0]
-    assert 0 < len(counted) < len(figures)
-    assert len(markdown_table({"reached": figures}).splitlines()) == len(counted) + 2
+    figures_with_cases = [figure for figure in figures.values() if figure.case_count > 0]
+    assert 0 < len(figures_with_cases) < len(figures)
+    assert (
+        len(format_markdown_table({"reached": figures}).splitlines()) == len(figures_with_cases) + 2
+    )
 
 
 def test_a_sealed_label_cannot_be_exchanged():
     label = {"verdict": "none", "effects": []}
-    sealed = seal(label, "salt")
+    sealed = seal_label(label, "salt")
     sealed.check({"effects": [], "verdict": "none"}, "salt", "case")
     for other, salt in (({"verdict": "unknown", "effects": []}, "salt"), (label, "pepper")):
         with pytest.raises(SealError, match="case: its label is not the one that was sealed"):
             sealed.check(other, salt, "case")
-    assert seal(label, "one").digest != seal(label, "two").digest
+    assert seal_label(label, "one").digest != seal_label(label, "two").digest
 
 
-def test_causes_count_beside_a_remainder_and_halves_are_told_apart():
-    partly = outcome([effect("creep")], [cause("creep")], told="partly")
-    rest = replace(partly, label={**partly.label, "remainder": {"axis": "x", "floors": 2.0}})
-    extra = outcome([effect("creep")], [cause("creep"), cause("delay")])
+def test_causes_count_despite_a_remainder_and_outcomes_are_split_by_it():
+    partly = make_outcome([make_effect("creep")], [make_cause("creep")], answered_verdict="partly")
+    with_remainder = replace(
+        partly, label={**partly.label, "remainder": {"axis": "x", "floors": 2.0}}
+    )
+    extra = make_outcome([make_effect("creep")], [make_cause("creep"), make_cause("delay")])
     assert score([partly])["top_1"].value == score([partly])["single_exact"].value == 1.0
     figures = score([partly, extra])
     assert figures["extra_causes"].value == 0.5
     assert figures["causes_named"].value == 1.0
-    parts = halves([rest, extra, outcome([], [])])
-    assert parts == {"without_remainder": [extra], "with_remainder": [rest]}
+    split = split_by_remainder([with_remainder, extra, make_outcome([], [])])
+    assert split == {"without_remainder": [extra], "with_remainder": [with_remainder]}
 
 
-def test_a_poor_motion_that_tells_the_cause_all_the_same_is_no_error():
+def test_the_right_cause_from_a_poor_motion_is_no_error():
     hidden = {"verdict": "insufficient_excitation", "kind": "poor", "effects": []}
-    hidden["hidden"] = [effect("creep")]
+    hidden["hidden"] = [make_effect("creep")]
 
-    def answered(*causes):
-        return replace(outcome([], list(causes)), label=hidden)
+    def make_answer(*causes):
+        return replace(make_outcome([], list(causes)), label=hidden)
 
-    right, wrong = answered(cause("creep")), answered(cause("delay"))
-    too_much = answered(cause("creep"), cause("delay"))
+    right, wrong = make_answer(make_cause("creep")), make_answer(make_cause("delay"))
+    too_much = make_answer(make_cause("creep"), make_cause("delay"))
     silent = replace(right, answer={"verdict": "insufficient_excitation", "causes": []})
-    assert [one.right for one in (right, wrong, too_much, silent)] == [True, False, False, True]
+    assert [outcome.is_correct for outcome in (right, wrong, too_much, silent)] == [
+        True,
+        False,
+        False,
+        True,
+    ]
     figures = score([right, wrong, too_much, silent])
     assert figures["insufficient_recall"].value == 0.25
     assert figures["insufficient_right"].value == 0.5
-    assert calibration_table([right, wrong]).tolist() == [[0.9, 1.0], [0.9, 0.0]]
+    assert make_calibration_table([right, wrong]).tolist() == [[0.9, 1.0], [0.9, 0.0]]

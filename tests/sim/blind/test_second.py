@@ -1,77 +1,82 @@
-"""The second generator: what it adds is there, and a machine without it is the nominal one."""
+"""The second generator: its effects show, and its machine without effects is the nominal one."""
 
 import numpy as np
 import pytest
 
-from rotemina.sim.blind_second.case import _machine, draw_second
-from rotemina.sim.blind_second.effects import MAKERS, PIEZO_ALONE, draw
-from rotemina.sim.blind_second.machine import Motion
-from rotemina.sim.plant.response import nominal_response
-from rotemina.sim.records.reading import read_record
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.file import load_robot
+from rotemina.sim.blind_second import draw_second_case
+from rotemina.sim.blind_second.case import _build_machine
+from rotemina.sim.blind_second.effects import DRAW_FUNCTIONS, PIEZO_ONLY_EFFECTS, draw_effect
+from rotemina.sim.blind_second.machine import SecondMotion
+from rotemina.sim.plant import simulate_nominal_response
+from rotemina.sim.records import Record, Tap, read_record
+from rotemina.sim.robot_files import load_robot
 
 ROBOT = load_robot("rotemina")
 
 
-def machine_of(names, rows=1500):
+def make_machine(names, rows=1500):
     time_s = np.arange(rows) / 500.0
-    ways = [ROBOT.axes[name].range for name in names]
+    ranges = [ROBOT.axes[name].range for name in names]
     values = [
         low + min(high - low, 4e-3) * (0.5 + 0.4 * np.sin(7.0 * time_s + number))
-        for number, (low, high) in enumerate(ways)
+        for number, (low, high) in enumerate(ranges)
     ]
-    asked = Motion(1.0 / 500.0, np.column_stack(values))
-    return _machine(ROBOT, names, [asked]), asked
+    motion = SecondMotion(1.0 / 500.0, np.column_stack(values))
+    return _build_machine(ROBOT, names, [motion]), motion
 
 
 @pytest.mark.parametrize("names", [("x", "y", "z"), ("thx", "thy", "zn")])
-def test_a_machine_with_nothing_added_is_the_nominal_one(names):
-    machine, asked = machine_of(names)
-    reading = machine.run(asked, 0).reading
-    time_s = np.arange(len(reading)) * asked.step_s
-    signals = {(name, Tap.CMD): asked.values[:, i] for i, name in enumerate(names)}
+def test_a_machine_without_effects_is_the_nominal_machine(names):
+    machine, motion = make_machine(names)
+    reading = machine.run(motion, 0).reading
+    time_s = np.arange(len(reading)) * motion.step_s
+    signals = {(name, Tap.CMD): motion.values[:, i] for i, name in enumerate(names)}
     units = {name: ROBOT.unit(name) for name in names}
-    nominal = nominal_response(ROBOT, Record.from_signals(time_s, signals, units))
+    nominal = simulate_nominal_response(ROBOT, Record.from_signals(time_s, signals, units))
     for axis in machine.axes:
-        apart = (reading[:, axis.index] - nominal.signal(axis.name, Tap.MEAS))[250:]
-        assert np.std(apart) < 0.1 * axis.floor
+        deviation = (reading[:, axis.index] - nominal.signal(axis.name, Tap.MEAS))[250:]
+        assert np.std(deviation) < 0.1 * axis.floor
 
 
-@pytest.mark.parametrize("effect", [*MAKERS, "cross_coupling"])
-def test_each_effect_changes_what_is_read(effect):
-    names = ("thx", "thy", "zn") if effect in PIEZO_ALONE else ("x", "y", "z")
-    machine, asked = machine_of(names)
+@pytest.mark.parametrize("effect", [*DRAW_FUNCTIONS, "cross_coupling"])
+def test_each_effect_changes_the_reading(effect):
+    names = ("thx", "thy", "zn") if effect in PIEZO_ONLY_EFFECTS else ("x", "y", "z")
+    machine, motion = make_machine(names)
     axis, *others = machine.axes
-    one = draw(effect, axis, others, np.random.default_rng(0))
-    plain, changed = (machine.having(e).run(asked, 1).reading for e in ([], [one.sized(one.usual)]))
-    apart = changed - plain
-    assert np.isfinite(apart).all()
-    assert np.std(apart[:, axis.index]) > 0.05 * axis.floor
+    drawn_effect = draw_effect(effect, axis, others, np.random.default_rng(0))
+    nominal, changed = (
+        machine.with_effects(effects).run(motion, 1).reading
+        for effects in ([], [drawn_effect.with_size(drawn_effect.usual_size)])
+    )
+    difference = changed - nominal
+    assert np.isfinite(difference).all()
+    assert np.std(difference[:, axis.index]) > 0.05 * axis.floor
 
 
 @pytest.mark.slow
 def test_cases_are_drawn_labelled_and_written(tmp_path):
-    cases = [draw_second(ROBOT, seed) for seed in (0, 1, 3)]
+    cases = [draw_second_case(ROBOT, seed) for seed in (0, 1, 3)]
     for number, case in enumerate(cases):
         label = case.label()
         assert (label["verdict"] == "none") == (label["effects"] == [])
         assert all(effect["floors"] >= 1.6 for effect in label["effects"])
         if label["remainder"] is not None:
-            rest = label["remainder"]["floors"]
-            assert min(effect["floors"] for effect in label["effects"]) >= 2.0 * rest
+            remainder = label["remainder"]["floors"]
+            assert min(effect["floors"] for effect in label["effects"]) >= 2.0 * remainder
         case.write(tmp_path / str(number), ROBOT)
         record = read_record(tmp_path / str(number) / "train_1.csv.gz", robot=ROBOT)
         assert record.has(record.axes[0], Tap.MEAS)
-    assert draw_second(ROBOT, 1).label() == cases[1].label()
+    assert draw_second_case(ROBOT, 1).label() == cases[1].label()
 
 
-def test_chance_is_the_same_whatever_else_is_added():
-    machine, asked = machine_of(("x",))
+def test_noise_is_the_same_whichever_other_effects_are_added():
+    machine, motion = make_machine(("x",))
     axis = machine.axes[0]
     rng = np.random.default_rng(0)
-    noise, gain = (draw(name, axis, [], rng) for name in ("sensor_noise", "sensor_gain"))
-    noise = noise.sized(noise.usual)
-    alone = machine.having([noise]).run(asked, 1).reading - machine.run(asked, 1).reading
-    beside = machine.having([gain, noise]).run(asked, 1).reading - machine.run(asked, 1).reading
-    assert beside == pytest.approx(alone, abs=1e-6 * axis.floor)
+    noise, gain = (draw_effect(name, axis, [], rng) for name in ("sensor_noise", "sensor_gain"))
+    noise = noise.with_size(noise.usual_size)
+    alone = machine.with_effects([noise]).run(motion, 1).reading - machine.run(motion, 1).reading
+    with_gain = (
+        machine.with_effects([gain, noise]).run(motion, 1).reading - machine.run(motion, 1).reading
+    )
+    assert with_gain == pytest.approx(alone, abs=1e-6 * axis.floor)

@@ -1,12 +1,12 @@
-"""Simulated machines whose sensors are known to be wrong."""
+"""Simulated machines with known sensor errors."""
 
 import numpy as np
 import pytest
 
-from rotemina.sim.calibration.plan import calibration_motion
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.robot.model import AxisEffect
-from rotemina.sim.simulation.simulation import simulate
+from rotemina.sim.calibration import make_calibration_motion
+from rotemina.sim.robot import AxisEffect
+from rotemina.sim.robot_files import load_robot
+from rotemina.sim.simulation import simulate
 
 
 @pytest.fixture(scope="session")
@@ -15,15 +15,15 @@ def robot():
 
 
 @pytest.fixture(scope="session")
-def measured(robot):
-    """Return the record of an axis with effects: (id, parameters) each, by their formulation."""
+def simulate_calibration(robot):
+    """Return a function that simulates an axis with effects (id, formulation, parameters)."""
 
-    def make(axis, *effects, runs=3, seed=1, rate_hz=500.0, **plan):
-        present = [
-            AxisEffect(axis=axis, id=name, formulation=form, parameters=values)
-            for name, form, values in effects
+    def simulate_axis(axis, *effects, runs=3, seed=1, rate_hz=500.0, **plan):
+        axis_effects = [
+            AxisEffect(axis=axis, id=name, formulation=formulation, parameters=values)
+            for name, formulation, values in effects
         ]
-        motion = calibration_motion(robot, axis, runs=runs, rate_hz=rate_hz, **plan)
-        return simulate(robot, present, motion, np.random.default_rng(seed))
+        motion = make_calibration_motion(robot, axis, runs=runs, rate_hz=rate_hz, **plan)
+        return simulate(robot, axis_effects, motion, np.random.default_rng(seed))
 
-    return make
+    return simulate_axis

@@ -1,17 +1,20 @@
-"""The sweep after which an inverse and its axis have the same past."""
+"""The sweep that brings the memory of an inverse and its axis into the same state."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from rotemina.sim.compensate.conditioning import conditioning
-from rotemina.sim.compensate.errors import CompensationError
-from rotemina.sim.compensate.inverse import Exceedance, Inverse
-from rotemina.sim.compensate.inverse_parameters import InverseModel
-from rotemina.sim.records.record import Tap
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.trajectory.dry_run import dry_run
+from rotemina.sim.compensate import (
+    Inverse,
+    InverseExceedance,
+    InverseModel,
+    make_conditioning_sweep,
+)
+from rotemina.sim.errors import CompensationError
+from rotemina.sim.records import Tap
+from rotemina.sim.robot_files import load_robot
+from rotemina.sim.trajectory import dry_run
 
 ROBOT = load_robot("rotemina")
 ZN = ROBOT.axes["zn"]
@@ -33,33 +36,33 @@ MODEL = InverseModel(
 
 
 @pytest.mark.parametrize("start", [20e-6, 31e-6, 45e-6])
-def test_it_nearly_reaches_both_ends_inside_every_limit_and_comes_back(start):
-    sweep = conditioning(ROBOT, MODEL, start)
-    path = sweep.signal("zn", Tap.CMD)
-    assert path[[0, -1]] == pytest.approx(start, abs=1e-15)
-    assert path.min() < 15e-6
-    assert 50e-6 < path.max() < ZN.range[1]
+def test_the_sweep_nearly_reaches_both_ends_within_all_limits_and_returns(start):
+    sweep = make_conditioning_sweep(ROBOT, MODEL, start)
+    commands = sweep.signal("zn", Tap.CMD)
+    assert commands[[0, -1]] == pytest.approx(start, abs=1e-15)
+    assert commands.min() < 15e-6
+    assert 50e-6 < commands.max() < ZN.range[1]
     assert dry_run(ROBOT, sweep).allowed
     inverse = Inverse(MODEL, 2e-3)
-    inverse.run(path)
-    assert not inverse.beyond & Exceedance.COMMAND
+    inverse.run(commands)
+    assert not inverse.exceedance & InverseExceedance.COMMAND
 
 
-def test_after_it_no_past_is_left():
-    sweep = conditioning(ROBOT, MODEL, 30e-6).signal("zn", Tap.CMD)
-    told = []
-    for past in ([30e-6], [30e-6, 55e-6, 8e-6, 50e-6, 30e-6]):
+def test_the_sweep_erases_the_memory_of_earlier_positions():
+    sweep = make_conditioning_sweep(ROBOT, MODEL, 30e-6).signal("zn", Tap.CMD)
+    commands = []
+    for history in ([30e-6], [30e-6, 55e-6, 8e-6, 50e-6, 30e-6]):
         inverse = Inverse(MODEL, 2e-3)
-        for place in past:
-            before = inverse.step(place)
-        told.append((before, inverse.run(sweep)[-1]))
-    assert abs(told[0][0] - told[1][0]) > 1e-6
-    assert told[0][1] == pytest.approx(told[1][1], abs=1e-15)
+        for position in history:
+            command_before = inverse.step(position)
+        commands.append((command_before, inverse.run(sweep)[-1]))
+    assert abs(commands[0][0] - commands[1][0]) > 1e-6
+    assert commands[0][1] == pytest.approx(commands[1][1], abs=1e-15)
 
 
-def test_what_it_cannot_begin_at_or_be_told_is_refused():
+def test_a_start_without_a_possible_sweep_is_refused():
     with pytest.raises(CompensationError, match=r"between 1 µm and 65 µm"):
-        conditioning(ROBOT, MODEL, 70e-6)
+        make_conditioning_sweep(ROBOT, MODEL, 70e-6)
     steep = replace(MODEL, consequents=np.array([[0.0, 3.0, 0.1, 0.1]]))
     with pytest.raises(CompensationError, match="move the axis to mid-range first"):
-        conditioning(ROBOT, steep, 10e-6)
+        make_conditioning_sweep(ROBOT, steep, 10e-6)

@@ -1,30 +1,33 @@
-"""PICMA: trained on swings of one size, an inverse reproduces the voltage of growing ones."""
+"""PICMA: an inverse trained on swings of one size reproduces the voltage of growing swings."""
 
 import pytest
 
-from rotemina.sim.compensate.judgement import residual
-from rotemina.sim.compensate.samples import samples_of
-from rotemina.sim.compensate.training import train
-from rotemina.sim.records.reading import read_record
-from rotemina.sim.robot.file import load_robot
+from rotemina.sim.compensate import compute_residual, read_samples, train
+from rotemina.sim.records import read_record
+from rotemina.sim.robot_files import load_robot
 
 pytestmark = pytest.mark.slow
 
-MOST_M = 0.45e-6
+MAX_RESIDUAL_M = 0.45e-6
 
 
 def test_the_recorded_voltage_of_growing_swings_is_reproduced(real_dir):
-    """The past of a real record is unknown: its offset is its own, and is taken off."""
+    """The history of a real record is unknown, so its offset is removed."""
     robot = load_robot("picma")
-    known, unseen = (
-        samples_of(robot, "p", read_record(real_dir / f"picma_{name}.csv", robot=robot), name)
+    training, unseen = (
+        read_samples(robot, "p", read_record(real_dir / f"picma_{name}.csv", robot=robot), name)
         for name in ("train", "growing")
     )
-    found = train(robot, [known])
-    left = {kind: residual(model, [(unseen, unseen.first)]) for kind, model in found.models.items()}
-    for kind, one in left.items():
-        print(f"{kind}: {1e6 * one.aligned:.3f} µm, with the offset {1e6 * one.rms:.3f} µm")
-    assert found.chosen == "prandtl_ishlinskii"
-    assert "All swings have one size" in found.why
-    assert left[found.chosen].aligned <= MOST_M
-    assert left["linear"].aligned > 5.0 * left[found.chosen].aligned
+    trained = train(robot, [training])
+    residuals = {
+        kind: compute_residual(model, [(unseen, unseen.first)])
+        for kind, model in trained.models.items()
+    }
+    for kind, residual in residuals.items():
+        print(
+            f"{kind}: {1e6 * residual.aligned:.3f} µm, with the offset {1e6 * residual.rms:.3f} µm"
+        )
+    assert trained.recommended_kind == "prandtl_ishlinskii"
+    assert "All swings have one size" in trained.recommendation_reason
+    assert residuals[trained.recommended_kind].aligned <= MAX_RESIDUAL_M
+    assert residuals["linear"].aligned > 5.0 * residuals[trained.recommended_kind].aligned

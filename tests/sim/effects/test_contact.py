@@ -1,23 +1,29 @@
-"""Contact: nothing before a place, and a push beyond it, as stiff as one likes."""
+"""Contact: no effect before its place, and a push beyond it, at any stiffness."""
 
 import numpy as np
 import pytest
 
-from rotemina.sim.effects.attachment import Attached
-from rotemina.sim.effects.contact import progressive, spring, stop
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.file import load_robot, parse_robot
-from rotemina.sim.robot.model import AxisEffect
-from rotemina.sim.simulation.simulation import simulate
+from rotemina.sim.effects import AttachedEffect
+from rotemina.sim.effects.contact import (
+    block_motion,
+    compute_progressive_force,
+    compute_spring_force,
+)
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot import AxisEffect
+from rotemina.sim.robot_files import load_robot, parse_robot
+from rotemina.sim.simulation import simulate
 
 ROBOT = load_robot("rotemina")
 SPAN = {name: axis.span for name, axis in ROBOT.axes.items()}
-EVERY = pytest.mark.parametrize("formulation", ["spring", "progressive", "stop"])
-FORCES = pytest.mark.parametrize("formulation", ["spring", "progressive"])
+every_formulation = pytest.mark.parametrize("formulation", ["spring", "progressive", "stop"])
+every_force = pytest.mark.parametrize("formulation", ["spring", "progressive"])
 
 
-def touched(command, formulation="spring", axis="zn", effects=True, rate_hz=4000.0, **parameters):
-    """``place`` counts in shares of the range."""
+def simulate_contact(
+    command, formulation="spring", axis="zn", has_contact=True, rate_hz=4000.0, **parameters
+):
+    """Return the true position of an axis in contact, with ``place`` as a share of its range."""
     signals = {(axis, Tap.CMD): command}
     record = Record.from_signals(
         np.arange(len(command)) / rate_hz, signals, {axis: ROBOT.unit(axis)}
@@ -25,35 +31,37 @@ def touched(command, formulation="spring", axis="zn", effects=True, rate_hz=4000
     if "place" in parameters:
         parameters["place"] *= SPAN[axis]
     effect = AxisEffect(axis=axis, id="contact", formulation=formulation, parameters=parameters)
-    return simulate(ROBOT, [effect] if effects else (), record).signal(axis, Tap.REF)
+    return simulate(ROBOT, [effect] if has_contact else (), record).signal(axis, Tap.REF)
 
 
-def strength(formulation, value):
+def make_strength(formulation, value):
     return {"blocked" if formulation == "stop" else "stiffness": value}
 
 
-def swing(centre, amplitude, axis="zn"):
+def make_swing(centre, amplitude, axis="zn"):
     wave = np.sin(2 * np.pi * 5.0 * np.arange(3000) / 4000.0)
     return ROBOT.axes[axis].range[0] + SPAN[axis] * (centre + amplitude * wave)
 
 
-@EVERY
+@every_formulation
 @pytest.mark.parametrize("axis", ["zn", "x"])
 @pytest.mark.parametrize("side", [1, -1])
-def test_before_the_place_there_is_nothing(formulation, axis, side):
-    command = swing(0.5, 1e-3, axis)
-    figures = strength(formulation, 0.9 * side)
-    path = touched(command, formulation, axis, place=0.5 + side * 2e-3, **figures)
-    nominal = touched(command, formulation, axis, effects=False)
+def test_the_axis_is_nominal_before_the_place(formulation, axis, side):
+    command = make_swing(0.5, 1e-3, axis)
+    parameters = make_strength(formulation, 0.9 * side)
+    path = simulate_contact(command, formulation, axis, place=0.5 + side * 2e-3, **parameters)
+    nominal = simulate_contact(command, formulation, axis, has_contact=False)
     np.testing.assert_allclose(path, nominal, rtol=0, atol=2e-11 * SPAN[axis])
 
 
-@EVERY
+@every_formulation
 @pytest.mark.parametrize("side", [1, -1])
-def test_beyond_the_place_it_holds_back(formulation, side):
-    command = swing(0.5, 0.3)
-    path = touched(command, formulation, place=0.5, **strength(formulation, 0.9 * side))
-    nominal = touched(command, formulation, effects=False)
+def test_the_axis_is_held_back_beyond_the_place(formulation, side):
+    command = make_swing(0.5, 0.3)
+    path = simulate_contact(
+        command, formulation, place=0.5, **make_strength(formulation, 0.9 * side)
+    )
+    nominal = simulate_contact(command, formulation, has_contact=False)
     beyond = side * (nominal - 0.5 * SPAN["zn"]) > 0.05 * SPAN["zn"]
     assert (side * (nominal - path)[beyond] > 0).all()
     before = np.roll(beyond, 1) | np.roll(beyond, -1) | beyond
@@ -61,12 +69,12 @@ def test_beyond_the_place_it_holds_back(formulation, side):
     assert reach[~before].max() < 0.2 * reach.max()
 
 
-@FORCES
+@every_force
 @pytest.mark.parametrize("stiffness", [0.1, 1.0, 10.0, 30.0, -10.0])
-def test_it_rests_where_the_forces_balance(formulation, stiffness):
-    """κ of the stiffness of the axis: what pushes back is ``κ D (δ/D)ⁿ`` of it."""
+def test_the_axis_rests_where_the_forces_balance(formulation, stiffness):
+    """With κ times the stiffness of the axis, the push is ``κ D (δ/D)ⁿ`` times that stiffness."""
     place = SPAN["zn"] * (0.8 if stiffness > 0 else 0.2)
-    path = touched(np.full(2, place), formulation, place=0.5, stiffness=stiffness)
+    path = simulate_contact(np.full(2, place), formulation, place=0.5, stiffness=stiffness)
     depth = abs(path[0] - 0.5 * SPAN["zn"])
     power = 1.0 if formulation == "spring" else 1.5
     reference = 0.1 * SPAN["zn"]
@@ -78,38 +86,48 @@ def test_it_rests_where_the_forces_balance(formulation, stiffness):
 @pytest.mark.parametrize("stiffness", [1.0, 10.0])
 def test_the_resonance_in_contact_is_that_of_both_springs(stiffness):
     command = np.concatenate([[0.8 * SPAN["zn"]], np.full(4000, 0.801 * SPAN["zn"])])
-    path = touched(command, place=0.5, stiffness=stiffness, damping_ratio=0.0, rate_hz=40_000.0)
+    path = simulate_contact(
+        command, place=0.5, stiffness=stiffness, damping_ratio=0.0, rate_hz=40_000.0
+    )
     path = path[1:] - path[-400:].mean()
-    up = np.flatnonzero((path[:-1] < 0) & (path[1:] >= 0))
-    exact = up - path[up] / (path[up + 1] - path[up])
-    found = 40_000.0 / np.diff(exact[1:12]).mean()
-    mass, _, own = ROBOT.axes["zn"].inertia
-    assert found == pytest.approx(np.sqrt(own * (1 + stiffness) / mass) / (2 * np.pi), rel=1e-2)
+    upward_rows = np.flatnonzero((path[:-1] < 0) & (path[1:] >= 0))
+    crossings = upward_rows - path[upward_rows] / (path[upward_rows + 1] - path[upward_rows])
+    frequency_hz = 40_000.0 / np.diff(crossings[1:12]).mean()
+    mass, _, axis_stiffness = ROBOT.axes["zn"].inertia
+    assert frequency_hz == pytest.approx(
+        np.sqrt(axis_stiffness * (1 + stiffness) / mass) / (2 * np.pi), rel=1e-2
+    )
 
 
 def test_a_membrane_of_exponent_one_is_a_spring():
-    command = swing(0.5, 0.3)
-    figures = {"place": 0.5, "stiffness": 2.0, "damping_ratio": 0.1}
-    one = touched(command, "progressive", exponent=1.0, **figures)
-    np.testing.assert_allclose(one, touched(command, **figures), atol=2e-3 * SPAN["zn"])
+    command = make_swing(0.5, 0.3)
+    parameters = {"place": 0.5, "stiffness": 2.0, "damping_ratio": 0.1}
+    path = simulate_contact(command, "progressive", exponent=1.0, **parameters)
+    np.testing.assert_allclose(
+        path, simulate_contact(command, **parameters), atol=2e-3 * SPAN["zn"]
+    )
 
 
-@EVERY
-def test_it_goes_smoothly_through_nothing_from_one_side_to_the_other(formulation):
-    command = swing(0.5, 0.3)
-    nominal = touched(command, formulation, effects=False)
-    none = touched(command, formulation, place=0.5, **strength(formulation, 0.0))
-    np.testing.assert_allclose(none, nominal, rtol=0, atol=2e-11 * SPAN["zn"])
-    for little in (1e-4, -1e-4):
-        path = touched(command, formulation, place=0.5, **strength(formulation, little))
+@every_formulation
+def test_the_response_is_continuous_at_zero_strength(formulation):
+    command = make_swing(0.5, 0.3)
+    nominal = simulate_contact(command, formulation, has_contact=False)
+    without_strength = simulate_contact(
+        command, formulation, place=0.5, **make_strength(formulation, 0.0)
+    )
+    np.testing.assert_allclose(without_strength, nominal, rtol=0, atol=2e-11 * SPAN["zn"])
+    for value in (1e-4, -1e-4):
+        path = simulate_contact(
+            command, formulation, place=0.5, **make_strength(formulation, value)
+        )
         assert 0 < np.abs(path - nominal).max() < 2e-4 * SPAN["zn"]
 
 
-def test_a_stop_leaves_a_share_of_the_motion():
-    command = swing(0.5, 0.3)
-    nominal = touched(command, effects=False)
+def test_a_stop_blocks_its_share_of_the_motion():
+    command = make_swing(0.5, 0.3)
+    nominal = simulate_contact(command, has_contact=False)
     for blocked, side in ((0.25, 1), (-0.25, -1), (1.0, 1)):
-        path = touched(command, "stop", place=0.6, blocked=blocked)
+        path = simulate_contact(command, "stop", place=0.6, blocked=blocked)
         beyond = np.maximum(side * (nominal - 0.6 * SPAN["zn"]), 0.0)
         expected = nominal - side * abs(blocked) * beyond
         np.testing.assert_allclose(path, expected, atol=1e-18)
@@ -118,41 +136,41 @@ def test_a_stop_leaves_a_share_of_the_motion():
 @pytest.mark.parametrize("step_s", [1e-6, 1e-4, 1e-2])
 @pytest.mark.parametrize("stiffness", [1.0, 1e6, 1e12])
 def test_the_push_is_stable_at_any_stiffness_and_never_pulls(step_s, stiffness):
-    """A free mass of 1 bounces between the spring and nothing, without gaining speed."""
+    """A free mass of 1 bounces off the spring without gaining speed."""
     a, b = step_s**2 / 2, step_s
     q, v = -1e-3, 0.7
     for _ in range(2000):
         numbers = [1.0, 0.0, stiffness, 0.0]
-        push = spring(q + v * step_s / 2, v, 0.0, step_s, a, b, numbers, [])
+        push = compute_spring_force(q + v * step_s / 2, v, 0.0, step_s, a, b, numbers, [])
         assert push <= 0.0
         q, v = q + v * step_s + a * push, v + b * push
         assert abs(v) < 0.7 * 1.001
     assert v == pytest.approx(-0.7, rel=1e-3) or step_s == 1e-6 or stiffness == 1.0
 
 
-@FORCES
-def test_plain_python_says_the_same_on_both_sides(formulation):
-    step = spring if formulation == "spring" else progressive
-    asked = AxisEffect(axis="zn", id="contact", formulation=formulation)
-    attached = Attached.of(ROBOT, asked)
-    numbers = list(attached.formulation.numbers(attached.values, attached.facts))
+@every_force
+def test_plain_python_is_symmetric_for_both_sides(formulation):
+    step = compute_spring_force if formulation == "spring" else compute_progressive_force
+    effect = AxisEffect(axis="zn", id="contact", formulation=formulation)
+    attached = AttachedEffect.of(ROBOT, effect)
+    numbers = list(attached.formulation.compute_numbers(attached.values, attached.facts))
     mirrored = [-1.0, -numbers[1], *numbers[2:]]
     for x, v in ((4.4e-5, 0.1), (4.6e-5, 0.1), (4.6e-5, -0.1), (6e-5, 0.0)):
         push = step(x, v, 0.0, 1e-5, 3e-10, 6e-5, numbers, [])
-        back = step(-x, -v, 0.0, 1e-5, 3e-10, 6e-5, mirrored, [])
-        assert push == pytest.approx(-back)
+        mirrored_push = step(-x, -v, 0.0, 1e-5, 3e-10, 6e-5, mirrored, [])
+        assert push == pytest.approx(-mirrored_push)
         assert push <= 0.0
-    assert stop(3.0, 0.0, 0.0, 0.0, 0.0, 0.0, [1.0, 2.0, 0.75], []) == 2.25
-    assert stop(-3.0, 0.0, 0.0, 0.0, 0.0, 0.0, [-1.0, -2.0, 0.75], []) == -2.25
+    assert block_motion(3.0, 0.0, 0.0, 0.0, 0.0, 0.0, [1.0, 2.0, 0.75], []) == 2.25
+    assert block_motion(-3.0, 0.0, 0.0, 0.0, 0.0, 0.0, [-1.0, -2.0, 0.75], []) == -2.25
 
 
-@FORCES
+@every_force
 @pytest.mark.parametrize("speed", [1.0, -1.0])
-def test_a_touch_pushes_as_little_as_it_is_short(formulation, speed):
-    """Spring and damper set in evenly, so that a fit of the place meets no jump."""
-    step = spring if formulation == "spring" else progressive
+def test_a_light_touch_pushes_little(formulation, speed):
+    """Spring and damper set in gradually, so that a fit of the place meets no jump."""
+    step = compute_spring_force if formulation == "spring" else compute_progressive_force
     numbers = [1.0, 0.0, 1e4, 50.0, 1.5, 1.0][: 4 if formulation == "spring" else 6]
-    reach = 0.5e-3 if formulation == "spring" else 0.0  # half of the way of a step
+    reach = 0.5e-3 if formulation == "spring" else 0.0  # half of the distance of a step
     pushes = [
         step(depth - reach, speed, 0.0, 1e-3, 5e-7, 1e-3, numbers, [])
         for depth in (-1e-7, 1e-7, 1e-6, 1e-5)
@@ -164,7 +182,7 @@ def test_a_touch_pushes_as_little_as_it_is_short(formulation, speed):
         assert pushes[3] < 0.0
 
 
-@EVERY
+@every_formulation
 def test_the_place_counts_from_the_low_end(formulation):
     robot = parse_robot(
         "[robot]\nname='one'\naxes=['a']\n[axis.a]\nkind='piezo'\nunit='m'\n"
@@ -173,7 +191,7 @@ def test_the_place_counts_from_the_low_end(formulation):
     record = Record.from_signals(
         np.arange(2) * 1e-3, {("a", Tap.CMD): np.full(2, -1.2)}, {"a": "m"}
     )
-    figures = {"place": 0.5, **strength(formulation, 1.0)}
-    asked = AxisEffect(axis="a", id="contact", formulation=formulation, parameters=figures)
-    rest = simulate(robot, [asked], record).signal("a", Tap.REF)[0]
-    assert -1.5 <= rest < -1.3
+    parameters = {"place": 0.5, **make_strength(formulation, 1.0)}
+    effect = AxisEffect(axis="a", id="contact", formulation=formulation, parameters=parameters)
+    position = simulate(robot, [effect], record).signal("a", Tap.REF)[0]
+    assert -1.5 <= position < -1.3

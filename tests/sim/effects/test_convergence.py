@@ -1,19 +1,19 @@
-"""Forces of effects are held over inner steps: how the error falls with the step."""
+"""Convergence of forces that are held over inner steps: the order of the error in the step."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from rotemina.sim.plant.plant import Plant
-from rotemina.sim.robot.file import parse_robot
-from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.plant import Plant
+from rotemina.sim.robot import AxisEffect
+from rotemina.sim.robot_files import parse_robot
 
 SAMPLE_S = 5e-3
 TIME_S = np.arange(0.0, 2.0, SAMPLE_S)
 WAVE = 0.45 * np.sin(2 * np.pi * 1.3 * TIME_S) + 0.05 * np.sign(np.sin(2 * np.pi * 2.7 * TIME_S))
-STEPS = np.array([4, 8, 16, 32])
-FINE = 1024
+STEP_COUNTS = np.array([4, 8, 16, 32])
+FINE_STEP_COUNT = 1024
 
 FADING = {"static_ratio": 2.0, "stribeck_speed": 1e-2, "viscous_forward": 20.0}
 DRY = {"coulomb_forward": 0.6, "coulomb_backward": 0.5}
@@ -21,7 +21,7 @@ BRISTLES = {"coulomb": 0.6, "deflection": 1e-4, "static_ratio": 1.5, "stribeck_s
 SLIPPING = {"coulomb": 0.6, "backward": 0.8, "deflection": 1e-4}
 ELASTIC = {"place": 0.7, "stiffness": 5.0, "damping_ratio": 0.0}
 CASES = {
-    # effect, formulation, parameters, amplitude, least order that is asked for, error at first
+    # Effect, formulation, parameters, amplitude, minimum order, maximum error of the first step.
     "dry friction": ("friction", "stribeck", DRY, 1e-3, 1.5, 2e-3),
     "fading friction": ("friction", "stribeck", {**DRY, **FADING}, 1e-3, 0.8, 0.1),
     "lugre": ("friction", "lugre", BRISTLES, 1e-3, 0.85, 0.03),
@@ -49,8 +49,8 @@ CASES = {
 }
 
 
-def paths(effect_id, formulation, parameters, amplitude, counts):
-    """Return the motion of one axis of 10 Hz with so many steps in each interval of samples."""
+def simulate_deviations(effect_id, formulation, parameters, amplitude, counts):
+    """Yield the deviation of an axis of 10 Hz for each number of steps per sample."""
     kind = "stepper" if effect_id == "friction" else "piezo"
     gain = "gain = 0.1\n" if kind == "piezo" else ""
     mass, rate = 2.0, 2 * np.pi * 10.0
@@ -61,32 +61,34 @@ def paths(effect_id, formulation, parameters, amplitude, counts):
     effect = AxisEffect(axis="a", id=effect_id, formulation=formulation, parameters=parameters)
     plant = Plant.of(replace(robot, effects=(effect,)))
     command = (0.5 + amplitude * WAVE)[:, None]
-    state = plant.at_rest(0.0, command[0])
+    state = plant.find_rest_state(0.0, command[0])
     for count in counts:
         stepped = replace(plant, assembly=replace(plant.assembly, inner_step_s=SAMPLE_S / count))
         yield stepped.advance(state, TIME_S, command)[0].position[:, 0] - command[:, 0]
 
 
 @pytest.mark.parametrize("case", CASES.values(), ids=CASES)
-def test_measured_order_of_convergence(case):
-    *case, least, first = case
-    *coarse, fine = paths(*case, (*STEPS, FINE))
+def test_the_order_of_convergence_reaches_its_minimum(case):
+    *case, min_order, max_first_error = case
+    *coarse, fine = simulate_deviations(*case, (*STEP_COUNTS, FINE_STEP_COUNT))
     error = np.array([np.linalg.norm(path - fine) for path in coarse]) / np.linalg.norm(fine)
-    order = -np.polyfit(np.log(STEPS), np.log(error), 1)[0]
-    assert order > least, error
-    assert error[0] < first
+    order = -np.polyfit(np.log(STEP_COUNTS), np.log(error), 1)[0]
+    assert order > min_order, error
+    assert error[0] < max_first_error
 
 
 @pytest.mark.parametrize("case", CASES.values(), ids=CASES)
-def test_the_presets_of_the_step_are_fine_enough(case):
+def test_the_preset_steps_are_fine_enough(case):
     effect_id, formulation, parameters, amplitude, *_ = case
-    usual, fine = (
+    preset, fine = (
         path
-        for path in paths(effect_id, formulation, parameters, amplitude, (usual_count(case), FINE))
+        for path in simulate_deviations(
+            effect_id, formulation, parameters, amplitude, (get_preset_count(case), FINE_STEP_COUNT)
+        )
     )
-    assert np.linalg.norm(usual - fine) < 0.06 * np.linalg.norm(fine)
+    assert np.linalg.norm(preset - fine) < 0.06 * np.linalg.norm(fine)
 
 
-def usual_count(case):
-    """Return how many steps the formulation asks for, at least, on this axis."""
+def get_preset_count(case):
+    """Return the minimum number of steps that the formulation requests on this axis."""
     return {"friction": 3, "stiffness_nonlinearity": 2, "contact": 4}[case[0]]

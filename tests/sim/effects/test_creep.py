@@ -3,29 +3,31 @@
 import numpy as np
 import pytest
 
-from rotemina.sim.effects.creep import CREEP, relaxations
-from rotemina.sim.effects.facts import Facts
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.robot.model import AxisEffect
-from rotemina.sim.simulation.simulation import simulate
+from rotemina.sim.effects import AxisProperties
+from rotemina.sim.effects.creep import CREEP, apply_relaxations
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot import AxisEffect
+from rotemina.sim.robot_files import load_robot
+from rotemina.sim.simulation import simulate
 
 ROBOT, PICMA = load_robot("rotemina"), load_robot("picma")
 RATE_HZ = 200.0
 
 
-def crept(command, rate_hz=RATE_HZ, robot=PICMA, **parameters):
+def compute_creep(command, rate_hz=RATE_HZ, robot=PICMA, **parameters):
     axis = next(name for name in robot.axes if name in ("p", "thx"))
     time_s = np.arange(len(command)) / rate_hz
     record = Record.from_signals(
         time_s, {(axis, Tap.CMD): command}, {axis: robot.axes[axis].unit or "m"}
     )
     creep = AxisEffect(axis=axis, id="creep", parameters=parameters)
-    answers = [simulate(robot, e, record).signal(axis, Tap.REF) for e in ([creep], [])]
-    return answers[0] - answers[1]
+    positions = [
+        simulate(robot, effects, record).signal(axis, Tap.REF) for effects in ([creep], [])
+    ]
+    return positions[0] - positions[1]
 
 
-def stepped(low, high, seconds=100.0, rate_hz=RATE_HZ):
+def make_step_command(low, high, seconds=100.0, rate_hz=RATE_HZ):
     command = np.full(int(seconds * rate_hz), high)
     command[:10] = low
     return command
@@ -33,60 +35,68 @@ def stepped(low, high, seconds=100.0, rate_hz=RATE_HZ):
 
 @pytest.mark.parametrize("onset", [1e-3, 5e-3, 0.1, 1.0])
 def test_the_sum_of_relaxations_is_the_logarithm_from_10_ms_to_1000_s(onset):
-    facts = Facts.of(PICMA.axes["p"])
-    p = CREEP.formulations[0].numbers({"rate": 1.0, "onset": onset}, facts)
+    properties = AxisProperties.of(PICMA.axes["p"])
+    p = CREEP.formulations[0].compute_numbers({"rate": 1.0, "onset": onset}, properties)
     s, time_s = [0.0] * CREEP.formulations[0].acts.states, np.geomspace(1e-2, 1e3, 200)
-    read, before = [], 0.0
+    outputs, previous_s = [], 0.0
     for t in time_s:
-        relaxations(1.0, 0, before, t - before, 0, 0, p, s)
-        read.append(relaxations(1.0, 0, t, 0.0, 0, 0, p, s) - 1.0)
-        before = t
-    error = np.abs(np.array(read) - np.log10(1 + time_s / onset))
+        apply_relaxations(1.0, 0, previous_s, t - previous_s, 0, 0, p, s)
+        outputs.append(apply_relaxations(1.0, 0, t, 0.0, 0, 0, p, s) - 1.0)
+        previous_s = t
+    error = np.abs(np.array(outputs) - np.log10(1 + time_s / onset))
     assert error[time_s <= 2e5 * onset].max() < 2e-3
     assert error.max() < 2e-2
 
 
 @pytest.mark.parametrize("h", [1e-3, 1.0, 100.0])
-def test_the_answer_is_the_mean_while_the_input_is_held(h):
-    p = CREEP.formulations[0].numbers({"rate": 1.0, "onset": 0.1}, Facts.of(PICMA.axes["p"]))
+def test_the_output_is_the_mean_while_the_input_is_held(h):
+    p = CREEP.formulations[0].compute_numbers(
+        {"rate": 1.0, "onset": 0.1}, AxisProperties.of(PICMA.axes["p"])
+    )
     coarse, fine = [0.0] * 40, [0.0] * 40
-    means = [relaxations(1.0, 0, 0, h / 4000, 0, 0, p, fine) for _ in range(4000)]
-    assert relaxations(1.0, 0, 0, h, 0, 0, p, coarse) == pytest.approx(np.mean(means), rel=1e-9)
+    means = [apply_relaxations(1.0, 0, 0, h / 4000, 0, 0, p, fine) for _ in range(4000)]
+    assert apply_relaxations(1.0, 0, 0, h, 0, 0, p, coarse) == pytest.approx(
+        np.mean(means), rel=1e-9
+    )
     np.testing.assert_allclose(coarse[:12], fine[:12], rtol=1e-9)
 
 
 @pytest.mark.parametrize("move", [1e-5, -1e-5, 2e-5])
-def test_it_grows_by_its_rate_per_decade_in_proportion_to_the_move(move):
-    gap = crept(stepped(2e-5, 2e-5 + move), rate=0.02)
+def test_creep_grows_by_its_rate_per_decade_in_proportion_to_the_move(move):
+    gap = compute_creep(make_step_command(2e-5, 2e-5 + move), rate=0.02)
     time_s = (np.arange(len(gap)) - 10) / RATE_HZ
-    one, two = np.interp([4.9, 49.9], time_s, gap)  # log10(1 + t/t0) = log10(50), log10(500)
-    assert (two - one) / move == pytest.approx(0.02, rel=2e-2)
+    first, second = np.interp([4.9, 49.9], time_s, gap)  # log10(1 + t/t0) = log10(50), log10(500)
+    assert (second - first) / move == pytest.approx(0.02, rel=2e-2)
     assert gap[9] == 0.0
 
 
-def test_moves_add_up():
+def test_creep_of_several_moves_adds_up():
     rng = np.random.default_rng(3)
     first, second = (np.repeat(rng.uniform(0, 5e-6, 20), 50) for _ in range(2))
-    both = crept(1e-5 + first + second)
-    np.testing.assert_allclose(both, crept(1e-5 + first) + crept(1e-5 + second), atol=1e-12)
+    both = compute_creep(1e-5 + first + second)
+    np.testing.assert_allclose(
+        both, compute_creep(1e-5 + first) + compute_creep(1e-5 + second), atol=1e-12
+    )
 
 
-def test_loops_are_as_wide_as_they_are_long():
+def test_the_loop_width_is_proportional_to_the_amplitude():
     time_s = np.arange(4000) / RATE_HZ
     widths = []
     for amplitude in (5e-6, 1e-5):
-        gap = crept(2e-5 + amplitude * np.sin(2 * np.pi * 0.5 * time_s), rate=0.03)[-400:]
-        widths.append(abs(gap[0] - gap[200]) / amplitude)  # middle of the way up and down
+        gap = compute_creep(2e-5 + amplitude * np.sin(2 * np.pi * 0.5 * time_s), rate=0.03)[-400:]
+        widths.append(
+            abs(gap[0] - gap[200]) / amplitude
+        )  # middle of the upward and the downward path
     assert widths[0] == pytest.approx(widths[1], rel=1e-6)
     assert widths[0] > 1e-3
 
 
-def test_a_run_starts_crept_out_and_no_rate_is_nominal():
-    assert np.abs(crept(np.full(500, 3e-5))).max() == 0.0
-    assert np.abs(crept(stepped(1e-5, 3e-5, 1.0), rate=0.0)).max() == 0.0
+def test_a_run_starts_with_settled_creep_and_zero_rate_is_nominal():
+    assert np.abs(compute_creep(np.full(500, 3e-5))).max() == 0.0
+    assert np.abs(compute_creep(make_step_command(1e-5, 3e-5, 1.0), rate=0.0)).max() == 0.0
 
 
-def test_uneven_holds_and_an_axis_with_dynamics_creep_alike():
-    static = crept(stepped(1e-5, 3e-5, 5.0, 2000.0), 2000.0) / 2e-5
-    moving = crept(stepped(2e-4, 6e-4, 5.0, 2000.0), 2000.0, ROBOT) / 4e-4
+def test_static_and_dynamic_axes_creep_alike():
+    static = compute_creep(make_step_command(1e-5, 3e-5, 5.0, 2000.0), 2000.0) / 2e-5
+    moving = compute_creep(make_step_command(2e-4, 6e-4, 5.0, 2000.0), 2000.0, ROBOT) / 4e-4
     np.testing.assert_allclose(moving[1000:], static[1000:], rtol=1e-3)

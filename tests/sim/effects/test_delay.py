@@ -1,21 +1,21 @@
-"""Transport delay: the phase grows with frequency, the gain stays 1, of any length."""
+"""Transport delay of any length: the phase grows with frequency, and the gain stays 1."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from rotemina.sim.plant.plant import Plant
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.robot.model import AxisEffect
-from rotemina.sim.simulation.simulation import simulate
+from rotemina.sim.plant import Plant
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot import AxisEffect
+from rotemina.sim.robot_files import load_robot
+from rotemina.sim.simulation import simulate
 
 ROBOT = load_robot("rotemina")
 RATE_HZ = 2000.0
 
 
-def answer(command, delay_s=None, tap=Tap.REF):
+def simulate_axis(command, delay_s=None, tap=Tap.REF):
     time_s = np.arange(len(command)) / RATE_HZ
     record = Record.from_signals(time_s, {("thx", Tap.CMD): command}, {"thx": "rad"})
     effects = []
@@ -26,12 +26,12 @@ def answer(command, delay_s=None, tap=Tap.REF):
 
 @pytest.mark.parametrize("frequency_hz", [5.0, 50.0, 150.0])
 @pytest.mark.parametrize("delay_s", [5e-4, 1.37e-3])
-def test_phase_in_proportion_to_frequency_and_gain_one(frequency_hz, delay_s):
+def test_the_phase_is_proportional_to_frequency_and_the_gain_is_one(frequency_hz, delay_s):
     time_s = np.arange(8000) / RATE_HZ
     command = 5e-4 + 1e-4 * np.sin(2 * np.pi * frequency_hz * time_s)
-    turning = np.exp(-2j * np.pi * frequency_hz * time_s)[4000:]
-    ratio = np.sum(answer(command, delay_s)[4000:] * turning)
-    ratio /= np.sum(answer(command)[4000:] * turning)
+    rotation = np.exp(-2j * np.pi * frequency_hz * time_s)[4000:]
+    ratio = np.sum(simulate_axis(command, delay_s)[4000:] * rotation)
+    ratio /= np.sum(simulate_axis(command)[4000:] * rotation)
     assert abs(ratio) == pytest.approx(1.0, abs=2e-3)
     expected = -2 * np.pi * frequency_hz * delay_s
     assert np.angle(ratio / np.exp(1j * expected)) == pytest.approx(0.0, abs=5e-3)
@@ -40,39 +40,41 @@ def test_phase_in_proportion_to_frequency_and_gain_one(frequency_hz, delay_s):
 def test_whole_samples_shift_the_response_and_no_delay_is_nominal():
     rng = np.random.default_rng(2)
     command = np.concatenate([np.full(5, 3e-4), rng.uniform(2e-4, 9e-4, 300)])
-    clean = answer(command)
-    np.testing.assert_array_equal(answer(command, 0.0), clean)
-    np.testing.assert_allclose(answer(command, 3 / RATE_HZ)[3:], clean[:-3], atol=1e-15)
-    u = answer(command, 2.5 / RATE_HZ, Tap.U)
-    np.testing.assert_allclose(u[3:], answer(command, None, Tap.U)[:-3], atol=1e-9)
+    clean = simulate_axis(command)
+    np.testing.assert_array_equal(simulate_axis(command, 0.0), clean)
+    np.testing.assert_allclose(simulate_axis(command, 3 / RATE_HZ)[3:], clean[:-3], atol=1e-15)
+    u = simulate_axis(command, 2.5 / RATE_HZ, Tap.U)
+    np.testing.assert_allclose(u[3:], simulate_axis(command, None, Tap.U)[:-3], atol=1e-9)
 
 
-def test_parts_of_a_sample_act_in_full_and_evenly():
+def test_fractions_of_a_sample_act_evenly():
     command = np.repeat([2e-4, 6e-4], [5, 20])
-    shares = [answer(command, delay_s)[6] for delay_s in np.linspace(0, 5e-4, 6)]
-    assert np.all(np.diff(shares) < 0)  # later is less far, within one sample
-    assert shares[-1] == pytest.approx(2e-4)
+    positions = [simulate_axis(command, delay_s)[6] for delay_s in np.linspace(0, 5e-4, 6)]
+    assert np.all(
+        np.diff(positions) < 0
+    )  # the longer the delay, the shorter the motion within one sample
+    assert positions[-1] == pytest.approx(2e-4)
 
 
-def static_answer(command, delay_s):
+def simulate_static_axis(command, delay_s):
     robot = load_robot("picma")
     time_s = np.arange(len(command)) / 200.0
     record = Record.from_signals(time_s, {("p", Tap.CMD): command}, {"p": "m"})
-    late = AxisEffect(axis="p", id="delay", parameters={"delay": delay_s})
-    return simulate(robot, [late], record).signal("p", Tap.REF)
+    delay = AxisEffect(axis="p", id="delay", parameters={"delay": delay_s})
+    return simulate(robot, [delay], record).signal("p", Tap.REF)
 
 
-def test_a_static_axis_comes_late_without_a_leap():
+def test_the_response_of_a_static_axis_is_continuous_in_the_delay():
     command = 2e-5 + np.random.default_rng(3).uniform(-1e-5, 1e-5, 400)
     for samples in (0.0, 1.0, 3.0):
-        whole = static_answer(command, samples / 200.0)
-        hardly = static_answer(command, (samples + 1e-6) / 200.0)
-        np.testing.assert_allclose(hardly, whole, atol=1e-10)
-    half = static_answer(command, 0.5 / 200.0)
-    np.testing.assert_allclose(half[1:], (command[1:] + command[:-1]) / 2.0, rtol=1e-9)
+        whole_samples = simulate_static_axis(command, samples / 200.0)
+        slightly_later = simulate_static_axis(command, (samples + 1e-6) / 200.0)
+        np.testing.assert_allclose(slightly_later, whole_samples, atol=1e-10)
+    half_sample = simulate_static_axis(command, 0.5 / 200.0)
+    np.testing.assert_allclose(half_sample[1:], (command[1:] + command[:-1]) / 2.0, rtol=1e-9)
 
 
-def test_a_late_static_axis_goes_on_in_pieces():
+def test_a_delayed_static_axis_can_be_simulated_in_pieces():
     robot = replace(
         load_robot("picma"),
         effects=(AxisEffect(axis="p", id="delay", parameters={"delay": 0.013}),),
@@ -80,8 +82,8 @@ def test_a_late_static_axis_goes_on_in_pieces():
     time_s = np.arange(300) / 200.0
     command = 2e-5 + np.random.default_rng(4).uniform(-1e-5, 1e-5, (300, 1))
     plant = Plant.of(robot)
-    whole, _ = plant.advance(plant.at_rest(0.0, command[0]), time_s, command)
-    state, parts = plant.at_rest(0.0, command[0]), []
+    whole, _ = plant.advance(plant.find_rest_state(0.0, command[0]), time_s, command)
+    state, parts = plant.find_rest_state(0.0, command[0]), []
     for begin, end in ((0, 1), (1, 2), (2, 100), (100, 101), (101, 300)):
         motion, state = plant.advance(state, time_s[begin:end], command[begin:end])
         parts.append(motion.position)

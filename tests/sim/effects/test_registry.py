@@ -1,13 +1,17 @@
-"""Effects found by their entry points: ours and a third party's."""
+"""Effects that are found by their entry points, built-in and from third parties."""
 
 from importlib.metadata import EntryPoint
 
 import pytest
 
-from rotemina.sim.effects import registry
-from rotemina.sim.effects.errors import EffectError
-from rotemina.sim.effects.formulation import Stage
-from rotemina.sim.effects.registry import all_effects, effect_ids, effect_named
+from rotemina.sim.effects import (
+    EffectStage,
+    list_effect_ids,
+    load_all_effects,
+    load_effect,
+    registry,
+)
+from rotemina.sim.errors import EffectError
 
 CATALOGUE = [
     "delay",
@@ -42,7 +46,8 @@ CATALOGUE = [
     "clock_skew",
 ]
 
-KINDS = {  # by the spec's letters: P piezo, S stepper, F force
+# By the letters of the catalogue: P piezo, S stepper, F force.
+KINDS = {
     "P": "slew_limit hysteresis creep stiffness_nonlinearity",
     "S": "lost_steps microstep_error",
     "PF": "saturation",
@@ -51,55 +56,55 @@ KINDS = {  # by the spec's letters: P piezo, S stepper, F force
 LETTERS = {"P": "piezo", "S": "stepper", "F": "force"}
 
 
-def points(*pairs):
+def make_entry_points(*pairs):
     return {name: EntryPoint(name, value, registry.GROUP) for name, value in pairs}
 
 
 @pytest.fixture
-def only(monkeypatch):
-    """Let these entry points be the installed ones."""
+def install_only(monkeypatch):
+    """Return a function that replaces the installed entry points."""
 
     def install(*pairs):
-        monkeypatch.setattr(registry, "_points", lambda: points(*pairs))
-        effect_named.cache_clear()
+        monkeypatch.setattr(registry, "_find_entry_points", lambda: make_entry_points(*pairs))
+        load_effect.cache_clear()
 
     yield install
-    effect_named.cache_clear()
+    load_effect.cache_clear()
 
 
-def test_the_catalogue_is_whole_and_loads():
-    found, broken = all_effects()
+def test_all_effects_of_the_catalogue_load():
+    effects, broken = load_all_effects()
     assert broken == {}
-    assert set(CATALOGUE) <= set(found)
+    assert set(CATALOGUE) <= set(effects)
 
 
-def test_effects_stand_in_the_order_of_the_signal_chain():
-    stages = [effect.stage for effect in all_effects()[0].values()]
-    assert stages == sorted(stages, key=list(Stage).index)
+def test_effects_are_in_the_order_of_the_signal_chain():
+    stages = [effect.stage for effect in load_all_effects()[0].values()]
+    assert stages == sorted(stages, key=list(EffectStage).index)
 
 
 @pytest.mark.parametrize("effect_id", CATALOGUE)
-def test_effects_sit_on_the_kinds_of_axis_that_the_catalogue_says(effect_id):
+def test_effects_act_on_the_axis_kinds_of_the_catalogue(effect_id):
     letters = next((key for key, ids in KINDS.items() if effect_id in ids.split()), "PSF")
-    assert effect_named(effect_id).kinds == {LETTERS[letter] for letter in letters}
+    assert load_effect(effect_id).kinds == {LETTERS[letter] for letter in letters}
 
 
-def test_an_effect_that_cannot_be_loaded_is_named_and_left_out(only):
-    only(
+def test_an_effect_that_cannot_be_loaded_is_reported_and_left_out(install_only):
+    install_only(
         ("delay", "rotemina.sim.effects.delay:DELAY"),
         ("gone", "no_such_package.effect:GONE"),
-        ("stage", "rotemina.sim.effects.formulation:Stage"),
+        ("stage", "rotemina.sim.effects.formulation:EffectStage"),
         ("alias", "rotemina.sim.effects.delay:DELAY"),
     )
-    found, broken = all_effects()
-    assert list(found) == ["delay"]
+    effects, broken = load_all_effects()
+    assert list(effects) == ["delay"]
     assert "no_such_package" in broken["gone"]
     assert "is not an Effect" in broken["stage"]
     assert "has the id 'delay'" in broken["alias"]
 
 
 def test_an_effect_that_ends_the_program_or_has_no_formulation_is_left_out(
-    tmp_path, monkeypatch, only
+    tmp_path, monkeypatch, install_only
 ):
     (tmp_path / "leaving_effect.py").write_text("raise SystemExit(7)")
     (tmp_path / "bare_effect.py").write_text(
@@ -108,44 +113,44 @@ def test_an_effect_that_ends_the_program_or_has_no_formulation_is_left_out(
         "BARE = replace(DELAY, id='bare', formulations=())\n"
     )
     monkeypatch.syspath_prepend(str(tmp_path))
-    only(("leaving", "leaving_effect:ANY"), ("bare", "bare_effect:BARE"))
-    found, broken = all_effects()
-    assert found == {}
+    install_only(("leaving", "leaving_effect:ANY"), ("bare", "bare_effect:BARE"))
+    effects, broken = load_all_effects()
+    assert effects == {}
     assert "SystemExit" in broken["leaving"]
     assert "no formulation" in broken["bare"]
 
 
-def test_an_effect_whose_id_is_taken_is_told(monkeypatch):
+def test_an_effect_whose_id_is_taken_is_reported(monkeypatch):
     installed = [*registry.entry_points(group=registry.GROUP)]
-    theirs = EntryPoint("delay", "a_package.delay:DELAY", registry.GROUP)
-    monkeypatch.setattr(registry, "entry_points", lambda group: [theirs, *installed])
-    registry._points.cache_clear()
+    third_party = EntryPoint("delay", "a_package.delay:DELAY", registry.GROUP)
+    monkeypatch.setattr(registry, "entry_points", lambda group: [third_party, *installed])
+    registry._find_entry_points.cache_clear()
     try:
-        assert "already has this id" in all_effects()[1]["delay (a_package.delay:DELAY)"]
+        assert "already has this id" in load_all_effects()[1]["delay (a_package.delay:DELAY)"]
     finally:
-        registry._points.cache_clear()
+        registry._find_entry_points.cache_clear()
 
 
-def test_a_slip_of_an_id_is_guessed():
+def test_a_misspelled_id_gets_a_suggestion():
     with pytest.raises(EffectError, match="did you mean 'hysteresis'"):
-        effect_named("histeresis")
+        load_effect("histeresis")
 
 
 def test_an_unknown_effect_is_refused_with_the_known_ones():
     with pytest.raises(EffectError, match=r"'ether_wind'.*backlash"):
-        effect_named("ether_wind")
+        load_effect("ether_wind")
 
 
-def test_a_built_in_effect_is_not_replaced_by_a_third_partys(monkeypatch):
-    ours = EntryPoint("delay", "rotemina.sim.effects.delay:DELAY", registry.GROUP)
-    theirs = EntryPoint("delay", "a_package.delay:DELAY", registry.GROUP)
-    monkeypatch.setattr(registry, "entry_points", lambda group: [theirs, ours])
-    registry._points.cache_clear()
+def test_a_third_party_effect_does_not_replace_a_built_in_one(monkeypatch):
+    built_in = EntryPoint("delay", "rotemina.sim.effects.delay:DELAY", registry.GROUP)
+    third_party = EntryPoint("delay", "a_package.delay:DELAY", registry.GROUP)
+    monkeypatch.setattr(registry, "entry_points", lambda group: [third_party, built_in])
+    registry._find_entry_points.cache_clear()
     try:
-        assert registry._points()["delay"] is ours
+        assert registry._find_entry_points()["delay"] is built_in
     finally:
-        registry._points.cache_clear()
+        registry._find_entry_points.cache_clear()
 
 
 def test_ids_are_sorted():
-    assert list(effect_ids()) == sorted(effect_ids())
+    assert list(list_effect_ids()) == sorted(list_effect_ids())

@@ -1,19 +1,19 @@
-"""A slew limit: nothing below the rate, a triangle far above it."""
+"""A slew limit: no effect below the rate, and a triangle far above it."""
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from rotemina.sim.effects.slew_limit import hard, soft
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.robot.model import AxisEffect
-from rotemina.sim.simulation.simulation import simulate
+from rotemina.sim.effects.slew_limit import limit_rate, limit_rate_softly
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot import AxisEffect
+from rotemina.sim.robot_files import load_robot
+from rotemina.sim.simulation import simulate
 
 ROBOT = load_robot("rotemina")
 
 
-def driven(command, rate_hz, formulation=None, **parameters):
+def simulate_axis(command, rate_hz, formulation=None, **parameters):
     time_s = np.arange(len(command)) / rate_hz
     record = Record.from_signals(time_s, {("thx", Tap.CMD): command}, {"thx": "rad"})
     effects = []
@@ -24,7 +24,7 @@ def driven(command, rate_hz, formulation=None, **parameters):
     return simulate(ROBOT, effects, record)
 
 
-def sine(amplitude, frequency_hz, rate_hz=20_000.0, count=20_000):
+def make_sine(amplitude, frequency_hz, rate_hz=20_000.0, count=20_000):
     time_s = np.arange(count) / rate_hz
     return 5.8e-4 + amplitude * np.sin(2 * np.pi * frequency_hz * time_s)
 
@@ -35,40 +35,42 @@ def test_the_mean_of_the_hard_limit_is_exact(x, h):
     s = [0.0]
     time_s = (np.arange(200_000) + 0.5) / 200_000 * h
     path = np.sign(x) * np.minimum(2.0 * time_s, abs(x))
-    assert hard(x, 0, 0, h, 0, 0, [2.0], s) == pytest.approx(path.mean(), rel=1e-6)
+    assert limit_rate(x, 0, 0, h, 0, 0, [2.0], s) == pytest.approx(path.mean(), rel=1e-6)
     assert s[0] == pytest.approx(np.sign(x) * min(2.0 * h, abs(x)))
-    assert hard(9.0, 0, 0, 0.0, 0, 0, [2.0], s) == s[0]
+    assert limit_rate(9.0, 0, 0, 0.0, 0, 0, [2.0], s) == s[0]
 
 
 @pytest.mark.parametrize("x", [1e-3, -0.5, 3.0, 30.0, -1000.0])
 @pytest.mark.parametrize("h", [1e-4, 1e-2, 0.1])
 def test_the_soft_limit_and_its_mean_follow_their_differential_equation(x, h):
     p, s = [100.0, 1e-2], [0.0]
-    mean = soft(x, 0, 0, h, 0, 0, p, s)
+    mean = limit_rate_softly(x, 0, 0, h, 0, 0, p, s)
 
-    def slope(_t, y):
+    def compute_derivative(_t, y):
         return [p[0] * np.tanh((x - y[0]) / (p[0] * p[1])), y[0]]
 
-    end = solve_ivp(slope, (0, h), [0.0, 0.0], rtol=1e-10, atol=1e-13 * abs(x)).y[:, -1]
+    end = solve_ivp(compute_derivative, (0, h), [0.0, 0.0], rtol=1e-10, atol=1e-13 * abs(x)).y[
+        :, -1
+    ]
     assert s[0] == pytest.approx(end[0], rel=1e-7)
     assert mean == pytest.approx(end[1] / h, rel=1e-6)
 
 
-def test_nothing_happens_below_the_rate():
-    command = sine(5e-4, 1.0)
+def test_there_is_no_effect_below_the_rate():
+    command = make_sine(5e-4, 1.0)
     fastest = 2 * np.pi * 1.0 * 5e-4 / ROBOT.axes["thx"].gain
-    gap = driven(command, 20_000.0, "hard", rate=1.05 * fastest).signal("thx", Tap.REF)
-    gap = gap - driven(command, 20_000.0).signal("thx", Tap.REF)
+    gap = simulate_axis(command, 20_000.0, "hard", rate=1.05 * fastest).signal("thx", Tap.REF)
+    gap = gap - simulate_axis(command, 20_000.0).signal("thx", Tap.REF)
     assert np.abs(gap).max() < 1e-3 * 5e-4
-    gap = driven(command, 20_000.0, "hard", rate=0.8 * fastest).signal("thx", Tap.REF)
-    gap = gap - driven(command, 20_000.0).signal("thx", Tap.REF)
+    gap = simulate_axis(command, 20_000.0, "hard", rate=0.8 * fastest).signal("thx", Tap.REF)
+    gap = gap - simulate_axis(command, 20_000.0).signal("thx", Tap.REF)
     assert np.abs(gap).max() > 1e-2 * 5e-4
 
 
 @pytest.mark.parametrize("formulation", ["hard", "soft"])
 def test_far_above_the_rate_a_sine_becomes_a_triangle(formulation):
     gain, frequency_hz, rate = ROBOT.axes["thx"].gain, 20.0, 500.0
-    record = driven(sine(5e-4, frequency_hz), 20_000.0, formulation, rate=rate)
+    record = simulate_axis(make_sine(5e-4, frequency_hz), 20_000.0, formulation, rate=rate)
     u = record.signal("thx", Tap.U)[-1001:]  # a period
     slopes = np.abs(np.diff(u)) * 20_000.0
     assert slopes.max() <= rate * (1 + 1e-9)
@@ -80,26 +82,30 @@ def test_far_above_the_rate_a_sine_becomes_a_triangle(formulation):
 def test_the_soft_limit_is_a_lag_for_small_changes():
     p, s, lag = [100.0, 1e-2], [0.0], 1.0
     for _ in range(5):
-        soft(1e-3, 0, 0, 2e-3, 0, 0, p, s)
+        limit_rate_softly(1e-3, 0, 0, 2e-3, 0, 0, p, s)
         lag *= np.exp(-0.2)
         assert s[0] == pytest.approx(1e-3 * (1 - lag), rel=1e-5)
 
 
 @pytest.mark.parametrize("formulation", ["hard", "soft"])
-def test_an_axis_recorded_coarsely_moves_as_one_recorded_finely(formulation):
+def test_the_motion_does_not_depend_on_the_sample_rate(formulation):
     command = np.repeat([1e-4, 6e-4, 3e-4], 40)
-    fine = driven(np.repeat(command, 200), 40_000.0, formulation, rate=5e4)
-    coarse = driven(command, 200.0, formulation, rate=5e4)
+    fine = simulate_axis(np.repeat(command, 200), 40_000.0, formulation, rate=5e4)
+    coarse = simulate_axis(command, 200.0, formulation, rate=5e4)
     gap = coarse.signal("thx", Tap.REF) - fine.signal("thx", Tap.REF)[::200]
     assert np.abs(gap).max() < 2.5e-3 * 5e-4
 
 
-def test_a_great_rate_is_none_and_a_run_starts_at_rest():
+def test_a_high_rate_has_no_effect_and_a_run_starts_at_rest():
     command = np.repeat([1e-4, 6e-4], 50)
-    clean = driven(command, 1000.0).signal("thx", Tap.REF)
-    top = 1e6 * 130.0
-    gap = driven(command, 1000.0, "hard", rate=top).signal("thx", Tap.REF) - clean
+    clean = simulate_axis(command, 1000.0).signal("thx", Tap.REF)
+    high_rate = 1e6 * 130.0
+    gap = simulate_axis(command, 1000.0, "hard", rate=high_rate).signal("thx", Tap.REF) - clean
     assert np.abs(gap).max() < 1e-3 * 5e-4
-    gap = driven(command, 1000.0, "soft", rate=top, time_constant=1e-9).signal("thx", Tap.REF)
+    gap = simulate_axis(command, 1000.0, "soft", rate=high_rate, time_constant=1e-9).signal(
+        "thx", Tap.REF
+    )
     assert np.abs(gap - clean).max() < 1e-3 * 5e-4
-    np.testing.assert_allclose(driven(command, 1000.0, "hard").signal("thx", Tap.REF)[0], 1e-4)
+    np.testing.assert_allclose(
+        simulate_axis(command, 1000.0, "hard").signal("thx", Tap.REF)[0], 1e-4
+    )

@@ -1,8 +1,9 @@
-"""Amounts as users state them."""
+"""Amounts as users write them."""
 
 import pytest
 
-from rotemina.sim.excitation.quantity import ExcitationError, Share, amount_of
+from rotemina.sim.errors import ExcitationRequestError
+from rotemina.sim.excitation import CapabilityShare, parse_axis_amount
 
 
 @pytest.mark.parametrize(
@@ -13,15 +14,15 @@ from rotemina.sim.excitation.quantity import ExcitationError, Share, amount_of
         (" .5mm ", "m", 5e-4),
         ("-1e-3mm", "m", -1e-6),
         ("200urad", "rad", 200e-6),
-        ("30%", "m", Share(0.3)),
-        ("30 %", "rad", Share(0.3)),
+        ("30%", "m", CapabilityShare(0.3)),
+        ("30 %", "rad", CapabilityShare(0.3)),
         ("1 mm/s", "m/s", 1e-3),
         ("2m/s3", "m/s3", 2.0),
         ("2m/s³", "m/s3", 2.0),
     ],
 )
-def test_amounts_become_si(text, unit, amount):
-    assert amount_of(text, "x", unit) == amount
+def test_amounts_are_converted_to_si(text, unit, amount):
+    assert parse_axis_amount(text, "x", unit) == amount
 
 
 @pytest.mark.parametrize(
@@ -39,6 +40,6 @@ def test_amounts_become_si(text, unit, amount):
         ("1,5um", "not an amount"),
     ],
 )
-def test_what_is_no_amount_is_refused(text, words):
-    with pytest.raises(ExcitationError, match=words):
-        amount_of(text, "x", "m")
+def test_texts_that_are_no_amount_are_refused(text, words):
+    with pytest.raises(ExcitationRequestError, match=words):
+        parse_axis_amount(text, "x", "m")

@@ -1,12 +1,12 @@
-"""Axes to close loops around."""
+"""Fixtures: a robot, a worn robot and their simulated loops."""
 
 from dataclasses import replace
 
 import pytest
 
-from rotemina.sim.feedback.axis_loop import AxisLoop
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.feedback import AxisLoop
+from rotemina.sim.robot import AxisEffect
+from rotemina.sim.robot_files import load_robot
 
 RATE_HZ = 5000.0
 
@@ -17,8 +17,8 @@ def robot():
 
 
 @pytest.fixture(scope="session")
-def worn(robot):
-    """The robot with hysteresis of 12 % and creep of 2 % per decade on its nano Z."""
+def worn_robot(robot):
+    """The robot with hysteresis of 12 % and creep of 2 % per decade on zn."""
     effects = (
         AxisEffect(axis="zn", id="hysteresis", parameters={"width": 0.12 * 65e-6}),
         AxisEffect(axis="zn", id="creep", parameters={"rate": 0.02}),
@@ -32,5 +32,5 @@ def loop(robot):
 
 
 @pytest.fixture(scope="session")
-def worn_loop(worn):
-    return AxisLoop(worn, "zn", RATE_HZ)
+def worn_loop(worn_robot):
+    return AxisLoop(worn_robot, "zn", RATE_HZ)

@@ -1,16 +1,16 @@
-"""Records of axes that go there and back."""
+"""Records of axes that move back and forth."""
 
 import numpy as np
 
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.simulation.simulation import simulate
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot_files import load_robot
+from rotemina.sim.simulation import simulate
 
 ROBOT = load_robot("rotemina")
 
 
-def sweep(effects, axes=("x",), seconds=8.0, rate_hz=1000.0, share=0.05, seed=0):
-    """Each axis there and back at its own pace, from rest to rest."""
+def simulate_sweep(effects, axes=("x",), seconds=8.0, rate_hz=1000.0, share=0.05, seed=0):
+    """Return a record of axes that move back and forth at their own rates, from rest to rest."""
     time_s = np.arange(round(seconds * rate_hz)) / rate_hz
     signals, units = {}, {}
     for number, name in enumerate(axes):

@@ -1,31 +1,38 @@
-"""What a diagnosis of several axes says of the robot."""
+"""Verdict and corrected model of a robot with several axes."""
 
 import pytest
 
-from rotemina.sim.gap.diagnosis import AxisDiagnosis, Diagnosis, Verdict
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.gap.result import (
+    AxisDiagnosis,
+    Diagnosis,
+    GapVerdict,
+)
+from rotemina.sim.robot import AxisEffect
+from rotemina.sim.robot_files import load_robot
 
 ROBOT = load_robot("rotemina")
 
 
 @pytest.mark.parametrize(
-    ("verdicts", "whole"),
+    ("verdicts", "robot_verdict"),
     [
-        ((), Verdict.NONE),
-        ((Verdict.NONE, Verdict.EXPLAINED), Verdict.EXPLAINED),
-        ((Verdict.UNKNOWN, Verdict.NONE, Verdict.PARTLY), Verdict.UNKNOWN),
+        ((), GapVerdict.NONE),
+        ((GapVerdict.NONE, GapVerdict.EXPLAINED), GapVerdict.EXPLAINED),
+        ((GapVerdict.UNKNOWN, GapVerdict.NONE, GapVerdict.PARTLY), GapVerdict.UNKNOWN),
     ],
 )
-def test_the_least_certain_axis_speaks_for_the_robot(verdicts, whole):
-    axes = {name: AxisDiagnosis(name, one, ()) for name, one in zip("xyz", verdicts, strict=False)}
-    assert Diagnosis(ROBOT, axes).verdict is whole
-
-
-def test_the_corrected_model_has_what_was_fitted_on_all_axes():
-    one, other = (AxisEffect(axis=axis, id="creep") for axis in ("thx", "thy"))
+def test_the_robot_has_the_verdict_of_its_least_certain_axis(verdicts, robot_verdict):
     axes = {
-        "thx": AxisDiagnosis("thx", Verdict.EXPLAINED, (), fitted=(one,)),
-        "thy": AxisDiagnosis("thy", Verdict.PARTLY, (), fitted=(other,)),
+        name: AxisDiagnosis(name, verdict, ())
+        for name, verdict in zip("xyz", verdicts, strict=False)
     }
-    assert list(Diagnosis(ROBOT, axes).fitted) == [one, other]
+    assert Diagnosis(ROBOT, axes).verdict is robot_verdict
+
+
+def test_the_corrected_model_has_the_fitted_effects_of_all_axes():
+    thx_creep, thy_creep = (AxisEffect(axis=axis, id="creep") for axis in ("thx", "thy"))
+    axes = {
+        "thx": AxisDiagnosis("thx", GapVerdict.EXPLAINED, (), fitted=(thx_creep,)),
+        "thy": AxisDiagnosis("thy", GapVerdict.PARTLY, (), fitted=(thy_creep,)),
+    }
+    assert list(Diagnosis(ROBOT, axes).fitted) == [thx_creep, thy_creep]

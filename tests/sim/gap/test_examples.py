@@ -1,35 +1,35 @@
-"""The example cases with answers: the right effects on the right axes."""
+"""The example cases with known answers: the correct effects on the correct axes."""
 
 import json
 
 import pytest
 
-from rotemina.sim.gap.compare.diagnosis_progress import Account
-from rotemina.sim.gap.diagnosis_pipeline import diagnose
 from rotemina.sim.gap.examination import examine
-from rotemina.sim.gap.fit.evidence import Evidence
-from rotemina.sim.records.reading import read_record
-from rotemina.sim.robot.file import load_robot
+from rotemina.sim.gap.fit import Evidence
+from rotemina.sim.gap.pipeline import diagnose
+from rotemina.sim.gap.result import Account
+from rotemina.sim.records import read_record
+from rotemina.sim.robot_files import load_robot
 
 pytestmark = pytest.mark.slow
 
 
 @pytest.mark.parametrize("number", range(1, 9))
-def test_an_example_is_diagnosed_right(shared_dir, number):
+def test_an_example_is_diagnosed_correctly(shared_dir, number):
     folder = shared_dir / "examples" / f"example_{number}"
     answer = json.loads((folder / "answer.json").read_text(encoding="utf-8"))
     robot = load_robot("rotemina")
     records = [read_record(path, robot=robot) for path in sorted(folder.glob("train_*"))]
-    found = diagnose(robot, records, jobs=2)
-    assert found.verdict.value == answer["verdict"]
-    assert {(cause.axis, cause.effect, cause.from_axis) for cause in found.causes} == {
+    diagnosis = diagnose(robot, records, jobs=2)
+    assert diagnosis.verdict.value == answer["verdict"]
+    assert {(cause.axis, cause.effect, cause.from_axis) for cause in diagnosis.causes} == {
         (effect["axis"], effect["effect"], effect["from_axis"]) for effect in answer["effects"]
     }
 
 
-def test_a_lateness_is_found_where_the_models_own_parameters_follow_it_half_way(shared_dir):
-    """From one record: a slower and better damped axis closes four fifths of a delay's gap."""
+def test_a_delay_is_found_although_model_parameters_partly_imitate_it(shared_dir):
+    """In one record, a slower and better damped axis would close four fifths of the gap."""
     robot = load_robot("rotemina")
     record = read_record(shared_dir / "examples" / "example_20" / "train_1.csv.gz", robot=robot)
-    found = examine(Evidence.of(robot, "y", [record]), Account("y"), jobs=2)
-    assert found.best.ids == (("delay", None),)
+    examination = examine(Evidence.of(robot, "y", [record]), Account("y"), jobs=2)
+    assert examination.best.ids == (("delay", None),)

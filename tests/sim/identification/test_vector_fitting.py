@@ -1,68 +1,74 @@
-"""Vector fitting: the poles of a system that is known."""
+"""Vector fitting finds the poles of a known system."""
 
 import numpy as np
 import pytest
 
-from rotemina.sim.identification.vector_fitting import Spectra, contributions, vector_fit
+from rotemina.sim.identification import (
+    InputOutputSpectra,
+    fit_poles,
+    pole_contributions,
+)
 
-ANGLE = np.linspace(0.05, 3.0, 400)
-Z = np.exp(1j * ANGLE)
+ANGLES = np.linspace(0.05, 3.0, 400)
+Z = np.exp(1j * ANGLES)
 POLES = np.array([0.99, 0.985, 0.97, 0.96]) * np.exp(1j * np.array([0.4, 1.1, 1.9, 2.6]))
-SLOWEST = 0.999
+MAX_POLE_RADIUS = 0.999
 
 
-def spectra(records=3, inputs=2, noise=0.0, seed=1):
-    """What a system with POLES answers to random inputs."""
+def make_spectra(records=3, inputs=2, noise=0.0, seed=1):
+    """Return random inputs and the outputs of a system with POLES."""
     rng = np.random.default_rng(seed)
 
-    def normal(*shape):
+    def draw_normal(*shape):
         return rng.standard_normal(shape) + 1j * rng.standard_normal(shape)
 
-    x, residues = normal(records, inputs, len(Z)), normal(inputs, len(POLES))
-    answer = sum(
+    x, residues = draw_normal(records, inputs, len(Z)), draw_normal(inputs, len(POLES))
+    response = sum(
         residues[:, k, None] / (Z - pole) + residues[:, k, None].conj() / (Z - pole.conj())
         for k, pole in enumerate(POLES)
     )
-    y = (x * answer).sum(axis=1)
-    return Spectra.of(Z, x, y + noise * normal(records, len(Z)))
+    y = (x * response).sum(axis=1)
+    return InputOutputSpectra.from_records(Z, x, y + noise * draw_normal(records, len(Z)))
 
 
 @pytest.mark.parametrize("records", [1, 3, 7])
 def test_the_poles_of_a_system_are_found_exactly(records):
-    found = vector_fit(spectra(records), 6, SLOWEST, most=4)
-    assert found == pytest.approx(POLES, abs=1e-9)
+    poles = fit_poles(make_spectra(records), 6, MAX_POLE_RADIUS, max_poles=4)
+    assert poles == pytest.approx(POLES, abs=1e-9)
 
 
-def test_what_poles_leave_is_the_noise():
-    whole = spectra(noise=0.1)
-    found = vector_fit(whole, 8, SLOWEST, most=4)
-    assert found == pytest.approx(POLES, abs=2e-3)
-    left, grown = contributions(whole, found)
-    told = 2 * whole.output.size - 2 * len(POLES) * (2 + 1)
-    assert left / told == pytest.approx(0.1**2, rel=0.15)
-    assert all(grown > 100.0 * left / len(Z))
+def test_the_residual_of_the_fit_is_the_noise():
+    spectra = make_spectra(noise=0.1)
+    poles = fit_poles(spectra, 8, MAX_POLE_RADIUS, max_poles=4)
+    assert poles == pytest.approx(POLES, abs=2e-3)
+    residual_power, contributions = pole_contributions(spectra, poles)
+    degrees_of_freedom = 2 * spectra.output.size - 2 * len(POLES) * (2 + 1)
+    assert residual_power / degrees_of_freedom == pytest.approx(0.1**2, rel=0.15)
+    assert all(contributions > 100.0 * residual_power / len(Z))
 
 
-def test_what_a_pole_contributes_is_what_is_left_without_it():
-    whole = spectra(noise=0.1)
-    left, grown = contributions(whole, POLES)
+def test_the_contribution_of_a_pole_is_the_added_residual_without_it():
+    spectra = make_spectra(noise=0.1)
+    residual_power, contributions = pole_contributions(spectra, POLES)
     for k in range(len(POLES)):
-        without, _ = contributions(whole, np.delete(POLES, k))
-        assert without - left == pytest.approx(grown[k], rel=1e-6)
+        residual_without, _ = pole_contributions(spectra, np.delete(POLES, k))
+        assert residual_without - residual_power == pytest.approx(contributions[k], rel=1e-6)
 
 
-def test_many_records_say_no_more_than_as_many_as_there_are_signals():
-    many = spectra(records=9)
-    assert many.output.shape == (3, len(Z))
-    one = contributions(many, POLES[:3])[0]
+def test_records_are_reduced_to_as_many_as_there_are_signals():
+    spectra = make_spectra(records=9)
+    assert spectra.output.shape == (3, len(Z))
+    residual = pole_contributions(spectra, POLES[:3])[0]
     rng = np.random.default_rng(2)
-    turn = np.linalg.qr(rng.standard_normal((3, 3)))[0]
-    turned = Spectra(Z, np.einsum("ij,jkl->ikl", turn, many.inputs), turn @ many.output)
-    same = contributions(turned, POLES[:3])[0]
-    assert same == pytest.approx(one, rel=1e-9)
+    rotation = np.linalg.qr(rng.standard_normal((3, 3)))[0]
+    rotated_spectra = InputOutputSpectra(
+        Z, np.einsum("ij,jkl->ikl", rotation, spectra.inputs), rotation @ spectra.output
+    )
+    rotated_residual = pole_contributions(rotated_spectra, POLES[:3])[0]
+    assert rotated_residual == pytest.approx(residual, rel=1e-9)
 
 
-def test_poles_outside_the_circle_and_needles_are_brought_inside():
-    found = vector_fit(spectra(noise=1.0), 10, SLOWEST, most=10)
-    assert np.all(np.abs(found) <= SLOWEST + 1e-12)
-    assert np.all(found.imag > 0.0)
+def test_poles_stay_within_the_maximum_radius():
+    poles = fit_poles(make_spectra(noise=1.0), 10, MAX_POLE_RADIUS, max_poles=10)
+    assert np.all(np.abs(poles) <= MAX_POLE_RADIUS + 1e-12)
+    assert np.all(poles.imag > 0.0)

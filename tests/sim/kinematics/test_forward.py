@@ -1,100 +1,104 @@
-"""Forward kinematics against the reference positions, and Jacobians against differences."""
+"""Forward kinematics match the reference positions, and Jacobians match differences."""
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from rotemina.sim.kinematics.chain import Chain
-from rotemina.sim.kinematics.forward import (
-    axis_jacobian,
-    tip_jacobian,
-    tip_position,
-    tool_axis,
-    turned_angle,
+from rotemina.sim.kinematics import (
+    KinematicChain,
+    angle_between_tool_axes,
+    compute_tip_jacobian,
+    compute_tip_position,
+    compute_tool_axis,
 )
-from rotemina.sim.robot.file import load_robot
+from rotemina.sim.kinematics.forward import axis_jacobian
+from rotemina.sim.robot_files import load_robot
 
-CHAIN = Chain.of(load_robot("rotemina"))
+CHAIN = KinematicChain.of(load_robot("rotemina"))
 
 
-def wide_joints(count=40):
-    """Joints far beyond the ranges: the equations hold for any tilt."""
+def make_wide_joints(count=40):
+    """Return joints far beyond the ranges, because the equations are exact for any tilt."""
     return np.random.default_rng(4).uniform(-1.2, 1.2, (count, 6))
 
 
-def test_reference_positions(shared_dir):
+def test_tips_match_the_reference_positions(shared_dir):
     rows = np.loadtxt(shared_dir / "reference" / "kinematics.csv", delimiter=",", skiprows=2)
     assert len(rows) > 100
-    tip = tip_position(CHAIN, rows[:, :6])
+    tip = compute_tip_position(CHAIN, rows[:, :6])
     np.testing.assert_allclose(tip, rows[:, 6:], rtol=1e-12, atol=1e-16)
 
 
 def test_the_chain_is_the_product_of_its_rotations():
-    joints = wide_joints()
+    joints = make_wide_joints()
     for row in joints:
-        turn = Rotation.from_euler("y", row[4]) * Rotation.from_euler("x", row[3])
-        tip = row[:3] + turn.apply([0.0, 0.0, row[5] - CHAIN.pin_length])
-        np.testing.assert_allclose(tip_position(CHAIN, row), tip, atol=1e-15)
-        np.testing.assert_allclose(tool_axis(row), turn.apply([0.0, 0.0, 1.0]), atol=1e-15)
+        rotation = Rotation.from_euler("y", row[4]) * Rotation.from_euler("x", row[3])
+        tip = row[:3] + rotation.apply([0.0, 0.0, row[5] - CHAIN.pin_length])
+        np.testing.assert_allclose(compute_tip_position(CHAIN, row), tip, atol=1e-15)
+        np.testing.assert_allclose(
+            compute_tool_axis(row), rotation.apply([0.0, 0.0, 1.0]), atol=1e-15
+        )
 
 
-def test_any_leading_shape_is_one_row_after_another():
-    joints = wide_joints(24)
+def test_any_leading_shape_gives_the_same_as_single_rows():
+    joints = make_wide_joints(24)
     np.testing.assert_array_equal(
-        tip_position(CHAIN, joints.reshape(2, 3, 4, 6)).reshape(24, 3),
-        [tip_position(CHAIN, row) for row in joints],
+        compute_tip_position(CHAIN, joints.reshape(2, 3, 4, 6)).reshape(24, 3),
+        [compute_tip_position(CHAIN, row) for row in joints],
     )
-    assert tip_jacobian(CHAIN, joints.reshape(2, 3, 4, 6)).shape == (2, 3, 4, 3, 6)
+    assert compute_tip_jacobian(CHAIN, joints.reshape(2, 3, 4, 6)).shape == (2, 3, 4, 3, 6)
 
 
 @pytest.mark.parametrize(
     ("function", "jacobian"),
     [
-        (lambda q: tip_position(CHAIN, q), lambda q: tip_jacobian(CHAIN, q)),
-        (tool_axis, axis_jacobian),
+        (lambda q: compute_tip_position(CHAIN, q), lambda q: compute_tip_jacobian(CHAIN, q)),
+        (compute_tool_axis, axis_jacobian),
     ],
 )
 def test_jacobians_are_exact_by_complex_step(function, jacobian):
-    joints, step = wide_joints(), 1e-30
+    joints, step = make_wide_joints(), 1e-30
     for column in range(6):
-        moved = joints.astype(complex)
-        moved[:, column] += 1j * step
-        slope = function(moved).imag / step
+        shifted = joints.astype(complex)
+        shifted[:, column] += 1j * step
+        slope = function(shifted).imag / step
         np.testing.assert_allclose(jacobian(joints)[..., column], slope, rtol=1e-13, atol=1e-15)
 
 
 def test_central_differences_approach_the_jacobian_with_order_two():
-    joints = wide_joints()
+    joints = make_wide_joints()
     errors = []
     for step in (1e-2, 5e-3):
-        nudges = step * np.eye(6)
+        offsets = step * np.eye(6)
         ahead, behind = (
-            tip_position(CHAIN, joints[:, None] + sign * nudges) for sign in (1.0, -1.0)
+            compute_tip_position(CHAIN, joints[:, None] + sign * offsets) for sign in (1.0, -1.0)
         )
         slope = np.swapaxes((ahead - behind) / (2 * step), -1, -2)
-        errors.append(np.abs(slope - tip_jacobian(CHAIN, joints)).max())
+        errors.append(np.abs(slope - compute_tip_jacobian(CHAIN, joints)).max())
     assert np.log2(errors[0] / errors[1]) == pytest.approx(2.0, abs=0.01)
 
 
-def test_a_milliradian_is_forty_micrometres():
+def test_a_tilt_by_one_milliradian_moves_the_tip_by_forty_micrometres():
     rest, tilted = np.zeros(6), np.zeros(6)
     tilted[3] = 1e-3
-    moved = tip_position(CHAIN, tilted) - tip_position(CHAIN, rest)
-    assert moved[1] == pytest.approx(CHAIN.pin_length * np.sin(1e-3), rel=1e-12)
-    assert moved[1] == pytest.approx(40e-6, rel=1e-6)
+    motion = compute_tip_position(CHAIN, tilted) - compute_tip_position(CHAIN, rest)
+    assert motion[1] == pytest.approx(CHAIN.pin_length * np.sin(1e-3), rel=1e-12)
+    assert motion[1] == pytest.approx(40e-6, rel=1e-6)
 
 
 def test_signs_of_the_axes():
     rest = CHAIN.centre
-    signs = np.sign(np.round(tip_jacobian(CHAIN, rest), 3))
+    signs = np.sign(np.round(compute_tip_jacobian(CHAIN, rest), 3))
     assert signs[1, 3] == 1.0  # thx > 0 swings the tip to +y
-    assert signs[0, 4] == -1.0  # thy > 0 swings it to −x
-    assert signs[2, 5] == 1.0  # zn > 0 lifts it
+    assert signs[0, 4] == -1.0  # thy > 0 swings the tip to −x
+    assert signs[2, 5] == 1.0  # zn > 0 lifts the tip
 
 
-def test_turned_angle_is_exact_when_small():
+def test_small_angles_between_tool_axes_are_exact():
     first, second = np.zeros(6), np.zeros(6)
     second[4] = 1e-9
-    assert turned_angle(first, second) == pytest.approx(1e-9, rel=1e-12)
+    assert angle_between_tool_axes(first, second) == pytest.approx(1e-9, rel=1e-12)
     second[3:5] = 0.3, 0.4
-    assert turned_angle(first, second) == pytest.approx(np.arccos(np.cos(0.3) * np.cos(0.4)))
+    assert angle_between_tool_axes(first, second) == pytest.approx(
+        np.arccos(np.cos(0.3) * np.cos(0.4))
+    )

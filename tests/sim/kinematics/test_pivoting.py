@@ -1,35 +1,33 @@
-"""Moves that leave the tip where it is."""
+"""Moves that keep the tip in place."""
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from rotemina.sim.kinematics.chain import Chain
-from rotemina.sim.kinematics.forward import tip_position
-from rotemina.sim.kinematics.pivoting import hold_tip, pivot, recentre
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
+from rotemina.sim.errors import OutOfLimitsError
+from rotemina.sim.kinematics import KinematicChain, compute_tip_position, recentre
+from rotemina.sim.kinematics.pivoting import hold_tip, pivot
+from rotemina.sim.robot_files import load_robot
 
-CHAIN = Chain.of(load_robot("rotemina"))
-inner = st.lists(st.floats(0.01, 0.99), min_size=6, max_size=6).map(np.array)
-whole = st.lists(st.floats(0.0, 1.0), min_size=3, max_size=3).map(np.array)
+CHAIN = KinematicChain.of(load_robot("rotemina"))
+inner_shares = st.lists(st.floats(0.01, 0.99), min_size=6, max_size=6).map(np.array)
+nano_shares = st.lists(st.floats(0.0, 1.0), min_size=3, max_size=3).map(np.array)
 
 
-@given(share=inner, other=whole)
-def test_the_tip_stays_in_every_nano_pose(share, other):
+@given(share=inner_shares, nano_share=nano_shares)
+def test_the_tip_stays_in_every_nano_pose(share, nano_share):
     joints = CHAIN.lower + share * (CHAIN.upper - CHAIN.lower)
-    nano = CHAIN.lower[3:] + other * (CHAIN.upper - CHAIN.lower)[3:]
-    tip = tip_position(CHAIN, joints)
+    nano = CHAIN.lower[3:] + nano_share * (CHAIN.upper - CHAIN.lower)[3:]
+    tip = compute_tip_position(CHAIN, joints)
     held = hold_tip(CHAIN, joints, nano)
     np.testing.assert_array_equal(held[3:], nano)
-    np.testing.assert_allclose(tip_position(CHAIN, held), tip, rtol=0, atol=1e-15)
+    np.testing.assert_allclose(compute_tip_position(CHAIN, held), tip, rtol=0, atol=1e-15)
     centred = recentre(CHAIN, joints)
     np.testing.assert_array_equal(centred[3:], CHAIN.centre[3:])
-    np.testing.assert_allclose(tip_position(CHAIN, centred), tip, rtol=0, atol=1e-15)
+    np.testing.assert_allclose(compute_tip_position(CHAIN, centred), tip, rtol=0, atol=1e-15)
 
 
-def test_a_pivot_turns_by_the_angles_given():
+def test_a_pivot_turns_by_its_angles():
     turned = pivot(CHAIN, CHAIN.centre, np.array([1e-4, -2e-4]))
     np.testing.assert_allclose(turned[3:] - CHAIN.centre[3:], [1e-4, -2e-4, 0.0], atol=1e-18)
     np.testing.assert_allclose(turned[:2] - CHAIN.centre[:2], [-8e-6, -4e-6], rtol=2e-3)
@@ -40,28 +38,30 @@ def test_a_path_of_turns_keeps_the_tip_at_every_row():
     turns = 3e-4 * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
     path = pivot(CHAIN, CHAIN.centre, turns)
     assert path.shape == (50, 6)
-    strayed = tip_position(CHAIN, path) - tip_position(CHAIN, CHAIN.centre)
-    assert np.abs(strayed).max() < 1e-15
+    deviation = compute_tip_position(CHAIN, path) - compute_tip_position(CHAIN, CHAIN.centre)
+    assert np.abs(deviation).max() < 1e-15
 
 
-def evenly(joints, nano, rows):
-    """Joints (rows, 6) from ``joints`` (6,) to ``nano`` (3,), the tip held at each row."""
+def interpolate_held(joints, nano, rows):
+    """Return joints (rows, 6) from ``joints`` (6,) to ``nano`` (3,) with the tip held in place."""
     return hold_tip(CHAIN, joints, np.linspace(joints[3:], nano, rows))
 
 
-def test_a_straight_line_strays_by_its_square():
-    """The bound of the module: pin_length · turn² / 8 half-way between two rows."""
+def test_the_tip_deviates_between_rows_by_the_square_of_the_turn():
+    """The documented bound half-way between two rows is pin_length · turn² / 8."""
     nano = CHAIN.lower[3:].copy()
-    path = evenly(CHAIN.centre, nano, 2)
-    half_way = tip_position(CHAIN, path.mean(axis=0)) - tip_position(CHAIN, CHAIN.centre)
+    path = interpolate_held(CHAIN.centre, nano, 2)
+    half_way_deviation = compute_tip_position(CHAIN, path.mean(axis=0)) - compute_tip_position(
+        CHAIN, CHAIN.centre
+    )
     turn = np.hypot(*CHAIN.centre[3:5])
     bound = CHAIN.pin_length * turn**2 / 8
-    # Shortening the pin while turning adds the product of both.
-    assert np.linalg.norm(half_way) <= bound + turn * CHAIN.centre[5] / 4
-    finer = evenly(CHAIN.centre, nano, 11)
-    between = tip_position(CHAIN, 0.5 * (finer[1:] + finer[:-1]))
-    strayed = np.linalg.norm(between - tip_position(CHAIN, CHAIN.centre), axis=-1)
-    assert strayed.max() == pytest.approx(np.linalg.norm(half_way) / 100, rel=0.02)
+    # Shortening the pin during the turn adds the product of both.
+    assert np.linalg.norm(half_way_deviation) <= bound + turn * CHAIN.centre[5] / 4
+    finer = interpolate_held(CHAIN.centre, nano, 11)
+    tips_between = compute_tip_position(CHAIN, 0.5 * (finer[1:] + finer[:-1]))
+    deviation = np.linalg.norm(tips_between - compute_tip_position(CHAIN, CHAIN.centre), axis=-1)
+    assert deviation.max() == pytest.approx(np.linalg.norm(half_way_deviation) / 100, rel=0.02)
 
 
 def test_a_turn_beyond_the_range_is_refused_with_its_row():
@@ -69,7 +69,7 @@ def test_a_turn_beyond_the_range_is_refused_with_its_row():
         pivot(CHAIN, CHAIN.centre, np.array([[0.0, 0.0], [1e-3, 0.0]]))
 
 
-def test_a_table_at_its_end_that_would_have_to_move_on_is_refused():
+def test_a_turn_that_needs_a_table_beyond_its_end_is_refused():
     joints = CHAIN.centre.copy()
     joints[0] = CHAIN.upper[0]
     with pytest.raises(OutOfLimitsError, match="axis x: position"):

@@ -1,20 +1,20 @@
-"""Modes against closed forms."""
+"""Vibration modes match closed-form solutions."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from rotemina.sim.modes.vibration import damped_modes
-from rotemina.sim.robot.file import load_robot, parse_robot
-from rotemina.sim.robot.matrices import inertia_matrices
+from rotemina.sim.modes import compute_damped_modes
+from rotemina.sim.robot import assemble_inertia_matrices
+from rotemina.sim.robot_files import load_robot, parse_robot
 
 ROBOT = load_robot("rotemina")
-DAMPINGS = ("damping", "damping_ratio")
+DAMPING_FIELDS = ("damping", "damping_ratio")
 
 
-def machine(*axes, couplings=""):
-    """A robot of force axes with (mass, damping, stiffness); stiffness None: free."""
+def make_robot(*axes, couplings=""):
+    """Return a robot of force axes (mass, damping, stiffness), free if stiffness is None."""
     names = "abcdef"[: len(axes)]
     text = f"[robot]\nname='m'\naxes={list(names)}\n"
     for name, (mass, damping, stiffness) in zip(names, axes, strict=True):
@@ -24,24 +24,26 @@ def machine(*axes, couplings=""):
     return parse_robot(text + couplings)
 
 
-def undamped_modes(robot):
-    """The modes without D."""
+def compute_undamped_modes(robot):
+    """Return the modes without damping."""
     axes = {
-        name: replace(axis, **{k: 0.0 for k in DAMPINGS if getattr(axis, k) is not None})
+        name: replace(
+            axis, **{field: 0.0 for field in DAMPING_FIELDS if getattr(axis, field) is not None}
+        )
         for name, axis in robot.axes.items()
     }
-    couplings = tuple(each for each in robot.couplings if each.matrix != "D")
-    modes = damped_modes(replace(robot, axes=axes, couplings=couplings))
+    couplings = tuple(coupling for coupling in robot.couplings if coupling.matrix != "D")
+    modes = compute_damped_modes(replace(robot, axes=axes, couplings=couplings))
     np.testing.assert_allclose(modes.shapes.imag, 0.0, atol=1e-12)
     return replace(modes, shapes=modes.shapes.real)
 
 
-def coupling(matrix, value):
+def format_coupling(matrix, value):
     return f"[[coupling]]\nmatrix='{matrix}'\naxes=['a','b']\nvalue={value}\n"
 
 
-def two_mass_rates(mass, stiffness):
-    """ω² of det(C − ω² M) = 0 for 2x2 matrices, by the quadratic formula."""
+def compute_two_mass_rates(mass, stiffness):
+    """Return ω² of det(C − ω² M) = 0 for 2x2 matrices, by the quadratic formula."""
     (m1, mc), (_, m2) = mass
     (k1, kc), (_, k2) = stiffness
     square, linear = m1 * m2 - mc**2, -(m1 * k2 + m2 * k1 - 2 * mc * kc)
@@ -49,19 +51,19 @@ def two_mass_rates(mass, stiffness):
     return np.sort([(-linear - root) / (2 * square), (-linear + root) / (2 * square)])
 
 
-def test_the_nominal_robot_rings_where_its_file_says():
-    modes = damped_modes(ROBOT)
+def test_the_modes_of_the_nominal_robot_match_its_file():
+    modes = compute_damped_modes(ROBOT)
     assert [set(modes.dominant[:3]), set(modes.dominant[3:5])] == [{"x", "y", "z"}, {"thx"}]
-    stated = [109.8, 112.5, 112.5, 300.0, 300.0, 420.0]
-    # thx and thy share 1.5 % of their inertia: ± half of it; zn: half of 0.15/42.
-    shift = [5e-4, 5e-4, 5e-4, 0.008, 0.008, 0.0021]
-    assert (np.abs(modes.frequency_hz / stated - 1.0) < shift).all()
+    file_frequencies_hz = [109.8, 112.5, 112.5, 300.0, 300.0, 420.0]
+    # thx and thy shift by half of their 1.5 % shared inertia, zn by half of 0.15/42.
+    tolerances = [5e-4, 5e-4, 5e-4, 0.008, 0.008, 0.0021]
+    assert (np.abs(modes.frequency_hz / file_frequencies_hz - 1.0) < tolerances).all()
     assert modes.damping_ratio == pytest.approx([0.15, 0.15, 0.15, 0.03, 0.03, 0.025], rel=0.01)
 
 
-def test_the_coupled_frequencies_are_those_of_the_quadratic():
-    hz = undamped_modes(ROBOT).frequency_hz
-    lift = two_mass_rates([[42.0, 0.15], [0.15, 0.15]], [[2e7, 0.0], [0.0, 1.0446e6]])
+def test_coupled_frequencies_match_the_quadratic_formula():
+    hz = compute_undamped_modes(ROBOT).frequency_hz
+    lift = compute_two_mass_rates([[42.0, 0.15], [0.15, 0.15]], [[2e7, 0.0], [0.0, 1.0446e6]])
     tilt = np.sort(71.061 / (2e-5 + np.array([3e-7, -3e-7])))
     table = 2e7 / 40.0
     expected = np.sqrt(np.sort([table, table, *lift, *tilt])) / (2 * np.pi)
@@ -70,19 +72,19 @@ def test_the_coupled_frequencies_are_those_of_the_quadratic():
 
 @pytest.mark.parametrize("mc", [0.0, 0.3, -0.9])
 @pytest.mark.parametrize("kc", [0.0, 50.0, -120.0])
-def test_two_coupled_axes(mc, kc):
-    robot = machine(
+def test_frequencies_of_two_coupled_axes_match_the_quadratic_formula(mc, kc):
+    robot = make_robot(
         (2.0, 0.0, 300.0),
         (1.0, 0.0, 700.0),
-        couplings="".join(coupling(m, v) for m, v in (("M", mc), ("C", kc)) if v),
+        couplings="".join(format_coupling(m, v) for m, v in (("M", mc), ("C", kc)) if v),
     )
-    squared = two_mass_rates([[2.0, mc], [mc, 1.0]], [[300.0, kc], [kc, 700.0]])
-    hz = damped_modes(robot).frequency_hz
+    squared = compute_two_mass_rates([[2.0, mc], [mc, 1.0]], [[300.0, kc], [kc, 700.0]])
+    hz = compute_damped_modes(robot).frequency_hz
     np.testing.assert_allclose(hz, np.sqrt(squared) / (2 * np.pi), rtol=1e-10)
 
 
 def test_shapes_are_orthogonal_and_mass_normalised():
-    modes, (_, mass, _, stiffness) = undamped_modes(ROBOT), inertia_matrices(ROBOT)
+    modes, (_, mass, _, stiffness) = compute_undamped_modes(ROBOT), assemble_inertia_matrices(ROBOT)
     rates = (2 * np.pi * modes.frequency_hz) ** 2
     np.testing.assert_allclose(modes.shapes.T @ mass @ modes.shapes, np.eye(6), atol=1e-12)
     normal = modes.shapes.T @ stiffness @ modes.shapes / rates
@@ -90,21 +92,24 @@ def test_shapes_are_orthogonal_and_mass_normalised():
 
 
 def test_the_strongest_axis_is_positive_and_equal_tables_do_not_mix():
-    modes = undamped_modes(ROBOT)
-    strength = np.diag(inertia_matrices(ROBOT).mass)[:, None] * modes.shapes**2
+    modes = compute_undamped_modes(ROBOT)
+    strength = np.diag(assemble_inertia_matrices(ROBOT).mass)[:, None] * modes.shapes**2
     for column, name in enumerate(modes.dominant):
         row = modes.axes.index(name)
         assert modes.shapes[row, column] > 0
         assert strength[row, column] == pytest.approx(strength[:, column].max())
     assert modes.dominant == ("z", "x", "y", "thx", "thx", "zn")
     assert (modes.shapes[:, 1] != 0).tolist() == [True] + 5 * [False]
-    # The lower tilt mode turns both axes together, the upper one against each other.
+    # The lower tilt mode turns both axes in phase, the upper one in opposition.
     assert modes.shapes[4, 3] == pytest.approx(modes.shapes[3, 3])
     assert modes.shapes[4, 4] == pytest.approx(-modes.shapes[3, 4])
 
 
 def test_damped_modes_solve_the_quadratic_eigenproblem():
-    modes, (_, mass, damping, stiffness) = damped_modes(ROBOT), inertia_matrices(ROBOT)
+    modes, (_, mass, damping, stiffness) = (
+        compute_damped_modes(ROBOT),
+        assemble_inertia_matrices(ROBOT),
+    )
     for pole, shape in zip(modes.poles, modes.shapes.T, strict=True):
         terms = [pole**2 * mass @ shape, pole * damping @ shape, stiffness @ shape]
         assert np.abs(sum(terms)).max() < 1e-9 * np.abs(terms).max()
@@ -112,46 +117,46 @@ def test_damped_modes_solve_the_quadratic_eigenproblem():
 
 
 @pytest.mark.parametrize("ratio", [0.0, 0.02, 0.7])
-def test_one_axis_below_critical_damping(ratio):
-    modes = damped_modes(machine((2.0, 2 * ratio * 20.0 * 2.0, 800.0)))
+def test_an_axis_below_critical_damping_has_one_oscillating_mode(ratio):
+    modes = compute_damped_modes(make_robot((2.0, 2 * ratio * 20.0 * 2.0, 800.0)))
     assert modes.frequency_hz == pytest.approx([20.0 / (2 * np.pi)])
     assert modes.damping_ratio == pytest.approx([ratio], abs=1e-12)
     assert modes.poles.imag == pytest.approx(20.0 * np.sqrt(1 - ratio**2))
 
 
 def test_an_overdamped_axis_has_two_real_modes():
-    modes = damped_modes(machine((1.0, 50.0, 400.0)))
+    modes = compute_damped_modes(make_robot((1.0, 50.0, 400.0)))
     np.testing.assert_allclose(modes.poles, [-10.0, -40.0], rtol=1e-12)
     np.testing.assert_allclose(modes.damping_ratio, 1.0)
     assert modes.poles.imag.tolist() == [0.0, 0.0]
 
 
-def test_a_free_axis_moves_without_frequency():
+def test_a_free_axis_has_no_frequency():
     for damping, poles in ((0.0, [0.0, 0.0]), (6.0, [0.0, -3.0])):
-        robot = machine((2.0, damping, None))
-        modes = damped_modes(robot)
+        robot = make_robot((2.0, damping, None))
+        modes = compute_damped_modes(robot)
         np.testing.assert_allclose(modes.poles, poles)
         assert np.isnan(modes.damping_ratio[0])
 
 
-def test_a_slow_axis_is_not_taken_for_a_free_one():
-    modes = damped_modes(machine((1.0, 1000.0, 1e-3)))
+def test_a_slow_axis_is_not_a_free_axis():
+    modes = compute_damped_modes(make_robot((1.0, 1000.0, 1e-3)))
     np.testing.assert_allclose(modes.poles.real, [-1e-6, -1000.0], rtol=1e-3)
 
 
 @pytest.mark.parametrize("damping", [0.0, 0.4])
 @pytest.mark.parametrize("mass", [2.3, 0.7, 11.9])
 @pytest.mark.parametrize("spring", [31.7, 4.1e5])
-def test_rigid_motion_is_exactly_zero(mass, spring, damping):
-    links = coupling("C", -spring) + (coupling("D", -damping) if damping else "")
-    robot = machine((mass, damping, spring), (3.7, damping, spring), couplings=links)
-    assert damped_modes(robot).poles[:2].tolist() == [0.0, 0.0]
+def test_the_frequency_of_a_rigid_motion_is_exactly_zero(mass, spring, damping):
+    links = format_coupling("C", -spring) + (format_coupling("D", -damping) if damping else "")
+    robot = make_robot((mass, damping, spring), (3.7, damping, spring), couplings=links)
+    assert compute_damped_modes(robot).poles[:2].tolist() == [0.0, 0.0]
 
 
-def test_two_masses_on_one_spring_keep_one_rigid_motion():
-    """Masses 2 and 3 joined by a spring of 30: C singular, ω² = 30 (1/2 + 1/3)."""
-    robot = machine((2.0, 0.0, 30.0), (3.0, 0.0, 30.0), couplings=coupling("C", -30.0))
-    modes = damped_modes(robot)
+def test_two_masses_on_one_spring_have_one_rigid_mode():
+    """For masses 2 and 3 joined by a spring of 30, C is singular and ω² = 30 (1/2 + 1/3)."""
+    robot = make_robot((2.0, 0.0, 30.0), (3.0, 0.0, 30.0), couplings=format_coupling("C", -30.0))
+    modes = compute_damped_modes(robot)
     hz = np.unique(np.round(modes.frequency_hz, 12))
     np.testing.assert_allclose(hz, [0.0, 5.0 / (2 * np.pi)], atol=1e-9)
     rigid = modes.shapes[:, 0]
@@ -160,10 +165,10 @@ def test_two_masses_on_one_spring_keep_one_rigid_motion():
 
 def test_a_robot_without_dynamics_has_no_modes():
     robot = load_robot("picma")
-    assert damped_modes(robot).shapes.shape == (0, 0)
+    assert compute_damped_modes(robot).shapes.shape == (0, 0)
 
 
-def test_the_order_of_axes_changes_nothing_but_rows():
-    turned = replace(ROBOT, axes=dict(reversed(ROBOT.axes.items())))
-    one, other = damped_modes(ROBOT), damped_modes(turned)
-    np.testing.assert_allclose(one.frequency_hz, other.frequency_hz, rtol=1e-12)
+def test_the_order_of_axes_changes_only_the_order_of_rows():
+    reversed_robot = replace(ROBOT, axes=dict(reversed(ROBOT.axes.items())))
+    modes, reversed_modes = compute_damped_modes(ROBOT), compute_damped_modes(reversed_robot)
+    np.testing.assert_allclose(modes.frequency_hz, reversed_modes.frequency_hz, rtol=1e-12)

@@ -1,44 +1,50 @@
-"""How a run with effects begins: at rest, as after a rise; and in its steady state."""
+"""The start of a run with effects: at rest as after a rise, or in its steady state."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from rotemina.sim.effects import attachment
-from rotemina.sim.effects.formulation import Effect, Formulation, Reading, Stage
-from rotemina.sim.plant.plant import Plant
-from rotemina.sim.plant.response import nominal_response
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.robot.model import AxisEffect
-from rotemina.sim.simulation.simulation import simulate
+from rotemina.sim.effects import (
+    Effect,
+    EffectStage,
+    Formulation,
+    ReadingFunction,
+    attachment,
+)
+from rotemina.sim.plant import Plant, simulate_nominal_response
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot import AxisEffect
+from rotemina.sim.robot_files import load_robot
+from rotemina.sim.simulation import simulate
 
 ROBOT = load_robot("rotemina")
-LOOP = AxisEffect(axis="zn", id="hysteresis", parameters={"width": 6e-6})
+HYSTERESIS = AxisEffect(axis="zn", id="hysteresis", parameters={"width": 6e-6})
 
 
-def held(axis, share, rows=400, rate_hz=2000.0):
-    """A constant command."""
-    own = ROBOT.axes[axis]
-    command = np.full(rows, own.range[0] + share * own.span)
+def make_constant_record(axis, share, rows=400, rate_hz=2000.0):
+    """Return a record of a constant command."""
+    axis_model = ROBOT.axes[axis]
+    command = np.full(rows, axis_model.range[0] + share * axis_model.span)
     return Record.from_signals(
-        np.arange(rows) / rate_hz, {(axis, Tap.CMD): command}, {axis: own.unit}
+        np.arange(rows) / rate_hz, {(axis, Tap.CMD): command}, {axis: axis_model.unit}
     )
 
 
-def sine(axis, rate_hz=2000.0, frequency_hz=5.0, periods=2, metadata=None):
-    own = ROBOT.axes[axis]
+def make_sine(axis, rate_hz=2000.0, frequency_hz=5.0, periods=2, metadata=None):
+    axis_model = ROBOT.axes[axis]
     time_s = np.arange(round(periods * rate_hz / frequency_hz)) / rate_hz
     wave = np.sin(2 * np.pi * frequency_hz * time_s)
-    command = own.range[0] + own.span * (0.5 + 0.2 * wave)
-    return Record.from_signals(time_s, {(axis, Tap.CMD): command}, {axis: own.unit}, metadata)
+    command = axis_model.range[0] + axis_model.span * (0.5 + 0.2 * wave)
+    return Record.from_signals(
+        time_s, {(axis, Tap.CMD): command}, {axis: axis_model.unit}, metadata
+    )
 
 
 @pytest.mark.parametrize(
     "effect",
     [
-        LOOP,
+        HYSTERESIS,
         AxisEffect(axis="x", id="backlash"),
         AxisEffect(axis="x", id="friction"),
         AxisEffect(axis="x", id="flexible_mode", formulation="appendage"),
@@ -47,67 +53,71 @@ def sine(axis, rate_hz=2000.0, frequency_hz=5.0, periods=2, metadata=None):
     ],
     ids=lambda effect: effect.id,
 )
-def test_a_held_command_stays_at_rest(effect):
-    record = simulate(ROBOT, [effect], held(effect.axis, 0.37))
+def test_an_axis_with_a_constant_command_stays_at_rest(effect):
+    record = simulate(ROBOT, [effect], make_constant_record(effect.axis, 0.37))
     drift = np.ptp(record.signal(effect.axis, Tap.MEAS))
     assert drift <= 1e-9 * ROBOT.axes[effect.axis].span
 
 
-def test_memory_is_that_of_a_rise_from_the_low_end():
-    """The same command reached by a slow rise ends where the run at rest begins."""
-    own = ROBOT.axes["zn"]
-    high = own.range[0] + 0.6 * own.span
+def test_the_initial_memory_is_that_of_a_rise_from_the_low_end():
+    """A slow rise to a command ends where a run at rest at this command begins."""
+    axis_model = ROBOT.axes["zn"]
+    high = axis_model.range[0] + 0.6 * axis_model.span
     time_s = np.arange(12001) / 2000.0
     ramp = np.minimum(time_s / 4.0, 1.0)
     smooth = ramp * ramp * (3.0 - 2.0 * ramp)
     rise = Record.from_signals(
-        time_s, {("zn", Tap.CMD): own.range[0] + smooth * (high - own.range[0])}, {"zn": "m"}
+        time_s,
+        {("zn", Tap.CMD): axis_model.range[0] + smooth * (high - axis_model.range[0])},
+        {"zn": "m"},
     )
-    risen = simulate(ROBOT, [LOOP], rise).signal("zn", Tap.REF)[-1]
-    at_rest = simulate(ROBOT, [LOOP], held("zn", 0.6)).signal("zn", Tap.REF)[0]
-    assert risen == pytest.approx(at_rest, abs=1e-6 * own.span)
+    position_after_rise = simulate(ROBOT, [HYSTERESIS], rise).signal("zn", Tap.REF)[-1]
+    position_at_rest = simulate(ROBOT, [HYSTERESIS], make_constant_record("zn", 0.6)).signal(
+        "zn", Tap.REF
+    )[0]
+    assert position_after_rise == pytest.approx(position_at_rest, abs=1e-6 * axis_model.span)
 
 
-def test_after_a_rise_friction_and_backlash_hold_the_table_back():
+def test_the_table_lags_by_friction_and_backlash_as_after_a_rise():
     for effect in (AxisEffect(axis="x", id="friction"), AxisEffect(axis="x", id="backlash")):
-        record = simulate(ROBOT, [effect], held("x", 0.5))
-        behind = record.signal("x", Tap.CMD)[0] - record.signal("x", Tap.REF)[0]
-        assert behind > 1e-8, effect.id
+        record = simulate(ROBOT, [effect], make_constant_record("x", 0.5))
+        lag = record.signal("x", Tap.CMD)[0] - record.signal("x", Tap.REF)[0]
+        assert lag > 1e-8, effect.id
 
 
 def test_a_periodic_run_with_effects_begins_in_its_steady_state():
-    robot = replace(ROBOT, effects=(LOOP,))
-    steady = nominal_response(robot, sine("zn", metadata={"history": "periodic"}))
+    robot = replace(ROBOT, effects=(HYSTERESIS,))
+    steady = simulate_nominal_response(robot, make_sine("zn", metadata={"history": "periodic"}))
     first, second = np.split(steady.signal("zn", Tap.REF), 2)
     np.testing.assert_allclose(first, second, atol=1e-6 * ROBOT.axes["zn"].span)
 
 
 def test_effects_count_time_from_the_first_row_of_a_periodic_run():
-    """A tone as fast as the samples reads the same at each of them, if it begins with them."""
+    """The tone starts with phase 0 at the first row, although earlier periods were simulated."""
     tone = AxisEffect(axis="zn", id="vibration", parameters={"frequency": 500.0, "sine": 1e-7})
-    commands = sine("zn", metadata={"history": "periodic"})
-    still, shaken = (
-        nominal_response(replace(ROBOT, effects=effects), commands).signal("zn", Tap.REF)
+    commands = make_sine("zn", metadata={"history": "periodic"})
+    nominal, with_tone = (
+        simulate_nominal_response(replace(ROBOT, effects=effects), commands).signal("zn", Tap.REF)
         for effects in ((), (tone,))
     )
     expected = 1e-7 * np.sin(2 * np.pi * 500.0 * commands.time_s)
-    np.testing.assert_allclose(shaken - still, expected, atol=1e-9)
+    np.testing.assert_allclose(with_tone - nominal, expected, atol=1e-9)
 
 
-def latched(x, other, t, h, a, b, p, s):
-    """Show what it showed first."""
+def latch(x, other, t, h, a, b, p, s):
+    """Return the first value forever."""
     if t > 0.0:
         return s[0]
     s[0] = x
     return x
 
 
-def test_what_is_digital_begins_with_what_the_sensor_reads_offset_included(monkeypatch):
+def test_a_digital_effect_starts_with_the_reading_including_its_offset(monkeypatch):
     effect = Effect(
         id="latch",
         title="Latch",
         summary="Shows what it showed first.",
-        stage=Stage.SENSOR,
+        stage=EffectStage.SENSOR,
         kinds=frozenset({"piezo"}),
         formulations=(
             Formulation(
@@ -115,22 +125,22 @@ def test_what_is_digital_begins_with_what_the_sensor_reads_offset_included(monke
                 equation="y = y₀",
                 source="none",
                 parameters=(),
-                acts=Reading(step=latched, states=1, digital=True),
+                acts=ReadingFunction(step=latch, states=1, digital=True),
             ),
         ),
     )
-    monkeypatch.setattr(attachment, "effect_named", lambda _: effect)
+    monkeypatch.setattr(attachment, "load_effect", lambda _: effect)
     axes = {**ROBOT.axes, "zn": replace(ROBOT.axes["zn"], offset=3e-6)}
     robot = replace(ROBOT, axes=axes, effects=(AxisEffect(axis="zn", id="latch"),))
     plant = Plant.of(robot, only=["zn"])
     command = np.full((3, len(plant.axes)), sum(ROBOT.axes["zn"].range) / 2)
     column = plant.axes.index("zn")
-    state = plant.at_rest(0.0, command[0])
+    state = plant.find_rest_state(0.0, command[0])
     motion, _ = plant.advance(state, np.array([1.0, 2.0, 3.0]), command)
     assert motion.reading[:, column] == pytest.approx(command[0, column] + 3e-6, rel=1e-12)
 
 
-def test_effects_join_the_axis_that_they_come_from():
+def test_the_source_axis_of_an_effect_is_simulated():
     plant = Plant.of(
         replace(ROBOT, effects=(AxisEffect(axis="x", id="cross_coupling", from_axis="thy"),)),
         only=["x"],
@@ -140,15 +150,15 @@ def test_effects_join_the_axis_that_they_come_from():
 
 @pytest.mark.parametrize("rate_hz", [200.0, 1000.0, 2000.0, 3000.0])
 @pytest.mark.parametrize("samples", [1, 3, 7])
-def test_a_delay_of_whole_samples_never_comes_a_sample_late(rate_hz, samples):
-    """Times and delays are rounded each by itself; a static axis would show a whole sample."""
+def test_a_delay_of_whole_samples_is_exact(rate_hz, samples):
+    """Times and delays are rounded separately, so a static axis could lag by a whole sample."""
     robot = load_robot("picma")
     name = next(iter(robot.axes))
     time_s = np.arange(3000) / rate_hz
     command = 2e-5 + 1e-5 * np.sin(2 * np.pi * 0.5 * time_s)
     record = Record.from_signals(time_s, {(name, Tap.CMD): command}, {name: "m"})
-    late = AxisEffect(axis=name, id="delay", parameters={"delay": samples / rate_hz})
-    answer = simulate(robot, [late], record)
+    delay = AxisEffect(axis=name, id="delay", parameters={"delay": samples / rate_hz})
+    response = simulate(robot, [delay], record)
     np.testing.assert_allclose(
-        answer.signal(name, Tap.REF)[samples:], command[:-samples], rtol=1e-12
+        response.signal(name, Tap.REF)[samples:], command[:-samples], rtol=1e-12
     )

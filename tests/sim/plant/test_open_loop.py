@@ -1,34 +1,30 @@
-"""The nominal plant driven open loop, against exact solutions and the reference responses."""
+"""The nominal plant in open loop, compared with exact solutions and reference responses."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from rotemina.sim.plant import kernel
-from rotemina.sim.plant.errors import PlantError
-from rotemina.sim.plant.plant import Plant
-from rotemina.sim.plant.response import nominal_response
-from rotemina.sim.records.reading import read_record
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.file import load_robot, parse_robot
-from rotemina.sim.robot.matrices import inertia_matrices
+from rotemina.sim.errors import PlantError
+from rotemina.sim.plant import Plant, kernel, simulate_nominal_response
+from rotemina.sim.records import Record, Tap, read_record
+from rotemina.sim.robot import assemble_inertia_matrices
+from rotemina.sim.robot_files import load_robot, parse_robot
 
 ROBOT = load_robot("rotemina")
 CENTRE = np.array([sum(axis.range) / 2 for axis in ROBOT.axes.values()])
 
 
-def single(mass=2.0, damping=3.0, stiffness=800.0, extra=""):
+def make_robot(mass=2.0, damping=3.0, stiffness=800.0, extra=""):
     return parse_robot(
         "[robot]\nname='one'\naxes=['a']\n[axis.a]\nkind='stepper'\nrange=[-1.0, 1.0]\n"
         f"mass={mass}\ndamping={damping}\nstiffness={stiffness}\n{extra}"
     )
 
 
-def underdamped_step(time_s, mass, damping, stiffness):
-    """Unit step response of m q'' + d q' + k q = k, from rest at 0."""
+def compute_step_response(time_s, mass, damping, stiffness):
+    """Return the unit step response of m q'' + d q' + k q = k, from rest at 0."""
     natural = np.sqrt(stiffness / mass)
     ratio = damping / (2 * mass * natural)
     damped = natural * np.sqrt(1 - ratio**2)
@@ -38,7 +34,7 @@ def underdamped_step(time_s, mass, damping, stiffness):
     )
 
 
-def step_record(time_s):
+def make_step_record(time_s):
     return Record.from_signals(
         np.concatenate([[-1.0], time_s]),
         {("a", Tap.CMD): np.concatenate([[0.0], np.ones(len(time_s))])},
@@ -47,37 +43,37 @@ def step_record(time_s):
 
 
 @pytest.mark.parametrize("name", ["steps", "sines", "uneven"])
-def test_reference_responses_are_met_to_1e9_of_the_range(shared_dir, name):
+def test_reference_responses_match_within_1e9_of_the_range(shared_dir, name):
     record = read_record(shared_dir / "reference" / f"{name}.csv", robot=ROBOT)
-    response = nominal_response(ROBOT, record)
+    response = simulate_nominal_response(ROBOT, record)
     for axis in ROBOT.axes:
         gap = np.abs(response.signal(axis, Tap.MEAS) - record.signal(axis, Tap.MEAS)).max()
         assert gap <= 1e-9 * ROBOT.axes[axis].span, axis
 
 
-def test_what_may_be_changed_and_what_may_not_is_compiled_for_once():
+def test_read_only_arrays_need_no_second_compilation():
     plant, time_s, command = Plant.of(ROBOT), np.array([0.0, 1e-3, 2e-3]), np.tile(CENTRE, (3, 1))
-    rest = plant.at_rest(-1e-3, CENTRE)
-    motion, _ = plant.advance(rest, time_s, command)
+    rest_state = plant.find_rest_state(-1e-3, CENTRE)
+    motion, _ = plant.advance(rest_state, time_s, command)
     compiled = list(kernel.run.signatures)
     time_s.flags.writeable = command.flags.writeable = False
-    again, _ = plant.advance(rest, time_s, command)
-    np.testing.assert_array_equal(motion.position, again.position)
+    repeated, _ = plant.advance(rest_state, time_s, command)
+    np.testing.assert_array_equal(motion.position, repeated.position)
     assert kernel.run.signatures == compiled
 
 
 @given(st.lists(st.floats(1e-4, 0.3), min_size=3, max_size=60))
 def test_a_step_is_exact_at_any_sample_times(intervals):
-    """The command acts from t = 0 on; the sampling grid must not matter."""
+    """The command acts from t = 0, and the response does not depend on the sample times."""
     time_s = np.concatenate([[0.0], np.cumsum(intervals)])
-    record = step_record(time_s)
-    response = nominal_response(single(), record).signal("a", Tap.MEAS)[1:]
-    np.testing.assert_allclose(response, underdamped_step(time_s, 2.0, 3.0, 800.0), atol=1e-11)
+    record = make_step_record(time_s)
+    response = simulate_nominal_response(make_robot(), record).signal("a", Tap.MEAS)[1:]
+    np.testing.assert_allclose(response, compute_step_response(time_s, 2.0, 3.0, 800.0), atol=1e-11)
 
 
 def test_an_offset_shifts_the_reading_but_not_the_motion():
-    record = step_record(np.linspace(0, 1, 20))
-    response = nominal_response(single(extra="offset=0.25"), record)
+    record = make_step_record(np.linspace(0, 1, 20))
+    response = simulate_nominal_response(make_robot(extra="offset=0.25"), record)
     np.testing.assert_allclose(
         response.signal("a", Tap.MEAS), response.signal("a", Tap.REF) + 0.25, atol=1e-15
     )
@@ -89,57 +85,60 @@ def test_natural_frequency_and_damping_ratio_give_the_same_motion_as_mass_and_st
         "[robot]\nname='one'\naxes=['a']\n[axis.a]\nkind='stepper'\nrange=[-1, 1]\n"
         f"natural_frequency_hz={float(natural / (2 * np.pi))!r}\ndamping_ratio={float(ratio)!r}\n"
     )
-    record = step_record(np.linspace(0, 1, 50))
-    first, second = (nominal_response(r, record).signal("a", Tap.REF) for r in (single(), modal))
+    record = make_step_record(np.linspace(0, 1, 50))
+    first, second = (
+        simulate_nominal_response(robot, record).signal("a", Tap.REF)
+        for robot in (make_robot(), modal)
+    )
     np.testing.assert_allclose(first, second, atol=1e-12)
 
 
-def test_energy_is_kept_without_damping_and_falls_with_it():
-    robot = replace(
+def test_energy_is_constant_without_damping_and_falls_with_it():
+    undamped_robot = replace(
         ROBOT,
         axes={name: replace(axis, damping=0.0) for name, axis in ROBOT.axes.items()},
     )
     time_s = np.arange(0, 0.2, 5e-4)
     start = CENTRE * 1.001
-    for described, lossless in ((robot, True), (ROBOT, False)):
-        plant = Plant.of(described)
-        _, mass, _, stiffness = inertia_matrices(described)
-        inputs = plant.open_loop_inputs(CENTRE[None])[0]
-        state = plant.at(0.0, inputs, start, np.zeros(6))
+    for model, is_lossless in ((undamped_robot, True), (ROBOT, False)):
+        plant = Plant.of(model)
+        _, mass, _, stiffness = assemble_inertia_matrices(model)
+        inputs = plant.compute_open_loop_inputs(CENTRE[None])[0]
+        state = plant.make_state(0.0, inputs, start, np.zeros(6))
         motion, _ = plant.advance(state, time_s, np.tile(CENTRE, (len(time_s), 1)))
-        away = motion.position - CENTRE
+        deflection = motion.position - CENTRE
         energy = 0.5 * np.einsum("ni,ij,nj->n", motion.velocity, mass, motion.velocity)
-        energy += 0.5 * np.einsum("ni,ij,nj->n", away, stiffness, away)
-        if lossless:
+        energy += 0.5 * np.einsum("ni,ij,nj->n", deflection, stiffness, deflection)
+        if is_lossless:
             np.testing.assert_allclose(energy, energy[0], rtol=1e-8)
         else:
             assert np.diff(energy).max() <= 1e-12 * energy[0]
             assert energy[-1] < 1e-3 * energy[0]
 
 
-def test_the_nano_z_axis_feels_the_acceleration_of_the_table_it_rides_on():
-    """M couples z and zn: a blow on z moves zn, and nothing else."""
+def test_the_acceleration_of_the_table_moves_the_nano_z_axis():
+    """M couples z and zn, so a step of z moves zn but no other axis."""
     time_s = np.arange(0, 0.05, 5e-4)
     command = np.tile(CENTRE, (len(time_s), 1))
     command[10:, 2] += 1e-5
     plant = Plant.of(ROBOT)
-    motion, _ = plant.advance(plant.at_rest(0.0, CENTRE), time_s, command)
-    moved = np.ptp(motion.position, axis=0)
-    assert moved[2] > 1e-5
-    assert moved[5] > 1e-8
-    np.testing.assert_allclose(moved[[0, 1, 3, 4]], 0.0, atol=1e-14)
+    motion, _ = plant.advance(plant.find_rest_state(0.0, CENTRE), time_s, command)
+    travels = np.ptp(motion.position, axis=0)
+    assert travels[2] > 1e-5
+    assert travels[5] > 1e-8
+    np.testing.assert_allclose(travels[[0, 1, 3, 4]], 0.0, atol=1e-14)
 
 
 @pytest.mark.slow
 @given(st.lists(st.integers(1, 40), min_size=1, max_size=6), st.integers(0, 2**32 - 1))
-def test_a_run_in_pieces_is_the_run_at_once(pieces, seed):
+def test_a_run_in_pieces_equals_the_run_at_once(pieces, seed):
     rng = np.random.default_rng(seed)
     count = sum(pieces)
     time_s = np.cumsum(rng.uniform(2e-4, 2e-3, count))
     command = CENTRE * (1 + 0.01 * rng.standard_normal((count, 6)).cumsum(axis=0) / count)
     plant = Plant.of(ROBOT)
-    whole, _ = plant.advance(plant.at_rest(time_s[0], command[0]), time_s, command)
-    state, parts, start = plant.at_rest(time_s[0], command[0]), [], 0
+    whole, _ = plant.advance(plant.find_rest_state(time_s[0], command[0]), time_s, command)
+    state, parts, start = plant.find_rest_state(time_s[0], command[0]), [], 0
     for length in pieces:
         piece = slice(start, start + length)
         motion, state = plant.advance(state, time_s[piece], command[piece])
@@ -149,25 +148,25 @@ def test_a_run_in_pieces_is_the_run_at_once(pieces, seed):
     assert np.abs((np.concatenate(parts) - whole.position) / spans).max() < 1e-11
 
 
-def test_static_axes_follow_at_once():
+def test_static_axes_follow_immediately():
     robot = load_robot("picma")
     time_s = np.arange(5) / 200
     command = np.array([0.0, 1e-5, 4e-5, 2e-5, 0.0])
     record = Record.from_signals(time_s, {("p", Tap.CMD): command}, {"p": "m"})
-    response = nominal_response(robot, record)
+    response = simulate_nominal_response(robot, record)
     np.testing.assert_allclose(response.signal("p", Tap.MEAS), command, rtol=1e-14)
     np.testing.assert_allclose(response.signal("p", Tap.U), command / 12.53e-6, rtol=1e-14)
 
 
-def test_a_measured_voltage_can_drive_the_part_behind_it():
+def test_a_measured_voltage_can_drive_the_plant():
     time_s = np.arange(200) / 2000
     command = np.full(200, 3e-4)
     voltage = command / ROBOT.axes["thx"].gain + np.where(time_s > 0.02, 1.0, 0.0)
     record = Record.from_signals(
         time_s, {("thx", Tap.CMD): command, ("thx", Tap.U): voltage}, {"thx": "rad"}
     )
-    by_command = nominal_response(ROBOT, record).signal("thx", Tap.REF)
-    by_voltage = nominal_response(ROBOT, record, drive=Tap.U).signal("thx", Tap.REF)
+    by_command = simulate_nominal_response(ROBOT, record).signal("thx", Tap.REF)
+    by_voltage = simulate_nominal_response(ROBOT, record, drive=Tap.U).signal("thx", Tap.REF)
     assert np.ptp(by_command) < 1e-15
     assert np.ptp(by_voltage) > ROBOT.axes["thx"].gain
 
@@ -178,36 +177,36 @@ def test_a_periodic_record_starts_in_its_steady_state():
     command = 5e-4 + 2e-4 * np.sin(2 * np.pi * np.arange(2 * period) / period * 7)
     meta = {"history": "periodic", "period_samples": str(period)}
     record = Record.from_signals(time_s, {("thx", Tap.CMD): command}, {"thx": "rad"}, meta)
-    answer = nominal_response(ROBOT, record).signal("thx", Tap.MEAS)
-    np.testing.assert_allclose(answer[:period], answer[period:], atol=1e-11 * 2e-4)
+    response = simulate_nominal_response(ROBOT, record).signal("thx", Tap.MEAS)
+    np.testing.assert_allclose(response[:period], response[period:], atol=1e-11 * 2e-4)
 
 
 def test_an_unknown_history_starts_from_the_first_measured_samples():
     time_s = np.arange(400) / 4000
-    robot = single(mass=1.0, damping=2.0, stiffness=400.0)
-    truth = 0.2 * np.exp(-time_s) * np.cos(np.sqrt(399.0) * time_s)
-    signals = {("a", Tap.CMD): np.zeros(400), ("a", Tap.MEAS): truth}
+    robot = make_robot(mass=1.0, damping=2.0, stiffness=400.0)
+    reading = 0.2 * np.exp(-time_s) * np.cos(np.sqrt(399.0) * time_s)
+    signals = {("a", Tap.CMD): np.zeros(400), ("a", Tap.MEAS): reading}
     record = Record.from_signals(time_s, signals, {"a": "m"}, {"history": "unknown"})
-    answer = nominal_response(robot, record).signal("a", Tap.MEAS)
-    assert np.abs(answer - truth).max() < 2e-3 * 0.2
+    response = simulate_nominal_response(robot, record).signal("a", Tap.MEAS)
+    assert np.abs(response - reading).max() < 2e-3 * 0.2
     at_rest = Record.from_signals(time_s, signals, {"a": "m"})
-    assert np.abs(nominal_response(robot, at_rest).signal("a", Tap.MEAS)).max() < 1e-15
+    assert np.abs(simulate_nominal_response(robot, at_rest).signal("a", Tap.MEAS)).max() < 1e-15
 
 
-def test_an_axis_that_the_robot_lacks_is_named():
+def test_an_axis_that_the_robot_lacks_is_refused():
     record = Record.from_signals(np.arange(3.0), {("q", Tap.CMD): np.zeros(3)}, {"q": "m"})
     with pytest.raises(PlantError, match=r"'q'.*'RoTeMiNa' has only x, y, z"):
-        nominal_response(ROBOT, record)
+        simulate_nominal_response(ROBOT, record)
 
 
 def test_a_record_without_commands_cannot_drive_the_model():
     record = Record.from_signals(np.arange(3.0), {("x", Tap.MEAS): np.zeros(3)}, {"x": "m"})
     with pytest.raises(PlantError, match=r"no x\.cmd column"):
-        nominal_response(ROBOT, record)
+        simulate_nominal_response(ROBOT, record)
 
 
-def test_a_response_beyond_all_numbers_stops_with_axis_and_time():
+def test_a_response_that_overflows_stops_with_axis_and_time():
     command = np.where(np.arange(50) > 20, 1e305, 0.0)
     record = Record.from_signals(np.arange(50) * 1e-3, {("thx", Tap.CMD): command}, {"thx": "rad"})
     with pytest.raises(PlantError, match=r"axis th[xy]: .*grows without bound at t = 0\.022"):
-        nominal_response(ROBOT, record)
+        simulate_nominal_response(ROBOT, record)

@@ -1,17 +1,16 @@
-"""The shipped plate, solved once."""
+"""Fixtures: solutions of the default plate, computed once for all tests."""
 
 import pytest
 
-from rotemina.sim.plate.modes import eigenmodes
-from rotemina.sim.plate.statics import hold, solve
-from rotemina.sim.robot.plate import Plate
+from rotemina.sim.plate import clamp_plate, compute_eigenmodes, solve_unit_motions
+from rotemina.sim.robot import Plate
 
 
 @pytest.fixture(scope="package")
 def solutions():
-    return solve(hold(Plate()))
+    return solve_unit_motions(clamp_plate(Plate()))
 
 
 @pytest.fixture(scope="package")
 def modes(solutions):
-    return eigenmodes(solutions.held, 0.04, 4)
+    return compute_eigenmodes(solutions.clamped, 0.04, 4)

@@ -1,4 +1,4 @@
-"""Closed forms of thin round plates.
+"""Closed-form solutions of thin round plates.
 
 S. P. Timoshenko, S. Woinowsky-Krieger, *Theory of Plates and Shells*, 2nd ed. (1959), arts. 16-19
 and 63; A. W. Leissa, *Vibration of Plates*, NASA SP-160 (1969), 2.1.
@@ -14,11 +14,11 @@ from scipy.special import iv, ivp, jv, jvp
 from rotemina.sim.arrays import FloatArray
 
 
-def axial_stiffness(rigidity: float, rim_radius: float, hub_radius: float) -> float:
-    """Return force over displacement of a rigid hub, N/m.
+def compute_axial_stiffness(rigidity: float, rim_radius: float, hub_radius: float) -> float:
+    """Return the axial stiffness of a rigid hub, force over displacement, N/m.
 
-    ``w = c1 + c2 r² + c3 ln r + c4 r² ln r``, clamped at the rim, level at the hub; the force is
-    ``8 π D c4``. Radii in units of the rim's.
+    ``w = c1 + c2 r² + c3 ln r + c4 r² ln r``, clamped at the rim, level at the hub. The force is
+    ``8 π D c4``. Radii are in units of the rim radius.
     """
     k = hub_radius / rim_radius
     conditions = [
@@ -31,10 +31,10 @@ def axial_stiffness(rigidity: float, rim_radius: float, hub_radius: float) -> fl
     return float(8.0 * pi * rigidity * strength / rim_radius**2)
 
 
-def tilt_stiffness(rigidity: float, rim_radius: float, hub_radius: float) -> float:
-    """Return moment over angle of a rigid hub, N m/rad.
+def compute_tilt_stiffness(rigidity: float, rim_radius: float, hub_radius: float) -> float:
+    """Return the tilt stiffness of a rigid hub, moment over angle, N m/rad.
 
-    ``w = (c1 r + c2 r³ + c3 / r + c4 r ln r) cos φ``, clamped at the rim, a plane at the hub; the
+    ``w = (c1 r + c2 r³ + c3 / r + c4 r ln r) cos φ``, clamped at the rim, a plane at the hub. The
     moment is ``−4 π D c4``.
     """
     k = hub_radius / rim_radius
@@ -48,8 +48,10 @@ def tilt_stiffness(rigidity: float, rim_radius: float, hub_radius: float) -> flo
     return float(-4.0 * pi * rigidity * strength)
 
 
-def centre_load_deflection(rigidity: float, rim_radius: float, radius: FloatArray) -> FloatArray:
-    """Return w per force of a full clamped plate under a force at its centre, m/N.
+def compute_centre_load_deflection(
+    rigidity: float, rim_radius: float, radius: FloatArray
+) -> FloatArray:
+    """Return the deflection w per force of a clamped plate without hub, force at its centre, m/N.
 
     ``w = (2 r² ln(r/a) + a² − r²) / (16 π D)``.
     """
@@ -58,38 +60,40 @@ def centre_load_deflection(rigidity: float, rim_radius: float, radius: FloatArra
     return np.asarray(rim_radius**2 * shape / (16.0 * pi * rigidity))
 
 
-def centre_moment_deflection(rigidity: float, rim_radius: float, radius: FloatArray) -> FloatArray:
-    """Return w / cos φ per moment of a full clamped plate under a moment at its centre, 1/N.
+def compute_centre_moment_deflection(
+    rigidity: float, rim_radius: float, radius: FloatArray
+) -> FloatArray:
+    """Return w / cos φ per moment of a clamped plate without hub, moment at its centre, 1/N.
 
-    ``w = r (ln(a/r) − ½ + r² / (2 a²)) / (4 π D)``: the derivative of the deflection under a force
-    along the direction φ = 0, with the terms r and r³ that clamp the rim.
+    ``w = r (ln(a/r) − ½ + r² / (2 a²)) / (4 π D)`` is the derivative along φ = 0 of the deflection
+    by a force, with the terms r and r³ that clamp the rim.
     """
     ratio = np.maximum(radius / rim_radius, 1e-300)
     shape = ratio * (-np.log(ratio) - 0.5 + 0.5 * ratio**2)
     return np.asarray(rim_radius * shape / (4.0 * pi * rigidity))
 
 
-def frequencies_hz(
+def compute_frequencies_hz(
     rigidity: float, rim_radius: float, areal_mass: float, count: int
 ) -> list[tuple[int, float]]:
-    """Return nodal diameters and frequency (Hz) of a full clamped plate's modes, slowest first.
+    """Return nodal diameters and frequency, Hz, of the modes of a clamped plate, slowest first.
 
     ``J_n(λ) I_n'(λ) − I_n(λ) J_n'(λ) = 0`` and ``ω = λ² √(D / (ρ h a⁴))``. A mode with nodal
-    diameters comes twice and is listed once.
+    diameters exists twice but is listed once.
     """
 
-    def clamped(value: float, n: int) -> float:
-        both = jv(n, value) * ivp(n, value) - iv(n, value) * jvp(n, value)
-        return float(both / iv(n, value))
+    def compute_characteristic(value: float, n: int) -> float:
+        determinant = jv(n, value) * ivp(n, value) - iv(n, value) * jvp(n, value)
+        return float(determinant / iv(n, value))
 
     grid = np.linspace(0.5, 3.0 + 2.0 * count, 100 * (count + 2))
     roots = [
-        (n, brentq(clamped, low, high, args=(n,), xtol=1e-13))
+        (n, brentq(compute_characteristic, low, high, args=(n,), xtol=1e-13))
         for n in range(count + 2)
         for low, high in pairwise(grid)
-        if clamped(low, n) * clamped(high, n) < 0.0
+        if compute_characteristic(low, n) * compute_characteristic(high, n) < 0.0
     ]
     unit = np.sqrt(rigidity / areal_mass) / rim_radius**2 / (2.0 * pi)
-    return [(n, float(unit * value**2)) for n, value in sorted(roots, key=lambda one: one[1])][
+    return [(n, float(unit * value**2)) for n, value in sorted(roots, key=lambda root: root[1])][
         :count
     ]

@@ -4,9 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from rotemina.sim.records.file_blocks import Limits
-from rotemina.sim.records.preview import preview
-from rotemina.sim.records.record import RecordError
+from rotemina.sim.errors import RecordError
+from rotemina.sim.records import FileLimits, read_preview
 
 WriteFile = Callable[..., Path]
 
@@ -28,40 +27,44 @@ WriteFile = Callable[..., Path]
         ("0\t1,5\n", "\t", (), ("0", "1,5")),
         ("\n 0,0   1,5\n 1,0   2,5\n", " ", (), ("0,0", "1,5")),
         ("0,5 1\n1 2\n", " ", (), ("0,5", "1")),
-        # The first row alone would also fit a comma.
+        # The first row on its own would also fit a comma.
         ("0, 1\n1, 2,5\n", " ", (), ("0,", "1")),
         ("1.5\n2.5\n", " ", (), ("1.5",)),
     ],
 )
-def test_what_a_file_looks_like(
+def test_separator_and_header_are_recognized(
     content: str,
     separator: str,
     headings: tuple[str, ...],
     first_row: tuple[str, ...],
     write_file: WriteFile,
 ) -> None:
-    found = preview(write_file(content))
-    assert (found.separator, found.headings, found.rows[0]) == (separator, headings, first_row)
-    assert found.has_header == bool(headings)
-    assert found.column_count == len(first_row)
+    preview = read_preview(write_file(content))
+    assert (preview.separator, preview.headings, preview.rows[0]) == (
+        separator,
+        headings,
+        first_row,
+    )
+    assert preview.has_header == bool(headings)
+    assert preview.column_count == len(first_row)
 
 
 def test_only_the_beginning_is_read(tmp_path: Path) -> None:
     path = tmp_path / "long.csv.gz"
     rows = "".join(f"{step},1\n" for step in range(100_000)).encode()
-    # What comes later is damaged, which nobody sees who does not read it.
+    # The end of the file is damaged, which does not matter for its beginning.
     path.write_bytes(gzip.compress(b"t [s],x [m]\n" + rows)[:-20])
-    found = preview(path)
-    assert [row[0] for row in found.rows] == [str(step) for step in range(20)]
-    assert len(preview(path, rows=3).rows) == 3
+    preview = read_preview(path)
+    assert [row[0] for row in preview.rows] == [str(step) for step in range(20)]
+    assert len(read_preview(path, rows=3).rows) == 3
 
 
 def test_odd_rows_are_shown_as_they_are(write_file: WriteFile) -> None:
-    found = preview(write_file("t [s],x [m]\n0\n1,2,3\nnan,off\n"))
-    assert found.rows == (("0",), ("1", "2", "3"), ("nan", "off"))
+    preview = read_preview(write_file("t [s],x [m]\n0\n1,2,3\nnan,off\n"))
+    assert preview.rows == (("0",), ("1", "2", "3"), ("nan", "off"))
 
 
-def test_the_fingerprint_tells_shapes_apart(write_file: WriteFile) -> None:
+def test_the_fingerprint_depends_on_the_layout_only(write_file: WriteFile) -> None:
     contents = {
         "plain": "0,1,2\n",
         "longer": "5,6,7\n6,7,8\n",
@@ -70,20 +73,20 @@ def test_the_fingerprint_tells_shapes_apart(write_file: WriteFile) -> None:
         "header": "t [s],x [m],y [m]\n0,1,2\n",
         "other header": "t [s],x [m],z [m]\n0,1,2\n",
     }
-    prints = {
-        name: preview(write_file(content, f"{name}.csv")).fingerprint
+    fingerprints = {
+        name: read_preview(write_file(content, f"{name}.csv")).fingerprint
         for name, content in contents.items()
     }
-    assert prints["plain"] == prints["longer"] == "comma:3:no header"
-    assert len(set(prints.values())) == 5
+    assert fingerprints["plain"] == fingerprints["longer"] == "comma:3:no header"
+    assert len(set(fingerprints.values())) == 5
 
 
-def test_what_cannot_be_shown(write_file: WriteFile, tmp_path: Path) -> None:
+def test_files_without_a_preview_are_refused(write_file: WriteFile, tmp_path: Path) -> None:
     with pytest.raises(RecordError, match=r"a.csv: no header and no rows"):
-        preview(write_file("# comment\n\n", "a.csv"))
+        read_preview(write_file("# comment\n\n", "a.csv"))
     with pytest.raises(RecordError, match="binary or UTF-16"):
-        preview(write_file(b"\0\1", "b.csv"))
+        read_preview(write_file(b"\0\1", "b.csv"))
     with pytest.raises(RecordError, match="longer than 10 bytes"):
-        preview(write_file("0,1234567890\n", "c.csv"), limits=Limits(line_bytes=10))
+        read_preview(write_file("0,1234567890\n", "c.csv"), limits=FileLimits(line_bytes=10))
     with pytest.raises(RecordError, match="file not found"):
-        preview(tmp_path / "absent.csv")
+        read_preview(tmp_path / "absent.csv")

@@ -5,14 +5,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rotemina.sim.records.file_blocks import Limits
-from rotemina.sim.records.reading import read_record
-from rotemina.sim.records.record import Channel, Tap
-from rotemina.sim.robot.model import Robot, StepperAxis
+from rotemina.sim.records import FileLimits, RecordChannel, Tap, read_record
+from rotemina.sim.robot import Robot, StepperAxis
 
 WriteFile = Callable[..., Path]
 
-TYPICAL = """\
+TYPICAL_CONTENT = """\
 # rotemina-record: 1
 # mode: open_loop
 t [s],thx.cmd [urad],thx.u [V],thx.ref [urad],thx.meas [urad],zn.cmd [um],zn.meas [um]
@@ -21,10 +19,10 @@ t [s],thx.cmd [urad],thx.u [V],thx.ref [urad],thx.meas [urad],zn.cmd [um],zn.mea
 """
 
 
-def test_a_typical_record(write_file: WriteFile, limits: Limits) -> None:
-    record = read_record(write_file(TYPICAL), limits=limits)
+def test_a_typical_record_is_read(write_file: WriteFile, limits: FileLimits) -> None:
+    record = read_record(write_file(TYPICAL_CONTENT), limits=limits)
     assert record.time_s.tolist() == [0.0, 0.5]
-    assert record.columns[0] == Channel("thx", Tap.CMD)
+    assert record.columns[0] == RecordChannel("thx", Tap.CMD)
     assert record.axes == ("thx", "zn")
     assert record.units == {"thx": "rad", "zn": "m"}
     assert record.metadata == {"mode": "open_loop"}
@@ -33,8 +31,8 @@ def test_a_typical_record(write_file: WriteFile, limits: Limits) -> None:
     assert record.signal("zn", Tap.MEAS).tolist() == [32.51 / 1e6, 33.5e-6]
 
 
-# Each reads as t = 0, 1.5 s and x = 1, -2.5 mm.
-LENIENT = {
+# Each content is read as t = 0, 1.5 s and x = 1, -2.5 mm.
+TOLERATED_CONTENTS = {
     "bare axis": b"t [s],x [mm]\n0,1\n1.5,-2.5\n",
     "semicolons": b"t [s];x [mm]\n0;1\n1.5;-2.5\n",
     "semicolons, decimal commas": b"t [s];x [mm]\n0;1\n1,5;-2,5\n",
@@ -86,15 +84,17 @@ LENIENT = {
 }
 
 
-@pytest.mark.parametrize("content", LENIENT.values(), ids=LENIENT.keys())
-def test_what_import_forgives(content: bytes, write_file: WriteFile, limits: Limits) -> None:
+@pytest.mark.parametrize("content", TOLERATED_CONTENTS.values(), ids=TOLERATED_CONTENTS.keys())
+def test_deviations_from_the_format_are_tolerated(
+    content: bytes, write_file: WriteFile, limits: FileLimits
+) -> None:
     record = read_record(write_file(content), limits=limits)
     assert record.columns == (("x", Tap.CMD),)
     assert record.time_s.tolist() == [0.0, 1.5]
     assert record.values.tolist() == [[1e-3], [-2.5e-3]]
 
 
-HEADERLESS = {
+HEADERLESS_CONTENTS = {
     "commas": b"0,1\n1.5,-2.5\n",
     "semicolons, decimal commas": b"0,0;1,0\n1,5;-2,5\n",
     "tabs, decimal commas": b"0,0\t1\n1,5\t-2,5\n",
@@ -104,22 +104,24 @@ HEADERLESS = {
 }
 
 
-@pytest.mark.parametrize("content", HEADERLESS.values(), ids=HEADERLESS.keys())
+@pytest.mark.parametrize("content", HEADERLESS_CONTENTS.values(), ids=HEADERLESS_CONTENTS.keys())
 def test_named_columns_choose_the_separator(
-    content: bytes, write_file: WriteFile, limits: Limits
+    content: bytes, write_file: WriteFile, limits: FileLimits
 ) -> None:
     record = read_record(write_file(content), columns="t [s], x [mm]", limits=limits)
     assert record.time_s.tolist() == [0.0, 1.5]
     assert record.values.tolist() == [[1e-3], [-2.5e-3]]
 
 
-def test_the_same_row_splits_by_the_number_of_columns(write_file: WriteFile) -> None:
+def test_the_number_of_columns_resolves_ambiguous_separators(write_file: WriteFile) -> None:
     path = write_file("0,5 1,5 2,5\n")
     record = read_record(path, columns="t [s], x [m], y [m]")
     assert [record.time_s[0], *record.values[0]] == [0.5, 1.5, 2.5]
 
 
-def test_metadata_is_collected_from_the_whole_file(write_file: WriteFile, limits: Limits) -> None:
+def test_metadata_are_collected_from_the_whole_file(
+    write_file: WriteFile, limits: FileLimits
+) -> None:
     content = (
         "#history:periodic\nt [s],x [m]\n#  period_samples :  12 \n0,1\n# note: a: b, c\n"
         "# prose without a key\n#: no key\n1,2\n# empty:\n# note: second\n# rotemina-record: 1\n"
@@ -134,24 +136,24 @@ def test_metadata_is_collected_from_the_whole_file(write_file: WriteFile, limits
     assert record.period_samples == 12
 
 
-def robot() -> Robot:
+def make_robot() -> Robot:
     free = StepperAxis(kind="stepper", range=(0.0, 1.0), static=True)
     slide = StepperAxis(kind="stepper", range=(0.0, 1.0), unit="m", static=True)
     return Robot(name="bench", axes={"x": slide, "free": free})
 
 
 def test_a_command_beyond_the_range_is_read(write_file: WriteFile) -> None:
-    record = read_record(write_file("t [s],x [m]\n0,-99\n"), robot=robot())
+    record = read_record(write_file("t [s],x [m]\n0,-99\n"), robot=make_robot())
     assert record.values.tolist() == [[-99.0]]
 
 
 @pytest.mark.parametrize("unit", ["m", "rad"])
 def test_a_robot_may_leave_the_unit_to_the_record(write_file: WriteFile, unit: str) -> None:
-    record = read_record(write_file(f"t [s],free [{unit}]\n0,1\n"), robot=robot())
+    record = read_record(write_file(f"t [s],free [{unit}]\n0,1\n"), robot=make_robot())
     assert record.units == {"free": unit}
 
 
-def test_any_axis_names_will_do(write_file: WriteFile) -> None:
+def test_any_axis_name_is_accepted(write_file: WriteFile) -> None:
     names = ("t", "axis 7", "stage.left", "θx", "q_1", "nan", "a-b")
     header = ",".join(["t [s]", *(f"{name}.cmd [m]" for name in names)])
     record = read_record(write_file(f"{header}\n0,1,2,3,4,5,6,7\n"))
@@ -159,15 +161,15 @@ def test_any_axis_names_will_do(write_file: WriteFile) -> None:
 
 
 def test_arrays_are_read_only_and_signals_contiguous(write_file: WriteFile) -> None:
-    record = read_record(write_file(TYPICAL))
+    record = read_record(write_file(TYPICAL_CONTENT))
     assert not record.values.flags.writeable
     assert record.signal("thx", Tap.U).flags.c_contiguous
 
 
 @pytest.mark.parametrize("name", ["sines", "steps", "uneven"])
-def test_reference_records(shared_dir: Path, name: str, limits: Limits) -> None:
+def test_reference_records_are_read(shared_dir: Path, name: str, limits: FileLimits) -> None:
     if limits.block_bytes < 1000:
-        limits = Limits(small_block_bytes=0, block_bytes=30_000)
+        limits = FileLimits(small_block_bytes=0, block_bytes=30_000)
     path = shared_dir / "reference" / f"{name}.csv"
     record = read_record(path, limits=limits)
     expected = np.loadtxt(path, delimiter=",", skiprows=4)
@@ -176,7 +178,7 @@ def test_reference_records(shared_dir: Path, name: str, limits: Limits) -> None:
     assert record.values.tolist() == expected[:, 1:].tolist()
 
 
-def test_a_compressed_example(shared_dir: Path) -> None:
+def test_a_compressed_example_is_read(shared_dir: Path) -> None:
     path = shared_dir / "examples" / "example_1" / "train_1.csv.gz"
     record = read_record(path)
     with gzip.open(path) as file:
@@ -201,8 +203,8 @@ def test_a_table_of_another_kind_is_refused(shared_dir: Path) -> None:
         b"t [s],x [m]\n0,1.5\n1,2.5",
     ],
 )
-def test_a_last_number_that_may_be_cut_off_is_warned_of(
-    content: bytes, write_file: WriteFile, limits: Limits, caplog: pytest.LogCaptureFixture
+def test_a_last_number_that_may_be_truncated_gives_a_warning(
+    content: bytes, write_file: WriteFile, limits: FileLimits, caplog: pytest.LogCaptureFixture
 ) -> None:
     record = read_record(write_file(content), limits=limits)
     assert len(record.time_s) == 2
@@ -220,14 +222,14 @@ def test_a_last_number_that_may_be_cut_off_is_warned_of(
         b"t [s],x [m]\n0,1.5\n1,2.25\n  ",
     ],
 )
-def test_a_last_number_that_is_whole_is_not_warned_of(
-    content: bytes, write_file: WriteFile, limits: Limits, caplog: pytest.LogCaptureFixture
+def test_a_complete_last_number_gives_no_warning(
+    content: bytes, write_file: WriteFile, limits: FileLimits, caplog: pytest.LogCaptureFixture
 ) -> None:
     assert len(read_record(write_file(content), limits=limits).time_s) == 2
     assert not caplog.records
 
 
-def test_a_warning_quotes_no_control_characters(
+def test_a_warning_contains_no_control_characters(
     write_file: WriteFile, caplog: pytest.LogCaptureFixture
 ) -> None:
     read_record(write_file("t [s],x [m]\n0,1", "a\nb.csv"))
@@ -240,6 +242,8 @@ def test_a_file_saved_by_a_spreadsheet_keeps_its_metadata(write_file: WriteFile)
     assert record.metadata == {"mode": "open_loop", "note": 'a, "b"'}
 
 
-def test_quoted_thousands_are_read_where_the_decimal_sign_is_known(write_file: WriteFile) -> None:
+def test_an_ambiguous_quoted_number_is_read_with_the_decimal_sign_of_the_file(
+    write_file: WriteFile,
+) -> None:
     path = write_file('t [s],x [m]\n"0,5","1,234"\n"1,5","2,5"\n')
     assert read_record(path).values.tolist() == [[1.234], [2.5]]

@@ -1,4 +1,4 @@
-"""Records in pieces: the same as at once, and as strict, far into the file as well."""
+"""Records in pieces: equal to whole records, and equally strict anywhere in the file."""
 
 import gzip
 from pathlib import Path
@@ -6,28 +6,36 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rotemina.sim.records.file_blocks import Limits
-from rotemina.sim.records.reading import read_record
-from rotemina.sim.records.record import Record, RecordError, Tap
-from rotemina.sim.records.record_pieces import join_records, read_pieces
-from rotemina.sim.records.writing import write_pieces, write_record
-from rotemina.sim.robot.file import load_robot
+from rotemina.sim.errors import RecordError
+from rotemina.sim.records import (
+    FileLimits,
+    Record,
+    Tap,
+    join_records,
+    read_pieces,
+    read_record,
+    write_pieces,
+    write_record,
+)
+from rotemina.sim.robot_files import load_robot
 
-# Blocks of a line or two, and of many: what stands in one block must not matter to the next.
-SMALL, FAST = Limits(small_block_bytes=0, block_bytes=50), Limits(small_block_bytes=0)
+# Blocks of one or two lines and of many, because one block must not affect the next.
+SMALL, FAST = FileLimits(small_block_bytes=0, block_bytes=50), FileLimits(small_block_bytes=0)
 
 
-def make_record(rows: int = 1000, since_s: float = 0.0, **metadata: str) -> Record:
-    time_s = since_s + np.arange(rows) / 1000
+def make_record(rows: int = 1000, start_s: float = 0.0, **metadata: str) -> Record:
+    time_s = start_s + np.arange(rows) / 1000
     signals = {("x", Tap.CMD): 0.02 + np.sin(time_s) / 3000, ("x", Tap.U): np.cos(7 * time_s)}
     return Record.from_signals(time_s, signals, {"x": "m"}, metadata)
 
 
-@pytest.mark.parametrize("limits", [Limits(), FAST, SMALL], ids=["strict", "fast", "small blocks"])
+@pytest.mark.parametrize(
+    "limits", [FileLimits(), FAST, SMALL], ids=["strict", "fast", "small blocks"]
+)
 @pytest.mark.parametrize("name", ["a.csv", "a.csv.gz"])
 @pytest.mark.parametrize("rows", [1, 7, 333, 500, 1000, 5000])
-def test_pieces_are_the_record_bit_by_bit(
-    tmp_path: Path, rows: int, name: str, limits: Limits
+def test_pieces_equal_the_record_bit_for_bit(
+    tmp_path: Path, rows: int, name: str, limits: FileLimits
 ) -> None:
     write_record(make_record(note="n"), tmp_path / name, units={"x": "um"})
     pieces = list(read_pieces(tmp_path / name, rows=rows, limits=limits))
@@ -41,7 +49,7 @@ def test_pieces_are_the_record_bit_by_bit(
     assert all(piece.metadata == {"note": "n"} for piece in pieces)
 
 
-def test_a_comment_counts_from_the_first_piece_wherever_it_stands(tmp_path: Path) -> None:
+def test_comments_anywhere_in_the_file_apply_to_the_first_piece(tmp_path: Path) -> None:
     path = tmp_path / "a.csv"
     write_record(make_record(note="n"), path)
     path.write_text(path.read_text() + "# history: periodic\n# note: m\n")
@@ -61,17 +69,19 @@ def test_a_comment_counts_from_the_first_piece_wherever_it_stands(tmp_path: Path
         ("# mode: fast", ":904:mode: value 'fast'"),
     ],
 )
-@pytest.mark.parametrize("limits", [Limits(), FAST, SMALL], ids=["strict", "fast", "small blocks"])
-@pytest.mark.parametrize("packed", [False, True])
-def test_a_refusal_far_into_the_file_is_that_of_the_whole(
-    tmp_path: Path, line: str, where: str, limits: Limits, packed: bool
+@pytest.mark.parametrize(
+    "limits", [FileLimits(), FAST, SMALL], ids=["strict", "fast", "small blocks"]
+)
+@pytest.mark.parametrize("is_compressed", [False, True])
+def test_an_error_far_into_the_file_is_the_same_as_for_the_whole_file(
+    tmp_path: Path, line: str, where: str, limits: FileLimits, is_compressed: bool
 ) -> None:
     path = tmp_path / "a.csv"
     write_record(make_record(), path)
     lines = path.read_text().splitlines()
     lines.insert(903, line)
     text = ("\n".join(lines) + "\n").encode()
-    path.write_bytes(gzip.compress(text) if packed else text)
+    path.write_bytes(gzip.compress(text) if is_compressed else text)
     with pytest.raises(RecordError) as whole:
         read_record(path)
     with pytest.raises(RecordError) as in_pieces:
@@ -80,7 +90,7 @@ def test_a_refusal_far_into_the_file_is_that_of_the_whole(
     assert where in str(whole.value)
 
 
-def test_rows_before_a_refusal_have_been_given(tmp_path: Path) -> None:
+def test_rows_before_an_error_are_returned(tmp_path: Path) -> None:
     path = tmp_path / "a.csv"
     write_record(make_record(), path)
     path.write_text(path.read_text() + "0.5,0,0\n")
@@ -91,7 +101,7 @@ def test_rows_before_a_refusal_have_been_given(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("text", ["", "t [s],x [m]\n", "# note: n\n", "0,1\n"])
-def test_what_is_no_record_is_refused_as_ever(tmp_path: Path, text: str) -> None:
+def test_files_that_are_no_record_are_refused_like_whole_files(tmp_path: Path, text: str) -> None:
     path = tmp_path / "a.csv"
     path.write_text(text)
     with pytest.raises(RecordError) as whole:
@@ -101,7 +111,7 @@ def test_what_is_no_record_is_refused_as_ever(tmp_path: Path, text: str) -> None
     assert str(in_pieces.value) == str(whole.value)
 
 
-def test_named_columns_and_the_robot_hold_for_pieces(tmp_path: Path) -> None:
+def test_named_columns_and_the_robot_apply_to_pieces(tmp_path: Path) -> None:
     path = tmp_path / "a.csv"
     write_record(make_record(), path, header=False)
     pieces = list(read_pieces(path, columns="t [s], x [m], x.u [V]", rows=300))
@@ -110,22 +120,28 @@ def test_named_columns_and_the_robot_hold_for_pieces(tmp_path: Path) -> None:
         next(read_pieces(path, columns="t [s], x [m], x.u [V]", robot=load_robot("emps")))
 
 
-def test_the_bound_on_numbers_is_one_on_memory(tmp_path: Path) -> None:
+def test_the_limit_on_values_applies_to_each_piece(tmp_path: Path) -> None:
     write_record(make_record(), tmp_path / "a.csv")
-    few = Limits(values=100)
+    limits = FileLimits(values=100)
     with pytest.raises(RecordError, match="more than 100 values"):
-        read_record(tmp_path / "a.csv", limits=few)
-    assert sum(len(p.time_s) for p in read_pieces(tmp_path / "a.csv", rows=10, limits=few)) == 1000
+        read_record(tmp_path / "a.csv", limits=limits)
+    assert (
+        sum(len(piece.time_s) for piece in read_pieces(tmp_path / "a.csv", rows=10, limits=limits))
+        == 1000
+    )
 
 
-def cut(record: Record, rows: int) -> list[Record]:
-    return [record.part(slice(at, at + rows)) for at in range(0, len(record.time_s), rows)]
+def cut_record(record: Record, rows: int) -> list[Record]:
+    return [
+        record.select_rows(slice(start, start + rows))
+        for start in range(0, len(record.time_s), rows)
+    ]
 
 
 @pytest.mark.parametrize("rows", [1, 333, 1000, 5000])
-def test_a_record_is_cut_and_joined(rows: int) -> None:
+def test_a_record_that_is_cut_and_joined_is_the_same(rows: int) -> None:
     record = make_record(note="n")
-    pieces = cut(record, rows)
+    pieces = cut_record(record, rows)
     assert len(pieces) == -(-1000 // rows)
     joined = join_records(pieces)
     assert joined.time_s.tobytes() == record.time_s.tobytes()
@@ -135,22 +151,22 @@ def test_a_record_is_cut_and_joined(rows: int) -> None:
 
 @pytest.mark.parametrize("name", ["a.csv", "a.csv.gz"])
 @pytest.mark.parametrize("header", [True, False])
-def test_pieces_are_written_as_the_whole_is(tmp_path: Path, name: str, header: bool) -> None:
+def test_pieces_are_written_like_the_whole_record(tmp_path: Path, name: str, header: bool) -> None:
     record = make_record(note="n")
     write_record(record, tmp_path / name, units={"x": "um"}, header=header)
     target = tmp_path / f"pieces-{name}"
-    write_pieces(cut(record, 130), target, units={"x": "um"}, header=header)
-    read = gzip.decompress if name.endswith(".gz") else bytes
-    assert read(target.read_bytes()) == read((tmp_path / name).read_bytes())
+    write_pieces(cut_record(record, 130), target, units={"x": "um"}, header=header)
+    decompress = gzip.decompress if name.endswith(".gz") else bytes
+    assert decompress(target.read_bytes()) == decompress((tmp_path / name).read_bytes())
 
 
-def others() -> list[tuple[Record, str]]:
+def make_unsuitable_records() -> list[tuple[Record, str]]:
     y = Record.from_signals(np.array([9.0]), {("y", Tap.CMD): np.zeros(1)}, {"y": "m"})
     return [(make_record(), "does not follow"), (y, "has other columns")]
 
 
-@pytest.mark.parametrize(("second", "message"), others(), ids=["time", "columns"])
-def test_pieces_that_do_not_go_on_leave_no_file(
+@pytest.mark.parametrize(("second", "message"), make_unsuitable_records(), ids=["time", "columns"])
+def test_pieces_that_do_not_follow_each_other_leave_no_file(
     tmp_path: Path, second: Record, message: str
 ) -> None:
     with pytest.raises(RecordError, match=message):
@@ -164,7 +180,7 @@ def test_pieces_that_do_not_go_on_leave_no_file(
 
 @pytest.mark.parametrize("failure", [KeyboardInterrupt, RecordError])
 @pytest.mark.parametrize("name", ["a.csv", "a.csv.gz"])
-def test_a_piece_that_does_not_come_leaves_what_was_there(
+def test_a_failure_during_writing_keeps_the_old_file(
     tmp_path: Path, failure: type[BaseException], name: str
 ) -> None:
     def pieces():  # type: ignore[no-untyped-def]
@@ -178,10 +194,10 @@ def test_a_piece_that_does_not_come_leaves_what_was_there(
     assert (tmp_path / name).read_text() == "before"
 
 
-def test_a_part_keeps_what_the_record_says() -> None:
-    part = make_record(note="n").part(slice(10, 20))
+def test_selected_rows_keep_the_metadata() -> None:
+    part = make_record(note="n").select_rows(slice(10, 20))
     assert part.time_s.tolist() == [row / 1000 for row in range(10, 20)]
     assert part.values.tobytes() == make_record().values[10:20].tobytes()
     assert part.metadata == {"note": "n"}
     with pytest.raises(RecordError, match="no rows"):
-        part.part(slice(0, 0))
+        part.select_rows(slice(0, 0))

@@ -7,19 +7,18 @@ from pathlib import Path
 
 import pytest
 
-from rotemina.sim.records.file_blocks import Limits
-from rotemina.sim.records.reading import read_record
-from rotemina.sim.records.record import RecordError
-from rotemina.sim.robot.model import Robot, StepperAxis
+from rotemina.sim.errors import RecordError
+from rotemina.sim.records import FileLimits, read_record
+from rotemina.sim.robot import Robot, StepperAxis
 
 WriteFile = Callable[..., Path]
 
 HEAD = "# mode: open_loop\nt [s],x.cmd [mm],x.meas [mm]\n0,1,1\n"
 GOOD = HEAD + "1,2,2\n"
-PACKED = gzip.compress(GOOD.encode(), mtime=0)  # the same bytes in every process
+COMPRESSED = gzip.compress(GOOD.encode(), mtime=0)  # the same bytes in every process
 
-# file's content -> where (after the file's name) and what the error says
-REFUSED: dict[str, tuple[str | bytes, str, str]] = {
+# Content of the file, place in the message (after the file name) and a part of the message.
+REFUSED_CONTENTS: dict[str, tuple[str | bytes, str, str]] = {
     "time stands still": (HEAD + "0,2,2\n", ":4:t", "time 0.0 s does not increase after 0.0 s"),
     "time goes back": (GOOD + "0.5,2,2\n", ":5:t", "time 0.5 s does not increase after 1.0 s"),
     "empty value": (HEAD + "1,,2\n", ":4:x.cmd", "value is missing"),
@@ -38,41 +37,45 @@ REFUSED: dict[str, tuple[str | bytes, str, str]] = {
     "no-break space": (HEAD + "1,1\u00a0234,2\n", ":4:x.cmd", "has a thousands separator"),
     "apostrophe": (HEAD + "1,1'234.5,2\n", ":4:x.cmd", '234.5" has a thousands separator'),
     "quoted thousands": (HEAD + '1,"1,234",2\n', ":4:x.cmd", "'1,234' has a thousands separator"),
-    "millions": (HEAD + '1,"1,234,567.5",2\n', ":4:x.cmd", "has a thousands separator; write its"),
+    "millions": (HEAD + '1,"1,234,567.5",2\n', ":4:x.cmd", "has a thousands separator; remove it"),
     "signs mixed in quotes": (
         HEAD + '1,2.5,2\n2,"3,5",2\n',
         ":5:x.cmd",
         "value '3,5' has ',' where the numbers before have '.'",
     ),
-    "quote left open": (HEAD + '1,"2,2\n', ":4:x.cmd", "has a quote without its partner"),
-    "quote inside": (HEAD + '1,2"5,2\n', ":4:x.cmd", "has a quote without its partner"),
-    "line end in quotes": ('t [s],"x\n[m]"\n0,1\n', ":1:2", "has a quote without its partner on"),
+    "quote left open": (HEAD + '1,"2,2\n', ":4:x.cmd", "has an unpaired quote"),
+    "quote inside": (HEAD + '1,2"5,2\n', ":4:x.cmd", "has an unpaired quote"),
+    "line end in quotes": ('t [s],"x\n[m]"\n0,1\n', ":1:2", "has an unpaired quote"),
     "empty quotes": (HEAD + '1,"",2\n', ":4:x.cmd", "value is missing"),
     "spreadsheet error": (HEAD + "1,#N/A,2\n", ":4:x.cmd", "'#N/A' is a spreadsheet's mark"),
     "division by zero": (HEAD + "1,#DIV/0!,2\n", ":4:x.cmd", "'#DIV/0!' is a spreadsheet's mark"),
     "time is an error": (HEAD + "#N/A,2,2\n2,2,2\n", ":4", "the row begins with a spreadsheet's"),
     "header again": (HEAD + "t [s],x.cmd [mm],x.meas [mm]\n0,1,1\n", ":4", "a second header; the"),
-    "another header": (HEAD + "t [s],y [mm]\n0,1\n", ":4", "a second header; the file holds two"),
+    "another header": (
+        HEAD + "t [s],y [mm]\n0,1\n",
+        ":4",
+        "a second header; the file contains two",
+    ),
     "quoted header again": (HEAD + '"t [s]","x [mm]"\n0,1\n', ":4", "a second header; the file"),
-    "unsupported separator": ("sep=|\nt [s]|x [m]\n0|1\n", ":1", "the line names '|' as separator"),
+    "unsupported separator": ("sep=|\nt [s]|x [m]\n0|1\n", ":1", "line states the separator '|'"),
     "wrong separator": (
         "sep=;\nt [s],x [m]\n0,1\n",
         ":2",
-        "names ';' as separator of columns, but",
+        "states the separator ';', but",
     ),
     "units below contradict": ("t [s],x [m]\ns,mm\n0,1\n", ":2:t", "value 's' is not a plain"),
     "preamble": ("Logger 7\nt [s],x [m]\n0,1\n", ":1:1", "begin lines above the header with '#'"),
-    "zero tail": (GOOD.encode() + bytes(5000), ":5", "cut it after line 4, the last whole one"),
+    "zero tail": (GOOD.encode() + bytes(5000), ":5", "delete everything after line 4, the last"),
     "zero tail in a row": (
         GOOD.encode() + b"2,3" + bytes(9),
         ":5",
-        "cut it after line 4, the last",
+        "delete everything after line 4, the last",
     ),
-    "all zeros": (bytes(5000), "", "holds no whole line, only zero bytes"),
+    "all zeros": (bytes(5000), "", "contains only zero bytes"),
     "zeros in UTF-16": (
         GOOD.encode("utf-16") + bytes(50),
         ":5",
-        "cut it after line 4, the last whole one",
+        "delete everything after line 4, the last",
     ),
     "zeros inside": (GOOD.encode() + bytes(50) + b"2,3,3\n", ":5", "binary or UTF-16"),
     "cut in an exponent": (
@@ -96,7 +99,7 @@ REFUSED: dict[str, tuple[str | bytes, str, str]] = {
     "our file without its end": (
         "# rotemina-record: 1\n" + GOOD[:-1],
         ":5",
-        "no line end, which every file of this program has",
+        "no line end, but this program always writes one",
     ),
     "other digits": (HEAD + "1,\uff11,2\n", ":4:x.cmd", "is not a plain decimal"),
     "Fortran exponent": (HEAD + "1,2d3,2\n", ":4:x.cmd", "value '2d3' is not a plain decimal"),
@@ -122,7 +125,7 @@ REFUSED: dict[str, tuple[str | bytes, str, str]] = {
     "no header": ("0,1,2\n", ":1:1", "no header row; name its columns, such as 't [s], x [mm]"),
     "header without time": ("x [m],y [m]\n0,1\n", ":1:1", "the first column, and only it, must"),
     "time again": ("t [s],x [m],t [s]\n0,1,2\n", ":1:3", "the first column, and only it, must"),
-    "time alone": ("t [s]\n0\n", ":1", "no column beside time"),
+    "time alone": ("t [s]\n0\n", ":1", "no column except time"),
     "no unit": ("t [s],x\n0,1\n", ":1:2", "heading 'x' is not 'axis.channel [unit]'"),
     "text after the unit": ("t [s],x [m] y\n0,1\n", ":1:2", "is not 'axis.channel [unit]'"),
     "column without heading": ("t [s],x [m],\n0,1,2\n", ":2:3", "the row has 3 fields"),
@@ -138,7 +141,7 @@ REFUSED: dict[str, tuple[str | bytes, str, str]] = {
         "x.meas cannot be in [V]; use a unit of m",
     ),
     "voltage in m": ("t [s],x.u [m]\n0,1\n", ":1:2", "x.u cannot be in [m]; use a unit of V"),
-    "m and rad": ("t [s],x [m],x.ref [rad]\n0,1,1\n", ":1:3", "x.ref is in [rad] but 'x' is in"),
+    "m and rad": ("t [s],x [m],x.ref [rad]\n0,1,1\n", ":1:3", "x.ref is in [rad], but an earlier"),
     "unknown channel": ("t [s],x.mes [m]\n0,1\n", ":1:2", "unknown channel 'mes' in 'x.mes'; use"),
     "column twice": ("t [s],x [m],x.cmd [um]\n0,1,1\n", ":1:3", "x.cmd is already column 2"),
     "no command": ("t [s],x.meas [m]\n0,1\n", ":1", "has x.meas but no x.cmd; add it"),
@@ -152,7 +155,7 @@ REFUSED: dict[str, tuple[str | bytes, str, str]] = {
     "Latin-1 comment": (GOOD.encode() + b"# \xb5\n", ":5:byte 3", "is not UTF-8"),
     "UTF-16 without its mark": (GOOD.encode("utf-16-le"), ":1", "binary or UTF-16"),
     "binary": (GOOD.encode() + b"\x7fELF\x00\x01", ":5", "binary or UTF-16"),
-    "gzip in gzip": (gzip.compress(PACKED, mtime=0), "", ""),
+    "gzip in gzip": (gzip.compress(COMPRESSED, mtime=0), "", ""),
     "CR in a row": (HEAD + "1,2\r,2\n", ":4", "end lines with LF or CRLF"),
     "CR twice": (HEAD + "1,2,2\r\r\n", ":4", "end lines with LF or CRLF"),
     "later version": ("# rotemina-record: 2\n" + GOOD, ":1:rotemina-record", "version must be 1"),
@@ -167,37 +170,39 @@ REFUSED: dict[str, tuple[str | bytes, str, str]] = {
 }
 
 
-@pytest.mark.parametrize(("content", "where", "what"), REFUSED.values(), ids=REFUSED.keys())
-def test_what_import_refuses(
-    content: str | bytes, where: str, what: str, write_file: WriteFile, limits: Limits
+@pytest.mark.parametrize(
+    ("content", "where", "expected"), REFUSED_CONTENTS.values(), ids=REFUSED_CONTENTS.keys()
+)
+def test_invalid_contents_are_refused_with_their_place(
+    content: str | bytes, where: str, expected: str, write_file: WriteFile, limits: FileLimits
 ) -> None:
     path = write_file(content)
-    with pytest.raises(RecordError) as caught:
+    with pytest.raises(RecordError) as refusal:
         read_record(path, limits=limits)
-    message = str(caught.value)
-    assert message.startswith(f"{path}{where}: " if what else str(path)), message
-    assert what in message
+    message = str(refusal.value)
+    assert message.startswith(f"{path}{where}: " if expected else str(path)), message
+    assert expected in message
     assert len(message) < 400 + len(str(path))
 
 
 @pytest.mark.parametrize(
-    ("content", "what"),
+    ("content", "expected"),
     [
-        (PACKED[:-9], "the compressed file ends early, after this line"),
-        (PACKED[:30], "the compressed file ends early, after this line"),
-        (PACKED[:-8] + bytes(8), "the compressed data are damaged after this line"),
-        (PACKED + b"more", "the compressed data are damaged after this line"),
+        (COMPRESSED[:-9], "the compressed file ends early, after this line"),
+        (COMPRESSED[:30], "the compressed file ends early, after this line"),
+        (COMPRESSED[:-8] + bytes(8), "the compressed data are damaged after this line"),
+        (COMPRESSED + b"more", "the compressed data are damaged after this line"),
         (
             gzip.compress(GOOD.encode("utf-16")[:-1], mtime=0),
             "the UTF-16 text is damaged or cut off after",
         ),
     ],
 )
-def test_a_damaged_compressed_file(
-    content: bytes, what: str, write_file: WriteFile, limits: Limits
+def test_a_damaged_compressed_file_is_refused(
+    content: bytes, expected: str, write_file: WriteFile, limits: FileLimits
 ) -> None:
     path = write_file(content, "run.csv.gz")
-    with pytest.raises(RecordError, match=rf"{re.escape(str(path))}:[1-5]: {what}"):
+    with pytest.raises(RecordError, match=rf"{re.escape(str(path))}:[1-5]: {expected}"):
         read_record(path, limits=limits)
 
 
@@ -207,20 +212,20 @@ ROBOT = Robot(
 
 
 @pytest.mark.parametrize(
-    ("header", "where", "what"),
+    ("header", "where", "expected"),
     [
         ("t [s],y [mm]", ":1:2", "robot 'bench' has no axis 'y'; its axes are x"),
         ("t [s],x [urad]", ":1:2", "x.cmd is in [urad] but robot 'bench' moves 'x' in units of m"),
         ("t [s],x [mm],q.cmd [m]", ":1:3", "has no axis 'q'"),
     ],
 )
-def test_what_does_not_fit_the_robot(
-    header: str, where: str, what: str, write_file: WriteFile
+def test_columns_that_do_not_fit_the_robot_are_refused(
+    header: str, where: str, expected: str, write_file: WriteFile
 ) -> None:
     path = write_file(f"{header}\n")
-    with pytest.raises(RecordError, match=re.escape(f"{path}{where}: ")) as caught:
+    with pytest.raises(RecordError, match=re.escape(f"{path}{where}: ")) as refusal:
         read_record(path, robot=ROBOT)
-    assert what in str(caught.value)
+    assert expected in str(refusal.value)
 
 
 @pytest.mark.parametrize(
@@ -235,28 +240,32 @@ def test_what_does_not_fit_the_robot(
         ("0,off\n", "t [s], x [m]", "run.csv:1:x.cmd: value 'off'"),
         ("nan,1\n", "t [s], x [m]", "run.csv:1:t: value 'nan' is not finite"),
         ("0 1 2\n", "t [s], x [m]", "run.csv:1:3: the row has 3 fields"),
-        ("t [s],x [mm]\n0,1\n", "t [s], x [m]", "run.csv:1:2: the header names 'x.cmd [mm]' where"),
-        ("t [s],x [m]\n0,1\n", "t [s], x [m], x.u [V]", "run.csv:1:3: the header names no column"),
+        ("t [s],x [mm]\n0,1\n", "t [s], x [m]", "run.csv:1:2: the header has 'x.cmd [mm]', but"),
+        ("t [s],x [m]\n0,1\n", "t [s], x [m], x.u [V]", "run.csv:1:3: the header has no column"),
         ("time,pos\n0,1\n", "t [s], x [m]", "run.csv:1:1: heading 'time' is no"),
     ],
 )
-def test_named_columns_that_do_not_fit(
-    content: str, columns: str, message: str, write_file: WriteFile, limits: Limits
+def test_named_columns_that_do_not_fit_are_refused(
+    content: str, columns: str, message: str, write_file: WriteFile, limits: FileLimits
 ) -> None:
     path = write_file(content)
-    with pytest.raises(RecordError) as caught:
+    with pytest.raises(RecordError) as refusal:
         read_record(path, columns=columns, robot=ROBOT, limits=limits)
-    assert message in str(caught.value)
+    assert message in str(refusal.value)
 
 
-def test_the_line_counts_comments_and_empty_lines(write_file: WriteFile, limits: Limits) -> None:
+def test_the_line_number_counts_comments_and_empty_lines(
+    write_file: WriteFile, limits: FileLimits
+) -> None:
     rows = "".join(f"{second},1,1\n# c{second}: x\n\r\n" for second in range(1, 40))
     path = write_file(HEAD + rows + "99,1,oops\n")
     with pytest.raises(RecordError, match=f"{re.escape(str(path))}:121:x.meas: value 'oops'"):
         read_record(path, limits=limits)
 
 
-def test_what_is_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_paths_that_are_no_readable_file_are_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     with pytest.raises(RecordError, match=r"absent.csv cannot be read \(file not found"):
         read_record(tmp_path / "absent.csv")
     with pytest.raises(RecordError, match="a folder"):

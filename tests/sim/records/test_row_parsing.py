@@ -1,44 +1,43 @@
-"""The fast parser is the strict one, only faster."""
+"""The fast parser gives the same results as the strict one."""
 
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from rotemina.sim.records import fast_rows
+from rotemina.sim.errors import RecordError
+from rotemina.sim.records import fast_rows, parse_columns
 from rotemina.sim.records.fields import SEPARATORS
-from rotemina.sim.records.file_blocks import Block
-from rotemina.sim.records.layout import Layout, parse_columns
-from rotemina.sim.records.record import RecordError
+from rotemina.sim.records.file_blocks import LineBlock
+from rotemina.sim.records.layout import FileLayout
 from rotemina.sim.records.row_parsing import RowParser
 
 COLUMNS = parse_columns("t [ms], x [um], x.u [V]", "columns")
 
 
-def outcome(parse: Callable[[Block], object], blocks: list[Block]) -> object:
-    """Return the bytes of all rows, or what was refused."""
+def parse_blocks(parse: Callable[[LineBlock], object], blocks: list[LineBlock]) -> object:
+    """Return the values of all rows, or the error message."""
     try:
         return [getattr(parse(block), "tolist", list)() for block in blocks]
     except RecordError as error:
         return str(error)
 
 
-def both(blocks: list[Block], separator: str) -> tuple[object, object]:
-    layout = Layout(separator, COLUMNS)
-    quick = RowParser("run.csv", layout, small_block_bytes=0)
+def parse_both_ways(blocks: list[LineBlock], separator: str) -> tuple[object, object]:
+    layout = FileLayout(separator, COLUMNS)
+    fast = RowParser("run.csv", layout, small_block_bytes=0)
     strict = RowParser("run.csv", layout, small_block_bytes=10**9)
-    return outcome(quick.parse, blocks), outcome(strict.parse, blocks)
+    return parse_blocks(fast.parse, blocks), parse_blocks(strict.parse, blocks)
 
 
-def in_blocks(lines: list[str], cut: int) -> list[Block]:
+def make_blocks(lines: list[str], cut: int) -> list[LineBlock]:
     parts = [lines[:cut], lines[cut:]]
     blocks = []
     first_line = 3
     for part in parts:
         data = "".join(line + "\n" for line in part).encode("utf-8", "surrogateescape")
-        blocks.append(Block(first_line, data))
+        blocks.append(LineBlock(first_line, data))
         first_line += len(part)
     return blocks
 
@@ -86,29 +85,29 @@ def files(draw: st.DrawFn, odd: bool) -> tuple[list[str], str]:
 
 
 @given(files(odd=False), st.integers(0, 8))
-def test_what_is_well_formed_reads_the_same(file: tuple[list[str], str], cut: int) -> None:
+def test_well_formed_rows_are_parsed_the_same(file: tuple[list[str], str], cut: int) -> None:
     lines, separator = file
-    quick, strict = both(in_blocks(lines, cut), separator)
-    assert repr(quick) == repr(strict)
+    fast, strict = parse_both_ways(make_blocks(lines, cut), separator)
+    assert repr(fast) == repr(strict)
 
 
 @given(files(odd=True), st.integers(0, 8))
-def test_what_is_odd_ends_the_same(file: tuple[list[str], str], cut: int) -> None:
+def test_odd_rows_give_the_same_result_or_error(file: tuple[list[str], str], cut: int) -> None:
     lines, separator = file
-    quick, strict = both(in_blocks(lines, cut), separator)
-    assert repr(quick) == repr(strict)
+    fast, strict = parse_both_ways(make_blocks(lines, cut), separator)
+    assert repr(fast) == repr(strict)
 
 
 @given(st.binary(max_size=60).map(lambda data: data.replace(b"\n", b"")), st.integers(0, 3))
-def test_any_bytes_end_the_same(junk: bytes, at: int) -> None:
+def test_arbitrary_bytes_give_the_same_result_or_error(junk: bytes, position: int) -> None:
     row = bytearray(b"1,2,3")
-    row[at:at] = junk
-    quick, strict = both([Block(1, b"0,0,0\n" + bytes(row) + b"\n5,6,7\n")], ",")
-    assert repr(quick) == repr(strict)
+    row[position:position] = junk
+    fast, strict = parse_both_ways([LineBlock(1, b"0,0,0\n" + bytes(row) + b"\n5,6,7\n")], ",")
+    assert repr(fast) == repr(strict)
 
 
 @given(numbers)
-def test_every_decimal_number_is_rounded_as_python_does(text: str) -> None:
+def test_decimal_numbers_are_rounded_like_in_python(text: str) -> None:
     parsed = fast_rows.parse(f"0,{text}\n".encode(), 1, ",", 2)
     value = float(text)
     if abs(value) == float("inf"):
@@ -132,40 +131,47 @@ def test_every_decimal_number_is_rounded_as_python_does(text: str) -> None:
         ("% c\n0,1,2,,\n// d\n\n1,2,3\n", ","),
     ],
 )
-def test_the_fast_parser_is_used(
+def test_the_fast_parser_handles_common_deviations(
     rows: str, separator: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def refuse(*_: object) -> None:
         raise AssertionError("the strict parser was used")
 
     monkeypatch.setattr(RowParser, "parse_strictly", refuse)
-    parser = RowParser("run.csv", Layout(separator, COLUMNS), small_block_bytes=0)
-    assert len(parser.parse(Block(1, rows.encode()))) > 0
+    parser = RowParser("run.csv", FileLayout(separator, COLUMNS), small_block_bytes=0)
+    assert len(parser.parse(LineBlock(1, rows.encode()))) > 0
 
 
-def test_small_blocks_do_without_polars(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_small_blocks_are_parsed_without_pyarrow(monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse(*_: object) -> None:
-        raise AssertionError("polars was used")
+        raise AssertionError("pyarrow was used")
 
     monkeypatch.setattr(fast_rows, "parse", refuse)
-    parser = RowParser("run.csv", Layout(",", COLUMNS))
-    assert parser.parse(Block(1, b"0,1,2\n")).tolist() == [[0.0, 1e-6, 2.0]]
+    parser = RowParser("run.csv", FileLayout(",", COLUMNS))
+    assert parser.parse(LineBlock(1, b"0,1,2\n")).tolist() == [[0.0, 1e-6, 2.0]]
 
 
-def test_time_rises_across_blocks() -> None:
-    blocks = [Block(1, b"0,0,0\n5,0,0\n"), Block(3, b"5,0,0\n")]
-    quick, strict = both(blocks, ",")
-    assert quick == strict
-    assert str(quick).startswith("run.csv:3:t: time 0.005 s does not increase after 0.005 s")
+def test_a_byte_order_mark_between_rows_is_refused() -> None:
+    blocks = [LineBlock(1, b"0,0,0\n"), LineBlock(2, b"\xef\xbb\xbf1,0,0\n")]
+    fast, strict = parse_both_ways(blocks, ",")
+    assert fast == strict
+    assert str(fast).startswith("run.csv:2:t: value '\\ufeff1'")
 
 
-def test_the_decimal_sign_holds_across_blocks() -> None:
-    blocks = [Block(1, b"0;0,5;0\n"), Block(2, b"1;0.5;0\n")]
-    quick, strict = both(blocks, ";")
-    assert quick == strict
-    assert str(quick).startswith("run.csv:2:x.cmd: value '0.5' has '.'")
+def test_time_must_increase_across_blocks() -> None:
+    blocks = [LineBlock(1, b"0,0,0\n5,0,0\n"), LineBlock(3, b"5,0,0\n")]
+    fast, strict = parse_both_ways(blocks, ",")
+    assert fast == strict
+    assert str(fast).startswith("run.csv:3:t: time 0.005 s does not increase after 0.005 s")
 
 
-def test_columns_without_a_file_are_worded(tmp_path: Path) -> None:
+def test_the_decimal_sign_applies_across_blocks() -> None:
+    blocks = [LineBlock(1, b"0;0,5;0\n"), LineBlock(2, b"1;0.5;0\n")]
+    fast, strict = parse_both_ways(blocks, ";")
+    assert fast == strict
+    assert str(fast).startswith("run.csv:2:x.cmd: value '0.5' has '.'")
+
+
+def test_invalid_named_columns_are_refused_without_a_file(tmp_path: Path) -> None:
     with pytest.raises(RecordError, match="columns:2: heading 'x' is no"):
         parse_columns("t [s], x", "columns")

@@ -1,4 +1,5 @@
 import gzip
+import io
 import math
 import os
 import re
@@ -6,26 +7,33 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
+from hypothesis import HealthCheck, given, settings, strategies as st
 from hypothesis.extra import numpy as st_numpy
 
-from rotemina.sim.records.file_blocks import Limits
-from rotemina.sim.records.reading import read_record
-from rotemina.sim.records.record import VOLTAGE_TAPS, Record, RecordError, Tap
-from rotemina.sim.records.writing import write_record
+from rotemina.sim.errors import RecordError
+from rotemina.sim.records import (
+    VOLTAGE_TAPS,
+    FileLimits,
+    Record,
+    Tap,
+    read_record,
+    write_columns,
+    write_record,
+)
 from rotemina.sim.units import units_of
 
 SAME_FOLDER = settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
-FAST = Limits(small_block_bytes=0)
+FAST = FileLimits(small_block_bytes=0)
 
 finite = st.floats(allow_nan=False, allow_infinity=False)
-# Within what every unit can show: 1e290 m is 1e299 nm.
+# Within the range of float64 in every unit: 1e290 m is 1e299 nm.
 moderate = st.floats(-1e290, 1e290)
 names = st.from_regex(r"\A[a-zA-Z_µθ][\w .\-]{0,8}\w\Z", fullmatch=True)
 words = st.text(st.characters(exclude_categories=["C"]), max_size=12).map(lambda s: s.strip())
 keys = words.filter(lambda key: key and ":" not in key and not key.startswith("#"))
-kept = keys.filter(lambda key: key not in ("mode", "history", "period_samples", "rotemina-record"))
+free_keys = keys.filter(
+    lambda key: key not in ("mode", "history", "period_samples", "rotemina-record")
+)
 
 
 @st.composite
@@ -41,53 +49,53 @@ def records(draw: st.DrawFn, values: st.SearchStrategy[float]) -> Record:
     shape = (len(time_s), len(columns))
     table = draw(st_numpy.arrays(np.float64, shape, elements=values))
     signals = {column: table[:, index] for index, column in enumerate(columns)}
-    metadata = draw(st.dictionaries(kept, words, max_size=3))
+    metadata = draw(st.dictionaries(free_keys, words, max_size=3))
     metadata |= draw(st.sampled_from([{}, {"mode": "closed_loop"}, {"period_samples": "3"}]))
     return Record.from_signals(np.array(time_s), signals, units, metadata)
 
 
 @SAME_FOLDER
 @given(record=records(finite), name=st.sampled_from(["a.csv", "a.csv.gz", "a.txt"]))
-def test_si_comes_back_bit_by_bit(tmp_path: Path, record: Record, name: str) -> None:
+def test_si_values_are_restored_bit_for_bit(tmp_path: Path, record: Record, name: str) -> None:
     write_record(record, tmp_path / name)
-    for limits in (Limits(), FAST):
-        back = read_record(tmp_path / name, limits=limits)
-        assert back.time_s.tobytes() == record.time_s.tobytes()
-        assert back.values.tobytes() == record.values.tobytes()
-        assert back.columns == record.columns
-        assert back.units == record.units
-        assert back.metadata == record.metadata
+    for limits in (FileLimits(), FAST):
+        restored = read_record(tmp_path / name, limits=limits)
+        assert restored.time_s.tobytes() == record.time_s.tobytes()
+        assert restored.values.tobytes() == record.values.tobytes()
+        assert restored.columns == record.columns
+        assert restored.units == record.units
+        assert restored.metadata == record.metadata
 
 
 @SAME_FOLDER
 @given(record=records(moderate), data=st.data())
-def test_other_units_come_back_within_two_ulp(
+def test_values_in_other_units_are_restored_within_two_ulp(
     tmp_path: Path, record: Record, data: st.DataObject
 ) -> None:
-    asked = {axis: data.draw(st.sampled_from(units_of(record.units[axis]))) for axis in record.axes}
-    write_record(record, tmp_path / "a.csv", units=asked)
-    back = read_record(tmp_path / "a.csv")
-    assert back.columns == record.columns
-    assert back.time_s.tobytes() == record.time_s.tobytes()
+    units = {axis: data.draw(st.sampled_from(units_of(record.units[axis]))) for axis in record.axes}
+    write_record(record, tmp_path / "a.csv", units=units)
+    restored = read_record(tmp_path / "a.csv")
+    assert restored.columns == record.columns
+    assert restored.time_s.tobytes() == record.time_s.tobytes()
     for axis, tap in record.columns:
-        pairs = zip(back.signal(axis, tap), record.signal(axis, tap), strict=True)
+        pairs = zip(restored.signal(axis, tap), record.signal(axis, tap), strict=True)
         ulps = 0 if tap in VOLTAGE_TAPS else 2
         assert all(abs(new - old) <= ulps * math.ulp(old) for new, old in pairs)
 
 
 @SAME_FOLDER
 @given(record=records(finite))
-def test_without_a_header_the_numbers_come_back(tmp_path: Path, record: Record) -> None:
+def test_values_are_restored_without_a_header(tmp_path: Path, record: Record) -> None:
     write_record(record, tmp_path / "a.csv", header=False)
     content = (tmp_path / "a.csv").read_text()
     assert len(content.splitlines()) == len(record.time_s)
-    named = ["t [s]"]
+    columns = ["t [s]"]
     for axis, tap in record.columns:
         unit = "V" if tap in VOLTAGE_TAPS else record.units[axis]
-        named.append(f"{axis}.{tap} [{unit}]")
-    back = read_record(tmp_path / "a.csv", columns=",".join(named))
-    assert back.values.tobytes() == record.values.tobytes()
-    assert back.columns == record.columns
+        columns.append(f"{axis}.{tap} [{unit}]")
+    restored = read_record(tmp_path / "a.csv", columns=",".join(columns))
+    assert restored.values.tobytes() == record.values.tobytes()
+    assert restored.columns == record.columns
 
 
 def make_record(**metadata: str) -> Record:
@@ -96,7 +104,7 @@ def make_record(**metadata: str) -> Record:
     return Record.from_signals(time_s, signals, {"x": "m"}, metadata)
 
 
-def test_the_file_as_people_see_it(tmp_path: Path) -> None:
+def test_a_written_file_has_the_expected_text(tmp_path: Path) -> None:
     write_record(make_record(mode="open_loop", note="a: b"), tmp_path / "a.csv", units={"x": "um"})
     head, first, second = (tmp_path / "a.csv").read_text().rsplit("\n", 3)[:3]
     assert head == "# rotemina-record: 1\n# mode: open_loop\n# note: a: b\nt [s],x.cmd [um],x.u [V]"
@@ -104,7 +112,15 @@ def test_the_file_as_people_see_it(tmp_path: Path) -> None:
     assert [float(field) for field in second.split(",")] == [0.1, -100.0, 1.0]
 
 
-def test_the_version_line_does_not_pile_up(tmp_path: Path) -> None:
+def test_columns_are_written_with_the_fewest_digits() -> None:
+    numbers = [[0.1, -0.0, 1 / 3], [1234.5, 123456789.0, 5e-324], [math.nan, math.inf, -math.inf]]
+    file = io.BytesIO()
+    write_columns(file, list(np.array(numbers).T))
+    rows = file.getvalue().decode().splitlines()
+    assert rows == ["0.1,-0.0,0.3333333333333333", "1234.5,123456789.0,5e-324", "nan,inf,-inf"]
+
+
+def test_the_version_line_is_written_once(tmp_path: Path) -> None:
     record = make_record(note="n")
     for name in ("a.csv", "b.csv", "c.csv"):
         write_record(record, tmp_path / name)
@@ -114,14 +130,14 @@ def test_the_version_line_does_not_pile_up(tmp_path: Path) -> None:
     assert (tmp_path / "d.csv").read_text().count("rotemina-record") == 1
 
 
-def test_a_compressed_file_is_the_same_text_each_time(tmp_path: Path) -> None:
+def test_a_compressed_file_has_the_same_bytes_each_time(tmp_path: Path) -> None:
     write_record(make_record(), tmp_path / "a.csv")
     write_record(make_record(), tmp_path / "a.csv.gz")
     write_record(make_record(), tmp_path / "b.csv.gz")
-    packed = (tmp_path / "a.csv.gz").read_bytes()
-    assert gzip.decompress(packed) == (tmp_path / "a.csv").read_bytes()
-    assert packed == (tmp_path / "b.csv.gz").read_bytes()
-    time_stamp = packed[4:8]
+    compressed = (tmp_path / "a.csv.gz").read_bytes()
+    assert gzip.decompress(compressed) == (tmp_path / "a.csv").read_bytes()
+    assert compressed == (tmp_path / "b.csv.gz").read_bytes()
+    time_stamp = compressed[4:8]
     assert time_stamp == bytes(4)
 
 
@@ -129,9 +145,9 @@ def test_many_rows_are_written_in_order(tmp_path: Path) -> None:
     time_s = np.arange(150_000) / 1000
     record = Record.from_signals(time_s, {("x", Tap.CMD): np.sin(time_s)}, {"x": "rad"})
     write_record(record, tmp_path / "a.csv")
-    back = read_record(tmp_path / "a.csv")
-    assert back.time_s.tobytes() == time_s.tobytes()
-    assert back.values.tobytes() == record.values.tobytes()
+    restored = read_record(tmp_path / "a.csv")
+    assert restored.time_s.tobytes() == time_s.tobytes()
+    assert restored.values.tobytes() == record.values.tobytes()
 
 
 @pytest.mark.parametrize(
@@ -154,10 +170,12 @@ def test_many_rows_are_written_in_order(tmp_path: Path) -> None:
         ("rotemina-record", "2"),
     ],
 )
-def test_metadata_that_would_not_come_back(tmp_path: Path, key: str, value: str) -> None:
-    with pytest.raises(RecordError, match="metadata:") as caught:
+def test_metadata_that_could_not_be_read_back_are_refused(
+    tmp_path: Path, key: str, value: str
+) -> None:
+    with pytest.raises(RecordError, match="metadata:") as refusal:
         write_record(make_record(**{key: value}), tmp_path / "a.csv")
-    assert len(str(caught.value)) < 300
+    assert len(str(refusal.value)) < 300
     assert list(tmp_path.iterdir()) == []
 
 
@@ -182,14 +200,14 @@ def test_metadata_that_would_not_come_back(tmp_path: Path, key: str, value: str)
         "x" * 101,
     ],
 )
-def test_axis_names_that_would_not_come_back(tmp_path: Path, axis: str) -> None:
+def test_axis_names_that_could_not_be_read_back_are_refused(tmp_path: Path, axis: str) -> None:
     record = Record.from_signals(np.zeros(1), {(axis, Tap.CMD): np.zeros(1)}, {axis: "m"})
     with pytest.raises(RecordError, match="cannot name an axis"):
         write_record(record, tmp_path / "a.csv")
     assert list(tmp_path.iterdir()) == []
 
 
-def test_an_axis_needs_its_command(tmp_path: Path) -> None:
+def test_an_axis_without_command_is_refused(tmp_path: Path) -> None:
     record = Record.from_signals(np.zeros(1), {("x", Tap.MEAS): np.zeros(1)}, {"x": "m"})
     with pytest.raises(RecordError, match=r"axis 'x' has x.meas but no x.cmd"):
         write_record(record, tmp_path / "a.csv")
@@ -199,12 +217,14 @@ def test_an_axis_needs_its_command(tmp_path: Path) -> None:
     ("units", "message"),
     [
         ({"y": "mm"}, "units: the record has no axis 'y'; its axes are x"),
-        ({"x": "urad"}, "units:x: 'urad' cannot show units of m"),
-        ({"x": "V"}, "units:x: 'V' cannot show units of m"),
+        ({"x": "urad"}, "units:x: 'urad' cannot be converted to m"),
+        ({"x": "V"}, "units:x: 'V' cannot be converted to m"),
         ({"x": "inch"}, "units:x: unknown unit 'inch'"),
     ],
 )
-def test_units_that_do_not_fit(tmp_path: Path, units: dict[str, str], message: str) -> None:
+def test_units_that_do_not_fit_are_refused(
+    tmp_path: Path, units: dict[str, str], message: str
+) -> None:
     with pytest.raises(RecordError, match=re.escape(message)):
         write_record(make_record(), tmp_path / "a.csv", units=units)
 
@@ -214,19 +234,19 @@ def test_a_micro_sign_is_written_as_u(tmp_path: Path) -> None:
     assert "x.cmd [um]" in (tmp_path / "a.csv").read_text()
 
 
-def test_too_large_for_the_unit_leaves_nothing_behind(tmp_path: Path) -> None:
+def test_a_value_too_large_for_its_unit_leaves_no_file(tmp_path: Path) -> None:
     record = Record.from_signals(np.zeros(1), {("x", Tap.CMD): np.full(1, 1e301)}, {"x": "m"})
     with pytest.raises(RecordError, match=r"record:x.cmd: too large for \[nm\]"):
         write_record(record, tmp_path / "a.csv", units={"x": "nm"})
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_failed_export_keeps_the_file_that_was_there(
+def test_a_failed_export_keeps_the_old_file(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path = tmp_path / "a.csv"
     write_record(make_record(), path)
-    before = path.read_bytes()
+    old_content = path.read_bytes()
 
     def fail(_: int) -> None:
         raise OSError(28, "No space left on device")
@@ -234,7 +254,7 @@ def test_a_failed_export_keeps_the_file_that_was_there(
     monkeypatch.setattr(os, "fsync", fail)
     with pytest.raises(RecordError, match=r"a.csv cannot be written \(No space left"):
         write_record(make_record(note="new"), path)
-    assert path.read_bytes() == before
+    assert path.read_bytes() == old_content
     assert list(tmp_path.iterdir()) == [path]
     monkeypatch.undo()
     write_record(make_record(note="new"), path)
@@ -242,16 +262,16 @@ def test_a_failed_export_keeps_the_file_that_was_there(
 
 
 @pytest.mark.skipif(os.name == "nt", reason="an open file cannot be replaced there")
-def test_who_reads_the_old_file_goes_on_reading_it(tmp_path: Path) -> None:
+def test_an_open_reader_continues_with_the_old_file(tmp_path: Path) -> None:
     path = tmp_path / "a.csv"
     write_record(make_record(), path)
-    with path.open() as old:
+    with path.open() as old_file:
         write_record(make_record(note="new"), path)
-        assert "new" not in old.read()
+        assert "new" not in old_file.read()
     assert "new" in path.read_text()
 
 
-def test_where_no_file_can_be(tmp_path: Path) -> None:
+def test_a_path_where_no_file_can_be_written_is_refused(tmp_path: Path) -> None:
     with pytest.raises(RecordError, match="is a folder"):
         write_record(make_record(), tmp_path)
     with pytest.raises(RecordError, match="cannot be written"):
@@ -259,7 +279,7 @@ def test_where_no_file_can_be(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_link_stays_a_link(tmp_path: Path) -> None:
+def test_a_symbolic_link_is_kept(tmp_path: Path) -> None:
     (tmp_path / "deep").mkdir()
     link = tmp_path / "a.csv"
     try:

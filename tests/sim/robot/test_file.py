@@ -1,10 +1,15 @@
-"""Robot files: what is loaded, and every refusal with file, key, value and bound."""
+"""Robot files: loading, and refusals with file, key, value and bound."""
 
 import pytest
 
-from rotemina.sim.robot.errors import RobotFileError
-from rotemina.sim.robot.file import load_robot, nominal_robots, parse_robot, shipped_robots
-from rotemina.sim.robot.model import ForceAxis, PiezoAxis, StepperAxis
+from rotemina.sim.errors import RobotFileError
+from rotemina.sim.robot import ForceAxis, PiezoAxis, StepperAxis
+from rotemina.sim.robot_files import (
+    list_nominal_robots,
+    list_shipped_robots,
+    load_robot,
+    parse_robot,
+)
 
 MINIMAL = """
 [robot]
@@ -76,20 +81,20 @@ def test_the_shipped_robot_is_the_machine_of_the_paper():
 
 
 def test_every_shipped_robot_loads():
-    assert shipped_robots() == ("emps", "fsm", "picma", "rotemina", "rotemina_worn", "xyz")
-    for name in shipped_robots():
+    assert list_shipped_robots() == ("emps", "fsm", "picma", "rotemina", "rotemina_worn", "xyz")
+    for name in list_shipped_robots():
         assert load_robot(name).axes
-        assert (name in nominal_robots()) == (not load_robot(name).effects)
+        assert (name in list_nominal_robots()) == (not load_robot(name).effects)
     assert isinstance(load_robot("emps").axes["q"], ForceAxis)
     assert load_robot("emps").axes["q"].controller.velocity == "backward"
 
 
-def test_the_shipped_robot_file_is_the_specified_one(shared_dir):
+def test_the_shipped_robot_file_matches_the_specification(shared_dir):
     shared = (shared_dir / "spec" / "robot.toml").read_text("utf-8")
     assert parse_robot(shared) == load_robot("rotemina")
 
 
-def test_any_number_and_names_of_axes():
+def test_any_number_and_names_of_axes_are_accepted():
     robot = parse_robot(MINIMAL.replace('"a"', '"θ-17"').replace("axis.a", 'axis."θ-17"'))
     assert list(robot.axes) == ["θ-17"]
     assert robot.unit("θ-17") is None
@@ -135,20 +140,20 @@ def test_any_number_and_names_of_axes():
         (CONTROLLED, "mass = 90.0", "mass = 90.0\nstatic = true", r"static = True: .*'force'"),
     ],
 )
-def test_a_wrong_value_is_named_with_file_key_value_and_bound(text, old, new, message):
+def test_a_wrong_value_is_refused_with_file_key_value_and_bound(text, old, new, message):
     assert old in text
     with pytest.raises(RobotFileError, match=r"^lab\.toml: .*" + message):
         parse_robot(text.replace(old, new, 1), source="lab.toml")
 
 
 @pytest.mark.parametrize("name", ["#x", "-x", "a,b", "x" * 201, ""])
-def test_a_name_that_no_record_could_carry_is_refused(name):
+def test_an_axis_name_that_no_record_can_have_is_refused(name):
     text = MINIMAL.replace('"a"', f'"{name}"').replace("axis.a", f'axis."{name}"')
     with pytest.raises(RobotFileError, match=r"robot\.axes"):
         parse_robot(text)
 
 
-def coupled(matrix, value, axes='["a", "b"]'):
+def add_coupling(matrix, value, axes='["a", "b"]'):
     second = MINIMAL[MINIMAL.index("[axis.a]") :].replace("axis.a", "axis.b")
     text = MINIMAL.replace('axes = ["a"]', 'axes = ["a", "b"]') + second
     return text + f'\n[[coupling]]\nmatrix = "{matrix}"\naxes = {axes}\nvalue = {value}\n'
@@ -157,11 +162,11 @@ def coupled(matrix, value, axes='["a", "b"]'):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        (coupled("M", 2.5), r"coupling = \[2\.5\]: M must be positive definite"),
-        (coupled("C", 401.0), r"coupling = \[401\.0\]: C must be positive semi-definite"),
-        (coupled("K", 1.0), r"coupling\[0\]\.matrix = 'K': must be 'M', 'D' or 'C'"),
-        (coupled("M", 0.1, '["a", "c"]'), r"coupling\[0\]\.axes = c: must be one of"),
-        (coupled("M", 0.1, '["a", "a"]'), r"coupling\[0\]\.axes = .*two different"),
+        (add_coupling("M", 2.5), r"coupling = \[2\.5\]: M must be positive definite"),
+        (add_coupling("C", 401.0), r"coupling = \[401\.0\]: C must be positive semi-definite"),
+        (add_coupling("K", 1.0), r"coupling\[0\]\.matrix = 'K': must be 'M', 'D' or 'C'"),
+        (add_coupling("M", 0.1, '["a", "c"]'), r"coupling\[0\]\.axes = c: must be one of"),
+        (add_coupling("M", 0.1, '["a", "a"]'), r"coupling\[0\]\.axes = .*two different"),
     ],
 )
 def test_an_impossible_coupling_is_refused(text, message):
@@ -170,9 +175,9 @@ def test_an_impossible_coupling_is_refused(text, message):
 
 
 def test_a_coupling_is_symmetric():
-    from rotemina.sim.robot.matrices import inertia_matrices
+    from rotemina.sim.robot import assemble_inertia_matrices
 
-    _, mass, _, _ = inertia_matrices(parse_robot(coupled("M", 0.5)))
+    _, mass, _, _ = assemble_inertia_matrices(parse_robot(add_coupling("M", 0.5)))
     assert mass.tolist() == [[2.0, 0.5], [0.5, 2.0]]
 
 

@@ -1,10 +1,10 @@
-"""The figures that the paper prints, in the shipped robot file, written out anew."""
+"""The shipped robot file contains the figures of the paper."""
 
 from math import pi
 
 import pytest
 
-from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot_files import load_robot
 
 ROBOT = load_robot("rotemina")
 MICRO, TILTS = ("x", "y", "z"), ("thx", "thy")
@@ -12,7 +12,7 @@ ARC_SECOND = pi / 648_000.0
 
 
 @pytest.mark.parametrize(("axis", "stroke_m"), [("x", 0.055), ("y", 0.055), ("z", 0.080)])
-def test_tables(axis, stroke_m):
+def test_tables_have_the_published_figures(axis, stroke_m):
     table = ROBOT.axes[axis]
     assert table.range == (0.0, stroke_m)
     assert (table.steps_per_rev, table.pitch) == (200, 0.001)
@@ -21,14 +21,14 @@ def test_tables(axis, stroke_m):
 
 
 @pytest.mark.parametrize("axis", TILTS)
-def test_tilts(axis):
+def test_tilts_have_the_published_figures(axis):
     tilt = ROBOT.axes[axis]
     assert tilt.span == pytest.approx(240.0 * ARC_SECOND, rel=1e-5)
     assert tilt.sensor.resolution == pytest.approx(tilt.span / 2**13, rel=1e-4)
     assert 2.0 * tilt.sensor.noise_rms * ROBOT.piezo_lever_arm == pytest.approx(35e-9, rel=0.05)
 
 
-def test_z_of_the_nano_stage():
+def test_nano_z_has_the_published_figures():
     zn = ROBOT.axes["zn"]
     assert zn.range == (0.0, 65e-6)
     assert zn.sensor.resolution == pytest.approx(65e-6 / 2**13, rel=1e-4)
@@ -36,7 +36,7 @@ def test_z_of_the_nano_stage():
     assert 3.0 * zn.sensor.noise_rms == pytest.approx(35e-9, rel=0.05)
 
 
-def test_plate_and_pin():
+def test_plate_and_pin_have_the_published_figures():
     plate = ROBOT.plate
     assert (plate.youngs_modulus, plate.poissons_ratio) == (211e9, 0.260)
     assert (plate.pin.youngs_modulus, plate.pin.poissons_ratio) == (204e9, 0.291)

@@ -1,4 +1,4 @@
-"""The check of effects: ours pass it, a third party's too, and what is wrong with one is found."""
+"""The check of effects: correct effects pass it, and it finds the faults of wrong ones."""
 
 import textwrap
 from importlib.metadata import EntryPoint
@@ -6,32 +6,37 @@ from importlib.metadata import EntryPoint
 import pytest
 
 from rotemina.sim.effects import registry
-from rotemina.sim.effects.errors import EffectError
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.simulation.effect_check import check_effect
+from rotemina.sim.errors import EffectError
+from rotemina.sim.robot_files import load_robot
+from rotemina.sim.simulation import check_effect
 
-# Those that take seconds.
-LONG = {"amplifier_lag", "contact", "cross_coupling", "flexible_mode", "hysteresis"}
-LONG |= {"static_nonlinearity"}
+# Checks of these effects take seconds.
+SLOW_EFFECTS = {"amplifier_lag", "contact", "cross_coupling", "flexible_mode", "hysteresis"}
+SLOW_EFFECTS |= {"static_nonlinearity"}
 INSTALLED = [
-    pytest.param(name, marks=[pytest.mark.slow] if name in LONG else [])
-    for name in registry.all_effects()[0]
+    pytest.param(name, marks=[pytest.mark.slow] if name in SLOW_EFFECTS else [])
+    for name in registry.load_all_effects()[0]
 ]
 
 MODULE = """
 import numpy as np
-from rotemina.sim.effects.formulation import (
-    Drive, Effect, Force, Formulation, Motion, Parameter, Reading, Stage, Trait
-)
+from rotemina.sim.effects import Effect, Formulation
+from rotemina.sim.effects import EffectParameter as Parameter
+from rotemina.sim.effects import EffectStage as Stage
+from rotemina.sim.effects import EffectTrait as Trait
+from rotemina.sim.effects import ForceFunction as Force
+from rotemina.sim.effects import InputFunction as Drive
+from rotemina.sim.effects import PositionFunction as Motion
+from rotemina.sim.effects import ReadingFunction as Reading
 
 SIZE = Parameter("size", "how much", "", -0.5, 0.5, 0.1)
 POSITIVE = Parameter("size", "how much", "", 0.0, 0.5, 0.1)
 CURVE = {Trait.MEMORYLESS, Trait.RATE_INDEPENDENT, Trait.READING_ONLY}
 
 
-def effect(acts, *traits, parameters=(SIZE,), stage=Stage.SENSOR, kinds=("piezo",), **told):
-    said = dict(name="one", equation="y = f(x)", source="a book", parameters=parameters)
-    form = Formulation(**(said | told), acts=acts, traits=frozenset(traits))
+def effect(acts, *traits, parameters=(SIZE,), stage=Stage.SENSOR, kinds=("piezo",), **fields):
+    presets = dict(name="one", equation="y = f(x)", source="a book", parameters=parameters)
+    form = Formulation(**(presets | fields), acts=acts, traits=frozenset(traits))
     return Effect(
         id="other", title="Other", summary="Something else.", stage=stage,
         kinds=frozenset(kinds), formulations=(form,),
@@ -111,20 +116,20 @@ def drift(x, other, t, h, a, b, p, s):
 GOOD = effect(Reading(step=bent), *CURVE)
 GOOD_DRIVE = effect(Drive(step=play, states=1), Trait.RATE_INDEPENDENT, Trait.DISSIPATIVE,
                     stage=Stage.ACTUATOR, parameters=(POSITIVE,))
-GOOD_CHANCE = effect(Reading(step=chance, random=True), Trait.RANDOM, Trait.READING_ONLY)
+GOOD_RANDOM = effect(Reading(step=chance, random=True), Trait.RANDOM, Trait.READING_ONLY)
 NOT_LINEAR = effect(Reading(step=bent), Trait.LINEAR)
 NOT_READING = effect(Motion(step=bent), Trait.READING_ONLY)
 NOT_MEMORYLESS = effect(Motion(step=play, states=1), Trait.MEMORYLESS, parameters=(POSITIVE,))
 NOT_TRANSIENT = effect(Reading(step=bent), Trait.TRANSIENT)
-NOT_RATE = effect(Reading(step=late, states=1), Trait.RATE_INDEPENDENT)
-NOT_PLACE = effect(Motion(step=play, states=1), Trait.LOCKED_TO_POSITION, parameters=(POSITIVE,))
+NOT_RATE_INDEPENDENT = effect(Reading(step=late, states=1), Trait.RATE_INDEPENDENT)
+NOT_POSITION = effect(Motion(step=play, states=1), Trait.LOCKED_TO_POSITION, parameters=(POSITIVE,))
 NOT_TIME = effect(Reading(step=drift), Trait.LOCKED_TO_TIME)
-NOT_LOSSY = effect(Drive(step=lead, states=1), Trait.DISSIPATIVE, stage=Stage.ACTUATOR,
+NOT_DISSIPATIVE = effect(Drive(step=lead, states=1), Trait.DISSIPATIVE, stage=Stage.ACTUATOR,
                    parameters=(POSITIVE,))
-NOT_LOSSY_FORCE = effect(Force(step=push), Trait.DISSIPATIVE, stage=Stage.MECHANICS,
+NOT_DISSIPATIVE_FORCE = effect(Force(step=push), Trait.DISSIPATIVE, stage=Stage.MECHANICS,
                          kinds=("stepper",))
 NOT_RANDOM = effect(Reading(step=bent, random=True), Trait.RANDOM)
-UNSAID_CHANCE = effect(Reading(step=chance, random=True))
+UNDECLARED_RANDOM = effect(Reading(step=chance, random=True))
 BIASED = effect(Reading(step=biased, random=True), Trait.RANDOM)
 IMPURE = effect(Reading(step=dice))
 WILD = effect(Reading(step=wild, states=1))
@@ -148,29 +153,29 @@ FAULTS = [
     ("NOT_READING", "trait reading only"),
     ("NOT_MEMORYLESS", "trait memoryless"),
     ("NOT_TRANSIENT", "trait transient"),
-    ("NOT_RATE", "trait rate-independent"),
-    ("NOT_PLACE", "trait locked to position"),
+    ("NOT_RATE_INDEPENDENT", "trait rate-independent"),
+    ("NOT_POSITION", "trait locked to position"),
     ("NOT_TIME", "trait locked to time"),
-    ("NOT_LOSSY", "trait dissipative"),
-    ("NOT_LOSSY_FORCE", "trait dissipative"),
+    ("NOT_DISSIPATIVE", "trait dissipative"),
+    ("NOT_DISSIPATIVE_FORCE", "trait dissipative"),
     ("NOT_RANDOM", "differs from seed to seed"),
-    ("UNSAID_CHANCE", "is not random"),
-    ("BIASED", "is absent without chance"),
-    ("IMPURE", "one seed gives one answer"),
+    ("UNDECLARED_RANDOM", "is not random"),
+    ("BIASED", "is absent without a seed"),
+    ("IMPURE", "repeats with the same seed"),
     ("OVERRUN", "leaves other memory alone"),
     ("OVERRUN", "stays within its memory"),
     ("DEEP", "stays within its memory"),
     ("WILD", "stays within its memory"),
     ("NAN", "stays finite at presets and bounds"),
-    ("FORGETS", "reads without forgetting"),
+    ("FORGETS", "keeps its memory when read"),
     ("RESTLESS", "starts at rest"),
-    ("SUDDEN", "comes from zero smoothly"),
-    ("IDLE", "does something"),
-    ("BAD_PRESET", "formulation is described"),
-    ("BAD_UNIT", "formulation is described"),
-    ("BAD_NAME", "formulation is described"),
-    ("TWICE", "formulation is described"),
-    ("NO_SOURCE", "formulation is described"),
+    ("SUDDEN", "starts smoothly from zero"),
+    ("IDLE", "has an effect"),
+    ("BAD_PRESET", "formulation description is complete"),
+    ("BAD_UNIT", "formulation description is complete"),
+    ("BAD_NAME", "formulation description is complete"),
+    ("TWICE", "formulation description is complete"),
+    ("NO_SOURCE", "formulation description is complete"),
     ("RAISES", "can be simulated"),
     ("MISSING", "can be loaded"),
 ]
@@ -178,90 +183,96 @@ FAULTS = [
 
 @pytest.fixture(scope="module")
 def other_package(tmp_path_factory):
-    """A third party's package, installed as one is: a module and its entry points."""
+    """Folder of an installed third-party package: a module and its entry points."""
     folder = tmp_path_factory.mktemp("site")
     (folder / "other_effects.py").write_text(textwrap.dedent(MODULE), "utf-8")
-    about = folder / "other_effects-1.0.dist-info"
-    about.mkdir()
-    (about / "METADATA").write_text("Metadata-Version: 2.1\nName: other-effects\nVersion: 1.0\n")
-    (about / "entry_points.txt").write_text("[rotemina.effects]\nother = other_effects:GOOD\n")
+    metadata_dir = folder / "other_effects-1.0.dist-info"
+    metadata_dir.mkdir()
+    (metadata_dir / "METADATA").write_text(
+        "Metadata-Version: 2.1\nName: other-effects\nVersion: 1.0\n"
+    )
+    (metadata_dir / "entry_points.txt").write_text(
+        "[rotemina.effects]\nother = other_effects:GOOD\n"
+    )
     return folder
 
 
 @pytest.fixture
-def other(other_package, monkeypatch):
-    """Let a third party's effect of a name in the module be the installed ``other``."""
+def install_other(other_package, monkeypatch):
+    """Return a function that installs an effect of the third-party module as ``other``."""
     monkeypatch.syspath_prepend(str(other_package))
 
     def install(name):
         point = EntryPoint("other", f"other_effects:{name}", registry.GROUP)
-        monkeypatch.setattr(registry, "_points", lambda: {"other": point})
-        registry.effect_named.cache_clear()
+        monkeypatch.setattr(registry, "_find_entry_points", lambda: {"other": point})
+        registry.load_effect.cache_clear()
 
     yield install
-    registry.effect_named.cache_clear()
+    registry.load_effect.cache_clear()
 
 
-def failed(report):
+def get_failed_checks(report):
     return {check.name for check in report.failures}
 
 
 @pytest.mark.parametrize("effect_id", INSTALLED)
-def test_an_installed_effect_is_what_it_says(effect_id):
+def test_an_installed_effect_passes_the_check(effect_id):
     report = check_effect(effect_id)
     assert report.passed, "\n".join(map(str, report.failures))
     names = {check.name for check in report.checks}
-    assert {"stays finite at presets and bounds", "in pieces is as at once"} <= names
+    assert {"stays finite at presets and bounds", "gives the same in pieces"} <= names
 
 
 def test_an_effect_is_found_by_the_entry_point_of_another_package(other_package, monkeypatch):
     monkeypatch.syspath_prepend(str(other_package))
-    registry._points.cache_clear()
+    registry._find_entry_points.cache_clear()
     try:
-        assert {"other", "delay"} <= set(registry.effect_ids())
+        assert {"other", "delay"} <= set(registry.list_effect_ids())
         assert check_effect("other").passed
     finally:
-        registry._points.cache_clear()
-        registry.effect_named.cache_clear()
+        registry._find_entry_points.cache_clear()
+        registry.load_effect.cache_clear()
 
 
-@pytest.mark.parametrize("name", ["GOOD", "GOOD_DRIVE", "GOOD_CHANCE"])
-def test_a_good_effect_of_a_third_party_passes(name, other):
-    other(name)
+@pytest.mark.parametrize("name", ["GOOD", "GOOD_DRIVE", "GOOD_RANDOM"])
+def test_a_correct_third_party_effect_passes(name, install_other):
+    install_other(name)
     report = check_effect("other")
     assert not report.failures
     assert {check.place for check in report.checks} >= {"RoTeMiNa thx", "PICMA P-885.91 p"}
 
 
 @pytest.mark.parametrize(("name", "check"), FAULTS)
-def test_what_is_wrong_with_an_effect_is_found(name, check, other):
-    other(name)
+def test_the_fault_of_an_effect_is_found(name, check, install_other):
+    install_other(name)
     report = check_effect("other")
     assert not report.passed
-    assert check in failed(report)
-    assert all(fault.note for fault in report.failures)
+    assert check in get_failed_checks(report)
+    assert all(failure.note for failure in report.failures)
 
 
-def test_a_wrong_trait_is_the_only_thing_that_fails(other):
-    other("NOT_LINEAR")
-    assert failed(check_effect("other")) == {"trait linear"}
+def test_a_wrong_trait_is_the_only_thing_that_fails(install_other):
+    install_other("NOT_LINEAR")
+    assert get_failed_checks(check_effect("other")) == {"trait linear"}
 
 
-def test_time_is_measured_by_the_clock_that_is_given():
+def test_time_is_measured_by_the_injected_clock():
     ticks = iter(range(1000))
-    slow = check_effect("sensor_gain", clock=lambda: float(next(ticks)))
-    assert failed(slow) == {"is fast enough to be fitted"}
+    report = check_effect("sensor_gain", clock=lambda: float(next(ticks)))
+    assert get_failed_checks(report) == {"is fast enough to be fitted"}
     assert "is fast enough to be fitted" not in {
         check.name for check in check_effect("sensor_gain").checks
     }
 
 
-def test_on_a_robot_without_an_axis_for_it_nothing_fails_but_that_is_said():
+def test_a_robot_without_a_suitable_axis_is_reported_but_no_failure():
     report = check_effect("hysteresis", [load_robot("emps")])
     assert report.passed
-    assert {check.name for check in report.checks if check.passed is None} == {"finds an axis"}
+    assert {check.name for check in report.checks if check.passed is None} == {
+        "has a suitable axis"
+    }
 
 
-def test_an_unknown_effect_is_bad_input():
+def test_an_unknown_effect_is_refused():
     with pytest.raises(EffectError, match="there is no effect 'nope'"):
         check_effect("nope")

@@ -1,12 +1,13 @@
-"""Limits of targets and speeds, against exact cases."""
+"""Limits of targets and speeds in exact cases."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.trajectory.axis_limits import OutOfLimitsError, check_speeds, check_target
+from rotemina.sim.errors import OutOfLimitsError
+from rotemina.sim.robot_files import load_robot
+from rotemina.sim.trajectory import check_speeds, check_target
 
 ROBOT = load_robot("rotemina")
 
@@ -15,7 +16,7 @@ ROBOT = load_robot("rotemina")
     ("axis", "position"),
     [("x", 0.0), ("x", 0.055), ("x", 0.055 * (1 + 1e-12)), ("thx", 1.16355e-3), ("zn", 65e-6)],
 )
-def test_targets_to_the_very_ends_are_allowed(axis, position):
+def test_targets_up_to_the_ends_are_allowed(axis, position):
     check_target(ROBOT, axis, position)
 
 
@@ -30,11 +31,11 @@ def test_targets_to_the_very_ends_are_allowed(axis, position):
         ("w", 0.0, ["'w'", "no such axis", "thx"]),
     ],
 )
-def test_a_target_beyond_is_refused_with_value_and_bound(axis, position, words):
-    with pytest.raises(OutOfLimitsError) as caught:
+def test_a_target_out_of_range_is_refused_with_value_and_bound(axis, position, words):
+    with pytest.raises(OutOfLimitsError) as refusal:
         check_target(ROBOT, axis, position)
     for word in words:
-        assert word in str(caught.value)
+        assert word in str(refusal.value)
 
 
 def test_a_target_that_needs_too_much_voltage_is_refused():
@@ -47,12 +48,12 @@ def test_a_target_that_needs_too_much_voltage_is_refused():
 
 
 @pytest.mark.parametrize("speed", ["0.01", None, 0.0, -1.0, float("nan"), float("inf"), 1j])
-def test_a_speed_that_is_none_is_refused(speed):
+def test_an_invalid_speed_is_refused(speed):
     with pytest.raises(OutOfLimitsError, match=r"axis x: speed .*: must be a finite number"):
         check_speeds({"x": 0.0}, {"x": speed})
 
 
-def test_a_speed_needs_a_target():
+def test_a_speed_without_a_target_is_refused():
     check_speeds({"x": 0.0}, {"x": np.float32(1e-3)})
     with pytest.raises(OutOfLimitsError, match=r"axis y: .* with a target"):
         check_speeds({"x": 0.0}, {"y": 1e-3})

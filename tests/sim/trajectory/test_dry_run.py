@@ -1,23 +1,20 @@
-"""The dry run: figures of known motions and the tracking error that the model predicts."""
+"""The dry run: figures of known motions, and the tracking error predicted by the model."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from rotemina.sim.quantities import exact
-from rotemina.sim.records.reading import read_record
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.trajectory import prediction
-from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
-from rotemina.sim.trajectory.dry_run import dry_run
-from rotemina.sim.trajectory.trajectory_excesses import Quantity
+from rotemina.sim.errors import OutOfLimitsError
+from rotemina.sim.records import Record, Tap, read_record
+from rotemina.sim.robot_files import load_robot
+from rotemina.sim.trajectory import LimitedQuantity, dry_run, prediction
+from rotemina.sim.units import format_exact
 
 ROBOT = load_robot("rotemina")
 
 
-def sine(
+def make_sine(
     axis, centre, amplitude, frequency_hz, unit, *, duration_s=2.0, rate_hz=2000.0, **metadata
 ):
     time_s = 3.0 + np.arange(round(duration_s * rate_hz) + 1) / rate_hz
@@ -26,8 +23,8 @@ def sine(
     return Record.from_signals(time_s, {(axis, Tap.CMD): command}, {axis: unit}, metadata)
 
 
-def test_figures_of_a_sine_are_those_of_calculus():
-    run = dry_run(ROBOT, sine("thx", 5e-4, 1e-4, 2.0, "rad"))
+def test_figures_of_a_sine_match_calculus():
+    run = dry_run(ROBOT, make_sine("thx", 5e-4, 1e-4, 2.0, "rad"))
     figures = run.axes["thx"]
     rate = 2 * np.pi * 2.0
     assert run.allowed
@@ -42,24 +39,24 @@ def test_figures_of_a_sine_are_those_of_calculus():
 
 
 def test_the_tracking_error_of_a_slow_motion_is_its_delay():
-    """Below resonance an axis lags by D/C, and the held command by one row more at its rows."""
+    """Below resonance an axis lags by D/C, and a held command by half a row more."""
     axis = ROBOT.axes["x"]
-    run = dry_run(ROBOT, sine("x", 0.02, 1e-3, 0.5, "m"))
+    run = dry_run(ROBOT, make_sine("x", 0.02, 1e-3, 0.5, "m"))
     rate = 2 * np.pi * 0.5
     lag_s = axis.damping / axis.stiffness + 0.5 / 2000.0
     assert run.axes["x"].tracking_peak == pytest.approx(1e-3 * rate * lag_s, rel=0.02)
     assert run.axes["x"].tracking_rms == pytest.approx(1e-3 * rate * lag_s / 2**0.5, rel=0.02)
 
 
-def test_a_robot_under_control_is_predicted_under_control():
-    run = dry_run(load_robot("emps"), sine("q", 0.1, 0.02, 0.5, "m", mode="open_loop"))
+def test_a_robot_with_controller_is_predicted_in_closed_loop():
+    run = dry_run(load_robot("emps"), make_sine("q", 0.1, 0.02, 0.5, "m", mode="open_loop"))
     assert run.allowed
     assert run.prediction_fault is None
     assert 0 < run.axes["q"].tracking_peak < 1e-3
 
 
-def free_mass(limit):
-    """An axis whose loop, sampled at 20 Hz, is unstable."""
+def make_unstable_robot(limit):
+    """Return a robot whose loop is unstable at 20 Hz."""
     emps = load_robot("emps")
     axis = replace(emps.axes["q"], mass=1e-3, damping=0.0)
     return replace(
@@ -67,67 +64,67 @@ def free_mass(limit):
     )
 
 
-def test_a_loop_sampled_too_slowly_has_no_prediction_but_a_reason():
-    slow = sine("q", 0.1, 0.02, 0.5, "m", duration_s=100.0, rate_hz=20.0)
-    run = dry_run(free_mass(limit=1e308), slow, setpoint_period_s=0.05)
+def test_an_unstable_loop_has_a_reason_instead_of_a_prediction():
+    trajectory = make_sine("q", 0.1, 0.02, 0.5, "m", duration_s=100.0, rate_hz=20.0)
+    run = dry_run(make_unstable_robot(limit=1e308), trajectory, setpoint_period_s=0.05)
     assert run.axes["q"].tracking_rms is None
     assert "grows" in run.prediction_fault
     assert not run.allowed
-    assert [violation.quantity for violation in run.violations] == [Quantity.MOTION]
+    assert [violation.quantity for violation in run.violations] == [LimitedQuantity.MOTION]
     assert "cannot predict" in run.objections[-1]
 
 
-def test_an_absurd_but_finite_response_has_figures():
-    slow = sine("q", 0.1, 0.02, 0.5, "m", duration_s=100.0, rate_hz=20.0)
-    run = dry_run(free_mass(limit=1e250), slow, setpoint_period_s=0.05)
+def test_a_huge_but_finite_response_has_figures():
+    trajectory = make_sine("q", 0.1, 0.02, 0.5, "m", duration_s=100.0, rate_hz=20.0)
+    run = dry_run(make_unstable_robot(limit=1e250), trajectory, setpoint_period_s=0.05)
     figures = run.axes["q"]
     assert 1e200 < figures.tracking_rms < figures.tracking_peak
     assert not run.allowed
 
 
-def steps(axis, positions, interval_s, unit="m"):
+def make_steps(axis, positions, interval_s, unit="m"):
     time_s = np.arange(len(positions)) * interval_s
     return Record.from_signals(time_s, {(axis, Tap.CMD): np.array(positions)}, {axis: unit})
 
 
-def test_rows_far_apart_do_not_slow_a_loop_down():
-    """Half a second between rows: a loop closed there would shake the axis out of its range."""
+def test_distant_rows_do_not_slow_down_the_loop():
+    """A loop that ran only at these rows would move the axis out of its range."""
     emps = load_robot("emps")
-    gentle = steps("q", [0.05, 0.06, 0.07, 0.06, 0.06, 0.06, 0.06, 0.06], 0.5)
-    run = dry_run(emps, gentle)
+    trajectory = make_steps("q", [0.05, 0.06, 0.07, 0.06, 0.06, 0.06, 0.06, 0.06], 0.5)
+    run = dry_run(emps, trajectory)
     assert run.allowed
     assert run.axes["q"].tracking_peak == pytest.approx(0.01, rel=1e-2)
-    assert not dry_run(emps, gentle, setpoint_period_s=0.5).allowed
+    assert not dry_run(emps, trajectory, setpoint_period_s=0.5).allowed
 
 
 @pytest.mark.parametrize(
-    ("top", "allowed"), [(4.9e-6, False), (4.0e-6, False), (2.4e-6, True)], ids=str
+    ("height", "is_allowed"), [(4.9e-6, False), (4.0e-6, False), (2.4e-6, True)], ids=str
 )
-@pytest.mark.parametrize("back", [[], [0.0]], ids=["last", "back"])
-def test_a_motion_that_swings_out_of_the_range_is_refused(top, allowed, back):
-    """The mirror has no declared bounds; a jump of h rings up to almost 2h, between the rows."""
-    run = dry_run(load_robot("fsm"), steps("m1", [0.0, top, *back], 0.001))
-    assert run.allowed is allowed
-    if not allowed:
+@pytest.mark.parametrize("return_positions", [[], [0.0]], ids=["last", "back"])
+def test_a_predicted_motion_out_of_range_is_refused(height, is_allowed, return_positions):
+    """The mirror has no declared bounds, but a step of h rings up to almost 2h between rows."""
+    run = dry_run(load_robot("fsm"), make_steps("m1", [0.0, height, *return_positions], 0.001))
+    assert run.allowed is is_allowed
+    if not is_allowed:
         (violation,) = run.violations
-        assert violation.quantity is Quantity.MOTION
-        assert violation.value == pytest.approx(top * (1 + np.exp(-np.pi * 0.02)), rel=0.02)
+        assert violation.quantity is LimitedQuantity.MOTION
+        assert violation.value == pytest.approx(height * (1 + np.exp(-np.pi * 0.02)), rel=0.02)
         for word in ("axis m1: predicted motion", "5 µm", "100 nm (1 % of the range)"):
             assert word in str(violation)
         with pytest.raises(OutOfLimitsError, match="predicted motion"):
             run.require()
 
 
-def test_a_long_trajectory_is_predicted_piece_by_piece_as_a_whole(monkeypatch):
-    trajectory = sine("q", 0.1, 0.02, 0.5, "m")
+def test_a_prediction_in_pieces_equals_the_whole(monkeypatch):
+    trajectory = make_sine("q", 0.1, 0.02, 0.5, "m")
     whole = dry_run(load_robot("emps"), trajectory).axes["q"]
-    monkeypatch.setattr(prediction, "_CHUNK", 77)
+    monkeypatch.setattr(prediction, "_CHUNK_INSTANTS", 77)
     pieces = dry_run(load_robot("emps"), trajectory).axes["q"]
     assert pieces.tracking_peak == pytest.approx(whole.tracking_peak, rel=1e-12)
     assert pieces.tracking_rms == pytest.approx(whole.tracking_rms, rel=1e-12)
 
 
-def test_what_is_allowed_is_sealed():
+def test_an_allowed_trajectory_is_copied_with_its_commands_only():
     time_s, command = np.arange(4.0), np.full(4, 0.01)
     measured = Record.from_signals(
         time_s,
@@ -151,10 +148,14 @@ def test_trajectories_of_the_examples_are_allowed(shared_dir, example):
 
 def test_jumps_of_the_reference_are_refused_for_speed(shared_dir):
     run = dry_run(ROBOT, read_record(shared_dir / "reference" / "steps.csv", robot=ROBOT))
-    fast = {v.axis: v for v in run.violations if v.quantity is Quantity.SPEED}
-    assert set(fast) == set(ROBOT.axes)
-    assert fast["x"].time_s == pytest.approx(0.1005)
-    assert fast["x"].value == pytest.approx(0.1)
+    speed_violations = {
+        violation.axis: violation
+        for violation in run.violations
+        if violation.quantity is LimitedQuantity.SPEED
+    }
+    assert set(speed_violations) == set(ROBOT.axes)
+    assert speed_violations["x"].time_s == pytest.approx(0.1005)
+    assert speed_violations["x"].value == pytest.approx(0.1)
 
 
 @pytest.mark.parametrize(
@@ -169,5 +170,5 @@ def test_jumps_of_the_reference_are_refused_for_speed(shared_dir):
         (130.0, "V", "130 V"),
     ],
 )
-def test_values_are_written_in_the_unit_a_person_would_choose(value, unit, text):
-    assert exact(value, unit) == text
+def test_values_are_written_in_a_readable_unit(value, unit, text):
+    assert format_exact(value, unit) == text

@@ -1,13 +1,13 @@
-"""The motion that records show: what machines did, not what sampling makes of it."""
+"""The motion of machines in records, without artefacts of sampling."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.trajectory.motion_envelope import MotionEnvelope
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot_files import load_robot
+from rotemina.sim.trajectory import MotionEnvelope
 
 RATE_HZ = 1000.0
 TIME_S = np.arange(4000) / RATE_HZ
@@ -15,7 +15,7 @@ SINE = 1e-3 * np.sin(2.0 * np.pi * TIME_S)  # 6.28 mm/s, 39.5 mm/s²
 LEVELS = 1e-3 * np.repeat([0.0, 1.0, 2.0, 1.0], 1000)
 
 
-def envelope(command, measured=None, noise=1e-7):
+def compute_envelope(command, measured=None, noise=1e-7):
     signals = {("x", Tap.CMD): command}
     if measured is not None:
         error = noise * np.random.default_rng(0).standard_normal(len(command))
@@ -23,45 +23,47 @@ def envelope(command, measured=None, noise=1e-7):
     return MotionEnvelope.of([Record.from_signals(TIME_S, signals, {"x": "m"})]).axes["x"]
 
 
-def smoothed(command, rows=200):
-    """A machine that takes 200 rows for a step, at constant speed."""
+def smooth_steps(command, rows=200):
+    """Return the motion of a machine that moves for ``rows`` rows at constant speed per step."""
     return np.convolve(np.pad(command, (rows - 1, 0), mode="edge"), np.ones(rows) / rows, "valid")
 
 
-def test_a_smooth_motion_counts_as_it_was_commanded():
-    found = envelope(SINE, SINE)
-    assert (found.low, found.high) == pytest.approx((-1e-3, 1e-3))
-    assert found.speed == pytest.approx(6.28e-3, rel=0.01)
-    assert found.acceleration == pytest.approx(39.5e-3, rel=0.1)
+def test_a_smooth_motion_has_the_speed_of_its_command():
+    envelope = compute_envelope(SINE, SINE)
+    assert (envelope.low, envelope.high) == pytest.approx((-1e-3, 1e-3))
+    assert envelope.speed == pytest.approx(6.28e-3, rel=0.01)
+    assert envelope.acceleration == pytest.approx(39.5e-3, rel=0.1)
 
 
-def test_a_step_counts_as_fast_as_the_machine_made_it():
-    assert envelope(LEVELS, smoothed(LEVELS)).speed == pytest.approx(1e-3 / 0.2, rel=0.1)
+def test_a_step_has_the_speed_of_the_measured_motion():
+    assert compute_envelope(LEVELS, smooth_steps(LEVELS)).speed == pytest.approx(
+        1e-3 / 0.2, rel=0.1
+    )
 
 
-def test_a_step_that_nothing_measured_shows_no_speed():
-    assert not envelope(LEVELS).has_motion
+def test_a_step_without_measurement_has_no_speed():
+    assert not compute_envelope(LEVELS).has_motion
 
 
-def test_rounding_of_a_command_is_no_speed_of_its_own():
-    coarse = np.round(SINE / 5e-5) * 5e-5
-    raw = np.abs(np.diff(coarse)).max() * RATE_HZ
-    assert envelope(coarse, SINE).speed == pytest.approx(6.28e-3, rel=0.05)
-    assert raw > 7.0 * 6.28e-3
+def test_rounding_of_a_command_does_not_count_as_speed():
+    rounded = np.round(SINE / 5e-5) * 5e-5
+    speed_of_rounding = np.abs(np.diff(rounded)).max() * RATE_HZ
+    assert compute_envelope(rounded, SINE).speed == pytest.approx(6.28e-3, rel=0.05)
+    assert speed_of_rounding > 7.0 * 6.28e-3
 
 
-def test_noise_and_dropouts_of_a_sensor_are_no_motion():
-    dropped = smoothed(LEVELS).copy()
-    dropped[[1500, 2500]] = 0.0
-    assert envelope(LEVELS, dropped, noise=1e-6).speed == pytest.approx(5e-3, rel=0.1)
+def test_noise_and_dropouts_of_a_sensor_do_not_count_as_motion():
+    with_dropouts = smooth_steps(LEVELS).copy()
+    with_dropouts[[1500, 2500]] = 0.0
+    assert compute_envelope(LEVELS, with_dropouts, noise=1e-6).speed == pytest.approx(5e-3, rel=0.1)
 
 
-def test_the_stricter_of_records_and_robot_file_holds():
+def test_the_stricter_limit_of_records_and_robot_file_applies():
     robot = load_robot("rotemina")
-    own = robot.axes["x"]
+    axis = robot.axes["x"]
     record = Record.from_signals(TIME_S, {("x", Tap.CMD): SINE, ("x", Tap.MEAS): SINE}, {"x": "m"})
-    found = MotionEnvelope.of([record])
-    narrowed = found.narrow(robot).axes["x"]
-    assert narrowed.max_speed == found.axes["x"].speed < own.max_speed
-    slower = replace(robot, axes={**robot.axes, "x": replace(own, max_speed=1e-3)})
-    assert found.narrow(slower).axes["x"].max_speed == 1e-3
+    envelope = MotionEnvelope.of([record])
+    narrowed = envelope.narrow(robot).axes["x"]
+    assert narrowed.max_speed == envelope.axes["x"].speed < axis.max_speed
+    slow_robot = replace(robot, axes={**robot.axes, "x": replace(axis, max_speed=1e-3)})
+    assert envelope.narrow(slow_robot).axes["x"].max_speed == 1e-3

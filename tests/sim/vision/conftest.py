@@ -1,51 +1,53 @@
-"""Scenes of the simulated microscope whose truth is known, small enough to be drawn often."""
+"""Small scenes of the simulated microscope with a known tip position."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from rotemina.sim.microscope.optics import Optics
-from rotemina.sim.microscope.renderer import Renderer
-from rotemina.sim.microscope.scene import Pin, Scene
-from rotemina.sim.vision.image import grey
-from rotemina.sim.vision.pipette import Pipette
+from rotemina.sim.microscope import MicroscopeScene, SceneRenderer, TaperedPin
+from rotemina.sim.microscope.optics import MicroscopeOptics
+from rotemina.sim.vision import Pipette, to_grey
 
 UPRIGHT = np.array([0.0, 0.0, 1.0])
-MOUNTED = Optics(width=520, height=420, rotation_rad=0.3, skew_rad=0.01, mirrored=True)
+OPTICS = MicroscopeOptics(width=520, height=420, rotation_rad=0.3, skew_rad=0.01, mirrored=True)
 
 
-class View:
-    """One scene, its truth, and the pipette as a finder would know it."""
+class SceneView:
+    """A scene, its true projection, and the pipette for the tip finder."""
 
-    def __init__(self, scene, turned=0.0, **known):
+    def __init__(self, scene, direction_error=0.0, **pipette_options):
         self.scene, self.optics = scene, scene.optics
-        self.renderer = Renderer(scene)
+        self.renderer = SceneRenderer(scene)
         self.rng = np.random.default_rng(5)
-        body = scene.optics.mapping @ np.array([1.0, 0.0, 0.0])
-        self.pipette = Pipette.seen(
-            float(np.arctan2(body[1], body[0])) + turned,
+        body_direction = scene.optics.mapping @ np.array([1.0, 0.0, 0.0])
+        self.pipette = Pipette.from_optics(
+            float(np.arctan2(body_direction[1], body_direction[0])) + direction_error,
             scene.optics.pixel_m,
             approach=scene.pin.approach_rad,
             aperture=scene.optics.aperture,
-            **known,
+            **pipette_options,
         )
 
-    def image(self, tip_m, focus_m=0.0, *state):
-        return grey(self.renderer.frame(np.asarray(tip_m), UPRIGHT, focus_m, self.rng, *state))
+    def take_image(self, tip_m, focus_m=0.0, *state):
+        return to_grey(
+            self.renderer.render_frame(np.asarray(tip_m), UPRIGHT, focus_m, self.rng, *state)
+        )
 
-    def pixel(self, tip_m):
+    def project(self, tip_m):
         return self.optics.pixel_of(np.asarray(tip_m))
 
-    def anywhere(self):
+    def draw_tip_position(self):
         return np.append(self.rng.uniform(-45e-6, 45e-6, 2), 0.0)
 
 
 @pytest.fixture
 def make_view():
-    def make(turned=0.0, pin=None, cell=None, **optics):
-        scene = Scene(replace(MOUNTED, **optics), pin or Pin(approach_rad=np.pi / 6), cell)
-        return View(scene, turned)
+    def make(direction_error=0.0, pin=None, cell=None, **optics):
+        scene = MicroscopeScene(
+            replace(OPTICS, **optics), pin or TaperedPin(approach_rad=np.pi / 6), cell
+        )
+        return SceneView(scene, direction_error)
 
     return make
 

@@ -1,16 +1,24 @@
-"""A tip that presses on a cell: learnt before, then placed by its body."""
+"""A tip that presses on a cell: its body is learnt before and then gives its position."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from rotemina.sim.microscope.cell import UNTOUCHED, Cell, met
-from rotemina.sim.vision.background import Ground
-from rotemina.sim.vision.image import relative_to
-from rotemina.sim.vision.tracking import begin_track, follow, learn
+from rotemina.sim.microscope import (
+    UNTOUCHED_CELL_STATE,
+    SimulatedCell,
+    advance_cell_state,
+)
+from rotemina.sim.vision import (
+    BackgroundImage,
+    begin_track,
+    divide_by_background,
+    follow_tip,
+    learn_body,
+)
 
-CELL = Cell((-5e-6, -3e-6, -16e-6))
+CELL = SimulatedCell((-5e-6, -3e-6, -16e-6))
 FOCUS_M = -16e-6
 
 
@@ -19,85 +27,93 @@ def view(make_view):
     return make_view(cell=CELL)
 
 
-def bare(view, pictures=8):
-    """Return the view without the pipette."""
-    away = (5e-3, 0.0, 0.0)
-    return np.mean([view.image(away, FOCUS_M) for _ in range(pictures)], axis=0, dtype=np.float32)
+def take_background(view, count=8):
+    """Return the mean image without the pipette."""
+    out_of_view_m = (5e-3, 0.0, 0.0)
+    return np.mean(
+        [view.take_image(out_of_view_m, FOCUS_M) for _ in range(count)], axis=0, dtype=np.float32
+    )
 
 
-def above(view, ground, frames=12):
-    """Return the track of a tip above the cell, after it was learnt."""
+def learn_track(view, background, frames=12):
+    """Return the track of a tip above the cell, after its body was learnt."""
     tip_m = np.zeros(3)
-    track = begin_track(relative_to(view.image(tip_m, FOCUS_M), ground), view.pipette)
+    track = begin_track(
+        divide_by_background(view.take_image(tip_m, FOCUS_M), background), view.pipette
+    )
     for _ in range(frames):
-        track = learn(track, view.image(tip_m, FOCUS_M), background=ground)
+        track = learn_body(track, view.take_image(tip_m, FOCUS_M), background=background)
     return track
 
 
-def pressed(view, track, frames=24, **options):
-    """Follow it down through the membrane; return tracks and how far each is off, px."""
-    track, state, tracks = replace(track, dimple=True), UNTOUCHED, []
+def press_down(view, track, frames=24, **options):
+    """Follow the tip down through the membrane and return tracks and errors (n, 2), px."""
+    track, state, tracks = replace(track, dimple=True), UNTOUCHED_CELL_STATE, []
     for depth in np.linspace(0.0, 14e-6, frames):
         tip_m = np.array([0.0, 0.0, -depth])
-        state = met(CELL, state, tip_m)
-        track = follow(track, view.image(tip_m, FOCUS_M, state), **options)
+        state = advance_cell_state(CELL, state, tip_m)
+        track = follow_tip(track, view.take_image(tip_m, FOCUS_M, state), **options)
         tracks.append(track)
-    assert state.pierced
-    return tracks, np.array([one.pixel - view.pixel(np.zeros(3)) for one in tracks])
+    assert state.is_pierced
+    return tracks, np.array([track.pixel - view.project(np.zeros(3)) for track in tracks])
 
 
-def test_through_a_membrane_a_tip_is_kept_within_a_fifth_of_a_pixel(view):
-    ground = bare(view)
-    track = above(view, ground)
-    assert track.learnt == 12
+def test_a_tip_that_pierces_a_membrane_is_tracked_within_0_3_pixels(view):
+    background = take_background(view)
+    track = learn_track(view, background)
+    assert track.learnt_frames == 12
     assert track.pipette.direction == pytest.approx(view.pipette.direction, abs=1e-3)
-    tracks, off = pressed(view, track, background=ground, moved=np.zeros(2))
-    assert not any(one.lost for one in tracks)
-    rms = np.sqrt((off**2).sum(axis=1).mean())
-    told = np.sqrt(np.mean([np.trace(one.covariance) for one in tracks]))
-    assert rms < 0.3  # the part of the body in this small picture is short
-    assert 0.3 * told < rms < 2.5 * told
+    tracks, errors = press_down(view, track, background=background, moved=np.zeros(2))
+    assert not any(track.lost for track in tracks)
+    rms = np.sqrt((errors**2).sum(axis=1).mean())
+    uncertainty = np.sqrt(np.mean([np.trace(track.covariance) for track in tracks]))
+    assert rms < 0.3  # only a short part of the body is in this small image
+    assert 0.3 * uncertainty < rms < 2.5 * uncertainty
 
 
 @pytest.mark.slow
-def test_what_gives_way_is_left_out_by_its_size_behind_any_objective(make_view):
-    """At 40x it is twice as many pixels; with those of 20x the tip is 6 px off or lost."""
+def test_the_dent_is_ignored_by_its_size_with_any_objective(make_view):
+    """At 40x the dent has twice as many pixels, so the radius of 20x would lose the tip."""
     view = make_view(cell=CELL, pixel_m=0.1675e-6, width=1000, height=800)
-    assert view.pipette.yielding == pytest.approx(15e-6 / 0.1675e-6)
-    ground = bare(view)
-    tracks, off = pressed(view, above(view, ground), background=ground, moved=np.zeros(2))
-    assert not any(one.lost for one in tracks)
-    assert np.sqrt((off**2).sum(axis=1).mean()) < 0.5
+    assert view.pipette.indentation_radius == pytest.approx(15e-6 / 0.1675e-6)
+    background = take_background(view)
+    tracks, errors = press_down(
+        view, learn_track(view, background), background=background, moved=np.zeros(2)
+    )
+    assert not any(track.lost for track in tracks)
+    assert np.sqrt((errors**2).sum(axis=1).mean()) < 0.5
 
 
-def test_what_lies_beneath_is_told_as_a_doubt_where_its_picture_is_missing(view):
-    tracks, off = pressed(view, above(view, bare(view)), frames=12)
-    assert not any(one.lost for one in tracks)
-    told = np.sqrt([np.trace(one.covariance) for one in tracks])
-    assert told.min() > 5.0
-    assert np.linalg.norm(off, axis=1).max() < 3.0 * told.max()
+def test_without_a_background_image_the_uncertainty_is_larger(view):
+    tracks, errors = press_down(view, learn_track(view, take_background(view)), frames=12)
+    assert not any(track.lost for track in tracks)
+    uncertainty = np.sqrt([np.trace(track.covariance) for track in tracks])
+    assert uncertainty.min() > 5.0
+    assert np.linalg.norm(errors, axis=1).max() < 3.0 * uncertainty.max()
 
 
-def test_a_pressing_tip_that_is_pushed_aside_is_followed(view):
-    ground = bare(view)
-    track = replace(above(view, ground, frames=5), dimple=True)
-    aside = np.array([2e-6, 1e-6, 0.0])
+def test_a_pressing_tip_that_is_pushed_sideways_is_followed(view):
+    background = take_background(view)
+    track = replace(learn_track(view, background, frames=5), dimple=True)
+    tip_m = np.array([2e-6, 1e-6, 0.0])
     for _ in range(3):
-        track = follow(track, view.image(aside, FOCUS_M), background=ground, moved=np.zeros(2))
-    assert track.pixel == pytest.approx(view.pixel(aside), abs=1.0)
+        track = follow_tip(
+            track, view.take_image(tip_m, FOCUS_M), background=background, moved=np.zeros(2)
+        )
+    assert track.pixel == pytest.approx(view.project(tip_m), abs=1.0)
 
 
-def test_a_background_is_put_together_while_the_pipette_is_elsewhere(view):
-    truth = bare(view)
-    shape = truth.shape
-    ground = Ground.empty(shape)
-    assert not ground.known(np.zeros(2), np.array([50.0, 50.0]))
-    for place in ((0.0, 0.0, 0.0), (40e-6, 45e-6, 0.0), (-20e-6, -60e-6, 0.0)):
-        image = view.image(place, FOCUS_M)
-        away = float(view.optics.depth_of(np.array(place))) - FOCUS_M
-        ground = ground.seen(image, view.pipette, view.pixel(place), away)
-    known = ground.pictures > 0.0
+def test_a_background_is_assembled_from_images_with_the_pipette_elsewhere(view):
+    true_background = take_background(view)
+    shape = true_background.shape
+    background = BackgroundImage.empty(shape)
+    assert not background.is_known(np.zeros(2), np.array([50.0, 50.0]))
+    for tip_m in ((0.0, 0.0, 0.0), (40e-6, 45e-6, 0.0), (-20e-6, -60e-6, 0.0)):
+        image = view.take_image(tip_m, FOCUS_M)
+        depth_m = float(view.optics.depth_of(np.array(tip_m))) - FOCUS_M
+        background = background.with_picture(image, view.pipette, view.project(tip_m), depth_m)
+    known = background.picture_counts > 0.0
     assert known.mean() > 0.6
-    share = np.abs(ground.image[known] / truth[known] - 1.0)
-    assert np.median(share) < 0.02  # noise
-    assert np.quantile(share, 0.999) < 0.08  # no pipette is left in it
+    deviation = np.abs(background.image[known] / true_background[known] - 1.0)
+    assert np.median(deviation) < 0.02  # noise
+    assert np.quantile(deviation, 0.999) < 0.08  # it does not contain the pipette

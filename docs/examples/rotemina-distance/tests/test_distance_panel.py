@@ -1,7 +1,6 @@
-"""The panel can be shown in every theme, and tells how far the axes are from its zero."""
+"""The panel can be shown in every theme and shows the distances of the axes from its zero."""
 
-from rotemina.app.plugin_kit.panel_bench import panel_bench
-from rotemina.app.plugin_kit.panel_check import check_panel
+from rotemina.app.plugin_kit import check_panel, open_panel_bench
 
 from rotemina_distance.panel import DistancePanel
 
@@ -11,8 +10,8 @@ def test_it_can_be_made_shown_and_closed():
     assert [result for result in results if result.verdict == "failed"] == []
 
 
-def test_it_tells_where_the_axes_are_until_a_zero_is_set():
-    with panel_bench(DistancePanel) as bench:
+def test_it_shows_the_positions_until_a_zero_is_set():
+    with open_panel_bench(DistancePanel) as bench:
         bench.refresh()
         assert bench.panel.readouts["x"].text() == bench.text_of("x")
         assert bench.panel.age.text() == "fresh"
@@ -20,8 +19,8 @@ def test_it_tells_where_the_axes_are_until_a_zero_is_set():
         assert bench.panel.age.text() == "3.0 s"
 
 
-def test_it_tells_how_far_an_axis_has_gone_from_the_zero():
-    with panel_bench(DistancePanel) as bench:
+def test_it_shows_the_distance_of_an_axis_from_the_zero():
+    with open_panel_bench(DistancePanel) as bench:
         bench.refresh()
         bench.panel.zero_here.click()
         bench.workbench.session.jog("x", 1e-3)
@@ -32,8 +31,8 @@ def test_it_tells_how_far_an_axis_has_gone_from_the_zero():
 
 
 def test_without_a_reading_it_says_so():
-    with panel_bench(DistancePanel) as bench:
-        told = []
-        bench.workbench.noticed.connect(lambda level, text: told.append(text))
+    with open_panel_bench(DistancePanel) as bench:
+        notices = []
+        bench.workbench.notice_posted.connect(lambda level, text: notices.append(text))
         bench.panel.zero_here.click()
-        assert told == ["Distance: there is no reading yet to start from"]
+        assert notices == ["Distance: no position has been read yet. Connect the machine first."]

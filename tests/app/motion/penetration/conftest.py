@@ -1,65 +1,76 @@
-"""A penetration that tests step beside its session, on a clock set by hand."""
+"""A penetration that a test steps together with its session, on a virtual clock."""
 
 from datetime import UTC, datetime
 
 import pytest
 
-from rotemina.app.motion.penetration.arming import planned
-from rotemina.app.motion.penetration.parameters import PenetrationParameters
-from rotemina.app.motion.penetration.penetration import Penetration
-from rotemina.app.motion.penetration.run_log import RunLog
-from rotemina.app.motion.penetration.status import Phase
-from rotemina.drivers.samples import DeviceState
+from rotemina.app.motion.penetration import (
+    PenetrationController,
+    PenetrationParameters,
+    PenetrationPhase,
+    RunLog,
+    plan_session_thrust,
+)
+from rotemina.drivers.contract import DeviceState
 
 START = 64e-6
-ENDS = {Phase.DONE, Phase.ABORTED, Phase.FAILED, Phase.HELD, Phase.DISARMED}
+ENDS = {
+    PenetrationPhase.DONE,
+    PenetrationPhase.ABORTED,
+    PenetrationPhase.FAILED,
+    PenetrationPhase.HELD,
+    PenetrationPhase.DISARMED,
+}
 
 
-class Bench:
-    """A session with a penetration beside it."""
+class PenetrationBench:
+    """A session and a penetration."""
 
-    def __init__(self, stepped, log):
-        self.stepped, self.session, self.clock = stepped, stepped.session, stepped.clock
+    def __init__(self, harness, log):
+        self.harness, self.session, self.clock = harness, harness.session, harness.clock
         self.log = log
-        self.penetration = Penetration(
-            self.session, log, today=lambda: datetime(2026, 11, 21, tzinfo=UTC)
+        self.penetration = PenetrationController(
+            self.session, log, wall_clock=lambda: datetime(2026, 11, 21, tzinfo=UTC)
         )
-        self.places = []  # of zn as commanded, and the phase
+        # Phase, commanded zn and owners after each step.
+        self.history = []
 
     @property
     def phase(self):
         return self.penetration.status.phase
 
-    def ready(self, effects=(), start=START):
-        """Put effects on the machine and the tip above the cell."""
-        self.stepped.step()
+    def prepare(self, effects=(), start=START):
+        """Apply effects to the machine, and move the tip above the cell."""
+        self.harness.step()
         self.session.service.set_effects(list(effects))
-        self.stepped.step()
+        self.harness.step()
         self.session.go_to({"zn": start})
-        self.stepped.until(DeviceState.IDLE)
-        self.stepped.step(0.02, 50)
+        self.harness.step_until(DeviceState.IDLE)
+        self.harness.step(0.02, 50)
         return self
 
     def arm(self, **parameters):
         self.penetration.arm(PenetrationParameters(**parameters), self.clock())
         return self
 
-    def why_not(self, **parameters):
-        asked = PenetrationParameters(**parameters)
-        return self.penetration.why_not(asked, planned(self.session, asked))
+    def find_refusal_reason(self, **parameters):
+        requested = PenetrationParameters(**parameters)
+        return self.penetration.find_refusal_reason(
+            requested, plan_session_thrust(self.session, requested)
+        )
 
     def press(self):
-        self.penetration.press(self.clock())
+        self.penetration.press_button(self.clock())
         return self
 
     def step(self, seconds=0.02, times=1):
         for _ in range(times):
-            state = self.stepped.step(seconds)
+            state = self.harness.step(seconds)
             self.penetration.step(self.clock())
-            self.places.append((self.phase, state.command.get("zn"), dict(state.owners)))
+            self.history.append((self.phase, state.command.get("zn"), dict(state.owners)))
         return self.penetration.status
 
-    def until(self, *phases, limit_s=40.0):
+    def step_until(self, *phases, limit_s=40.0):
         for _ in range(round(limit_s / 0.01)):
             if self.phase in phases:
                 return self.penetration.status
@@ -69,17 +80,17 @@ class Bench:
         raise AssertionError(f"still {self.penetration.status}, {self.session.snapshot()}")
 
     def run(self, limit_s=40.0):
-        return self.until(*ENDS, limit_s=limit_s)
+        return self.step_until(*ENDS, limit_s=limit_s)
 
 
 @pytest.fixture
-def bench(make_stepped, tmp_path):
-    return Bench(make_stepped(), RunLog(tmp_path / "runs.jsonl"))
+def bench(make_harness, tmp_path):
+    return PenetrationBench(make_harness(), RunLog(tmp_path / "runs.jsonl"))
 
 
 @pytest.fixture
-def make_bench(make_stepped, tmp_path):
+def make_bench(make_harness, tmp_path):
     def make(**options):
-        return Bench(make_stepped(**options), RunLog(tmp_path / "runs.jsonl"))
+        return PenetrationBench(make_harness(**options), RunLog(tmp_path / "runs.jsonl"))
 
     return make

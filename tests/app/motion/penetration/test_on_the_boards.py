@@ -1,21 +1,22 @@
-"""A penetration of the simulated cell on virtual boards at true baud, stepped by a real clock."""
+"""Penetration of the simulated cell on virtual boards at the real baud rate and in real time."""
 
 import time
 from importlib.resources import files
 
 import pytest
 
-from rotemina.app.motion.penetration.parameters import PenetrationParameters
-from rotemina.app.motion.penetration.penetration import Penetration
-from rotemina.app.motion.penetration.run_log import Verdict
-from rotemina.app.motion.penetration.status import UNDER_WAY
+from rotemina.app.motion.device import Ticker
+from rotemina.app.motion.penetration import (
+    RUNNING_PHASES,
+    PenetrationController,
+    PenetrationParameters,
+    PenetrationVerdict,
+)
 from rotemina.app.motion.session import MotionSession
-from rotemina.app.motion.state import Phase
-from rotemina.app.motion.ticker import Ticker
-from rotemina.drivers.mc68hc11.driver import MC68HC11
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.robot.model import AxisEffect
-from rotemina.sim.robot.writing import with_effects
+from rotemina.app.motion.state import SessionPhase
+from rotemina.drivers.mc68hc11.driver import MC68HC11Driver
+from rotemina.sim.robot import AxisEffect
+from rotemina.sim.robot_files import load_robot, with_effects
 
 pytestmark = pytest.mark.slow
 CELL = AxisEffect(axis="zn", id="contact", parameters={"place": 58e-6, "stiffness": -0.1})
@@ -30,56 +31,59 @@ def ports(tmp_path, board_process):
         yield ports
 
 
-def until(condition, limit_s):
+def wait_until(condition, limit_s):
     end_s = time.monotonic() + limit_s
     while not condition():
         assert time.monotonic() < end_s
         time.sleep(0.01)
 
 
-def there(session):
+def is_at_start(session):
     state = session.snapshot()
-    return state.phase is Phase.READY and state.command["zn"] == pytest.approx(64e-6, abs=1e-9)
+    return state.phase is SessionPhase.READY and state.command["zn"] == pytest.approx(
+        64e-6, abs=1e-9
+    )
 
 
-def attempt(session, penetration):
-    """Return what becomes of a run from above the cell."""
-    until(lambda: session.snapshot().locked is None, 20.0)
+def run_penetration(session, penetration):
+    """Return the run of a penetration that starts above the cell."""
+    wait_until(lambda: session.snapshot().lock_reason is None, 20.0)
     session.go_to({"zn": 64e-6})
-    until(lambda: there(session), 10.0)
-    time.sleep(1.0)  # until the vibration of the way there has died away
+    wait_until(lambda: is_at_start(session), 10.0)
+    time.sleep(1.0)  # until the vibration of this move has died away
     penetration.arm(PenetrationParameters(depth_tolerance=0.2), time.monotonic())
-    penetration.press(time.monotonic())
-    until(lambda: penetration.status.phase not in UNDER_WAY, 20.0)
+    penetration.press_button(time.monotonic())
+    wait_until(lambda: penetration.status.phase not in RUNNING_PHASES, 20.0)
     run = penetration.status.run
-    if run.verdict is Verdict.HELD:
+    if run.verdict is PenetrationVerdict.HELD:
         penetration.disarm()
-        until(lambda: not session.snapshot().owners, 2.0)
+        wait_until(lambda: not session.snapshot().owners, 2.0)
     return run
 
 
 def test_the_cell_is_penetrated_and_the_tip_comes_back(ports):
     session = MotionSession(
-        MC68HC11(load_robot("rotemina"), {"port": ports[0], "second_port": ports[1]})
+        MC68HC11Driver(load_robot("rotemina"), {"port": ports[0], "second_port": ports[1]})
     )
-    penetration = Penetration(session)
+    penetration = PenetrationController(session)
     ticker = Ticker("penetration", 0.005, lambda: penetration.step(time.monotonic()))
     session.start()
     ticker.start()
     try:
         for _ in range(4):
-            run = attempt(session, penetration)
-            # A busy computer lets a virtual board fall silent, which holds, as it must.
-            if run.verdict is not Verdict.HELD or "does not answer" not in run.reason:
+            run = run_penetration(session, penetration)
+            # A virtual board may fall silent on a busy computer. The run is then held, as it must.
+            if run.verdict is not PenetrationVerdict.HELD or "does not answer" not in run.reason:
                 break
-        assert run.verdict is Verdict.DONE, run.reason
-        # At 200 samples a second one place in 300 is off by more than 0.6 µm, at the 100 that a
-        # busy computer leaves, 3 in 100 are; how well a place is found, the detector's tests say.
+        assert run.verdict is PenetrationVerdict.DONE, run.reason
+        # At 200 samples per second, one contact in 300 is off by more than 0.6 µm. At the 100
+        # samples per second of a busy computer it is 3 in 100. The detector's tests check the
+        # accuracy.
         assert run.contact == pytest.approx(58e-6, abs=1.5e-6)
         assert run.thrust.depth == pytest.approx(50e-6 / 1.1, rel=0.03)
         assert run.thrust.peak_speed == pytest.approx(run.planned_peak_speed / 1.1, rel=0.1)
-        assert there(session)
-        until(lambda: not session.snapshot().owners, 2.0)
+        assert is_at_start(session)
+        wait_until(lambda: not session.snapshot().owners, 2.0)
     finally:
         ticker.close()
         penetration.close()

@@ -1,20 +1,16 @@
-"""Parameters: strict bounds, messages in units of an operator, a file that reads back."""
+"""Penetration parameters: strict bounds, messages in the operator's units, reading and writing."""
 
 from contextlib import suppress
 
 import pytest
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
+from hypothesis import HealthCheck, given, settings, strategies as st
 
-from rotemina.app.motion.penetration.parameters import (
-    BOUNDS,
-    PenetrationError,
-    PenetrationParameters,
-)
+from rotemina.app.errors import PenetrationError
+from rotemina.app.motion.penetration import PARAMETER_BOUNDS, PenetrationParameters
 
 
 @pytest.mark.parametrize(
-    ("given_", "message"),
+    ("values", "message"),
     [
         ({"depth": 2e-4}, r"depth = 200 µm: must be 1 µm to 100 µm"),
         ({"approach_speed": 0.0}, r"approach_speed = 0 m/s: must be 100 nm/s to 200 µm/s"),
@@ -25,29 +21,29 @@ from rotemina.app.motion.penetration.parameters import (
         ({"shaping": 3}, "shaping = 3"),
         ({"direction": "left"}, "'down', 'up'"),
         ({"axis": ""}, "axis = ''"),
-        ({"table": ((0.0, 0.0), (1.0, 1.0))}, "permitted only for"),
-        ({"shape": "table"}, "permitted only for a thrust of shape 'table'"),
+        ({"table": ((0.0, 0.0), (1.0, 1.0))}, "must be given if and only if"),
+        ({"shape": "table"}, "must be given if and only if shape is 'table'"),
         ({"shape": "table", "table": [[0, 0], [2, 1]]}, "point 2, time = 2: must be 0 to 1"),
         ({"shape": "table", "table": [[0, 0], [1]]}, "point 2 = "),
         ({"shape": "table", "table": [[0, 0], [1, 0.5]]}, r"from \[0, 0\] to \[1, 1\]"),
         ({"shape": "table", "table": 5}, "at most 200 points"),
     ],
 )
-def test_what_cannot_be_is_refused_with_value_and_bound(given_, message):
+def test_invalid_values_are_refused_with_value_and_bound(values, message):
     with pytest.raises(PenetrationError, match=message):
-        PenetrationParameters(**given_)
+        PenetrationParameters(**values)
 
 
 @given(
     values=st.fixed_dictionaries(
-        {}, optional={name: st.floats(b.least, b.most) for name, b in BOUNDS.items()}
+        {}, optional={name: st.floats(b.minimum, b.maximum) for name, b in PARAMETER_BOUNDS.items()}
     ),
     shaping=st.sampled_from(["none", "zv", "zvd", "zvdd", "inverse"]),
     direction=st.sampled_from(["up", "down"]),
 )
 def test_a_file_reads_back_to_the_same_parameters(values, shaping, direction):
     parameters = PenetrationParameters(**values, shaping=shaping, direction=direction)
-    assert PenetrationParameters.parsed(parameters.text()) == parameters
+    assert PenetrationParameters.from_text(parameters.text()) == parameters
 
 
 def test_a_file_on_disk_reads_back(tmp_path):
@@ -74,7 +70,7 @@ def test_a_bad_file_is_refused_with_its_name_and_key(tmp_path, text, message):
         PenetrationParameters.load(path)
 
 
-def test_what_is_no_text_file_is_refused(tmp_path):
+def test_a_file_that_is_no_text_is_refused(tmp_path):
     (tmp_path / "raw.toml").write_bytes(b"\xff\xfe")
     (tmp_path / "long.toml").write_bytes(b"#" * 200_000)
     for name, message in (("raw", "not UTF-8"), ("long", "larger"), ("none", "cannot be read")):
@@ -86,4 +82,4 @@ def test_what_is_no_text_file_is_refused(tmp_path):
 @given(data=st.text(max_size=200))
 def test_any_text_is_read_or_refused(data):
     with suppress(PenetrationError):
-        PenetrationParameters.parsed(data)
+        PenetrationParameters.from_text(data)

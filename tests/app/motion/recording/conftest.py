@@ -1,4 +1,4 @@
-"""Samples made by number, disks that fail on request, and a recorded session stepped by hand."""
+"""Numbered samples, disks that fail on request, and a recorded session that a test steps."""
 
 import errno
 import io
@@ -6,33 +6,33 @@ import io
 import numpy as np
 import pytest
 
-from rotemina.app.motion.recording.session_recorder import SessionRecorder
+from rotemina.app.motion.recording import SessionRecorder
 from rotemina.app.motion.recording.writer import RecordingWriter
-from rotemina.drivers.samples import Samples
+from rotemina.drivers.contract import DeviceSamples
 
 UNITS = {"x": "m", "thx": "rad"}
 
 
-def made_samples(first, count, rate_hz=1000.0, axes=2):
-    """Samples whose every value tells which one it is."""
+def make_numbered_samples(first, count, rate_hz=1000.0, axes=2):
+    """Return samples whose values contain the number of the sample."""
     number = np.arange(first, first + count)
     values = (number[:, None] * 16.0 + np.arange(axes)) / 3.0
     inputs = values * 1e-9
     inputs[:, 0] = np.nan
     rows = np.where(number % 7 == 0, number, -1)
-    return Samples(number / rate_hz + 0.25, values, values * np.pi, inputs, rows)
+    return DeviceSamples(number / rate_hz + 0.25, values, values * np.pi, inputs, rows)
 
 
-def made_model(samples):
+def make_model(samples):
     return samples.command + 0.5
 
 
 def check_samples(recorded, first, count):
-    expected = made_samples(first, count)
+    expected = make_numbered_samples(first, count)
     assert len(recorded) == count
     for name in ("device_time_s", "command", "measured", "inputs", "playback_row"):
         np.testing.assert_array_equal(getattr(recorded, name), getattr(expected, name))
-    np.testing.assert_array_equal(recorded.model, made_model(expected))
+    np.testing.assert_array_equal(recorded.model, make_model(expected))
 
 
 @pytest.fixture
@@ -41,7 +41,7 @@ def check():
 
 
 class Disk:
-    """Makes files of a disk that has ``room`` bytes, and may fail or be slow."""
+    """A disk with room for ``room`` bytes that can fail or be slow."""
 
     def __init__(self, room=None):
         self.room = room
@@ -80,7 +80,7 @@ def notices():
 
 @pytest.fixture
 def make_writer(tmp_path, clock, disk, notices):
-    made = []
+    writers = []
 
     def make(name="run.arrows", **options):
         writer = RecordingWriter(
@@ -88,47 +88,47 @@ def make_writer(tmp_path, clock, disk, notices):
             UNITS,
             {"robot": "two axes"},
             clock=clock,
-            tell=notices.append,
+            notify=notices.append,
             opener=disk.open,
             **options,
         )
-        made.append(writer)
+        writers.append(writer)
         return writer
 
     yield make
-    for writer in made:
+    for writer in writers:
         writer._file.close()
 
 
 @pytest.fixture
 def feed(clock):
-    """Hand samples over as a worker does, 20 ms of them at a time."""
+    """Return a function that adds samples in 20 ms portions, as a worker does."""
 
     def feed(writer, first, count, portion=20):
         for begin in range(first, first + count, portion):
             clock.advance(portion * 1e-3)
-            samples = made_samples(begin, portion)
-            writer.add(samples, made_model(samples), clock())
+            samples = make_numbered_samples(begin, portion)
+            writer.add(samples, make_model(samples), clock())
         return first + count
 
     return feed
 
 
-class Recorded:
-    """A stepped session with a recorder on it."""
+class RecordedSession:
+    """A stepped session with a recorder."""
 
-    def __init__(self, stepped, path, **options):
-        self.stepped = stepped
-        self.session = stepped.session
+    def __init__(self, harness, path, **options):
+        self.harness = harness
+        self.session = harness.session
         self.notices = []
         self.recorder = SessionRecorder(
-            stepped.session, path, clock=stepped.clock, tell=self.notices.append, **options
+            harness.session, path, clock=harness.clock, notify=self.notices.append, **options
         )
         self.recorder.start(thread=False)
 
     def step(self, seconds=0.02, times=1):
         for _ in range(times):
-            state = self.stepped.step(seconds)
+            state = self.harness.step(seconds)
             self.recorder.writer.run_once()
         return state
 
@@ -138,17 +138,17 @@ class Recorded:
 
 @pytest.fixture
 def record(tmp_path):
-    made = []
+    recorded_sessions = []
 
-    def record(stepped, name="session.arrows", **options):
-        made.append(Recorded(stepped, tmp_path / name, **options))
-        return made[-1]
+    def record(harness, name="session.arrows", **options):
+        recorded_sessions.append(RecordedSession(harness, tmp_path / name, **options))
+        return recorded_sessions[-1]
 
     yield record
-    for one in made:
-        one.recorder.writer._file.close()
+    for recorded_session in recorded_sessions:
+        recorded_session.recorder.writer._file.close()
 
 
 @pytest.fixture
-def numbered():
-    return made_samples
+def make_samples():
+    return make_numbered_samples

@@ -1,4 +1,4 @@
-"""A process that records until it is killed, and tells how much it has handed over, and when."""
+"""A process that records until it is killed, and prints the time and number of added samples."""
 
 import sys
 import time
@@ -7,35 +7,35 @@ from pathlib import Path
 import numpy as np
 
 from rotemina.app.motion.recording.writer import RecordingWriter
-from rotemina.drivers.samples import Samples
+from rotemina.drivers.contract import DeviceSamples
 
 RATE_HZ = 20_000
 PORTION = 320
 AXES = 6
 
 
-def portion(first):
-    """Return samples of which each value tells the number."""
+def make_samples(first):
+    """Return samples whose values contain the number of the sample."""
     number = np.arange(first, first + PORTION)
     values = number[:, None] * 8.0 + np.arange(AXES)
     rows = np.full(PORTION, -1)
-    return Samples(number / RATE_HZ, values, values + 0.25, values + 0.5, rows)
+    return DeviceSamples(number / RATE_HZ, values, values + 0.25, values + 0.5, rows)
 
 
 def main(path):
     writer = RecordingWriter(Path(path), dict.fromkeys("abcdef", "m"), {})
     writer.start()
-    began_s = time.monotonic()
+    start_s = time.monotonic()
     first = 0
     while True:
-        samples = portion(first)
+        samples = make_samples(first)
         now_s = time.monotonic()
         writer.add(samples, samples.command + 0.75, now_s)
-        writer.event("note", str(first))
+        writer.add_event("note", str(first))
         first += PORTION
         sys.stdout.write(f"{now_s:.6f} {first}\n")
         sys.stdout.flush()
-        time.sleep(max(0.0, began_s + first / RATE_HZ - time.monotonic()))
+        time.sleep(max(0.0, start_s + first / RATE_HZ - time.monotonic()))
 
 
 if __name__ == "__main__":

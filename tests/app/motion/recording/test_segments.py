@@ -1,11 +1,11 @@
-"""Segments: what was written whole is found again, whatever has become of the rest."""
+"""Segments: whole segments are read back, whatever happened to the rest of the file."""
 
 import errno
 
 import pytest
 
-from rotemina.app.motion.recording.errors import RecordingError
-from rotemina.app.motion.recording.segments import MAGIC, SegmentFile, WholeSegments
+from rotemina.app.errors import RecordingError
+from rotemina.app.motion.recording.segments import SEGMENT_MAGIC, SegmentFile, SegmentReader
 
 CONTENTS = [b"first", b"", b"x" * 1000, b"last" * 10]
 
@@ -25,49 +25,49 @@ def write(path, contents, **options):
     return sizes
 
 
-def found(path):
-    with WholeSegments(path) as segments:
+def read_contents(path):
+    with SegmentReader(path) as segments:
         return [content for _, content in segments]
 
 
-def test_segments_come_back(path):
+def test_segments_read_back(path):
     sizes = write(path, CONTENTS)
-    assert found(path) == CONTENTS
+    assert read_contents(path) == CONTENTS
     assert sizes[-1] == path.stat().st_size
-    with WholeSegments(path) as segments:
-        places = [place for place, _ in segments]
-        assert [segments.read(place) for place in places] == CONTENTS
+    with SegmentReader(path) as segments:
+        offsets = [offset for offset, _ in segments]
+        assert [segments.read(offset) for offset in offsets] == CONTENTS
 
 
-def test_torn_at_any_byte_of_the_last_segment_the_others_are_kept(path):
-    *_, before, whole = write(path, CONTENTS)
+def test_a_cut_in_the_last_segment_keeps_the_others(path):
+    *_, previous_size, full_size = write(path, CONTENTS)
     data = path.read_bytes()
-    for size in range(before, whole):
+    for size in range(previous_size, full_size):
         path.write_bytes(data[:size])
-        assert found(path) == CONTENTS[:-1]
-        path.write_bytes(data[:size] + bytes(whole - size))  # a size without its contents
-        assert found(path) == CONTENTS[:-1]
+        assert read_contents(path) == CONTENTS[:-1]
+        path.write_bytes(data[:size] + bytes(full_size - size))  # a size without its contents
+        assert read_contents(path) == CONTENTS[:-1]
 
 
-def test_any_changed_byte_of_the_last_segment_is_seen(path):
-    *_, before, whole = write(path, CONTENTS)
+def test_any_changed_byte_of_the_last_segment_is_detected(path):
+    *_, previous_size, full_size = write(path, CONTENTS)
     data = bytearray(path.read_bytes())
-    for at in range(before, whole):
+    for at in range(previous_size, full_size):
         data[at] ^= 0x10
         path.write_bytes(data)
-        assert found(path) == CONTENTS[:-1]
+        assert read_contents(path) == CONTENTS[:-1]
         data[at] ^= 0x10
 
 
-def test_a_segment_out_of_turn_is_none(path, tmp_path):
-    """As an older file's that shows through: valid in itself, but not the next."""
+def test_a_segment_out_of_order_is_ignored(path, tmp_path):
+    """Like a leftover segment of an older file: valid, but not the next one."""
     sizes = write(path, CONTENTS[:2])
     data = path.read_bytes()
     path.write_bytes(data + data[: sizes[0]])
-    assert found(path) == CONTENTS[:2]
+    assert read_contents(path) == CONTENTS[:2]
 
 
-def test_a_full_disk_keeps_what_there_is_and_is_tried_again(path, disk):
+def test_a_full_disk_keeps_the_segments_and_allows_a_retry(path, disk):
     disk.room = 250
     file = SegmentFile(path, disk.open)
     file.append(b"a" * 100)
@@ -79,10 +79,10 @@ def test_a_full_disk_keeps_what_there_is_and_is_tried_again(path, disk):
     disk.room = None
     file.append(b"b" * 100, b"c" * 100)
     file.close()
-    assert found(path) == [b"a" * 100, b"b" * 100, b"c" * 100]
+    assert read_contents(path) == [b"a" * 100, b"b" * 100, b"c" * 100]
 
 
-def test_what_the_disk_fails_to_confirm_is_written_again(path, monkeypatch):
+def test_unconfirmed_segments_are_written_again(path, monkeypatch):
     file = SegmentFile(path)
     file.append(b"kept")
     file.sync()
@@ -96,11 +96,11 @@ def test_what_the_disk_fails_to_confirm_is_written_again(path, monkeypatch):
     file.append(b"new")
     file.sync()
     file.close()
-    assert found(path) == [b"kept", b"not confirmed", b"nor this", b"new"]
+    assert read_contents(path) == [b"kept", b"not confirmed", b"nor this", b"new"]
 
 
-def test_a_disk_that_never_confirms_is_not_given_more_and_more(path, monkeypatch):
-    monkeypatch.setattr("rotemina.app.motion.recording.segments._MOST_UNCONFIRMED", 100)
+def test_unconfirmed_bytes_are_limited(path, monkeypatch):
+    monkeypatch.setattr("rotemina.app.motion.recording.segments._MAX_UNCONFIRMED_BYTES", 100)
     file = SegmentFile(path)
     file.append(b"a" * 101)
     with pytest.raises(OSError, match="does not confirm"):
@@ -108,42 +108,42 @@ def test_a_disk_that_never_confirms_is_not_given_more_and_more(path, monkeypatch
     file.sync()
     file.append(b"b")
     file.close()
-    assert found(path) == [b"a" * 101, b"b"]
+    assert read_contents(path) == [b"a" * 101, b"b"]
 
 
 def test_a_file_that_is_being_written_is_left_alone(path):
     file = SegmentFile(path)
     file.append(b"one")
     with pytest.raises(RecordingError, match="still being recorded"):
-        WholeSegments(path)
+        SegmentReader(path)
     file.close()
-    assert found(path) == [b"one"]
+    assert read_contents(path) == [b"one"]
 
 
 @pytest.mark.parametrize(
-    ("data", "words"),
+    ("data", "message"),
     [
         (b"", "before anything was recorded; delete it"),
-        (MAGIC[:5], "before anything was recorded; delete it"),
+        (SEGMENT_MAGIC[:5], "before anything was recorded; delete it"),
         (
-            MAGIC[:6] + b"99" + bytes(100),
+            SEGMENT_MAGIC[:6] + b"99" + bytes(100),
             "version 99, but this program reads version 01",
         ),
         (b"PK\x03\x04" + bytes(100), "not an interrupted recording of this program"),
     ],
 )
-def test_other_files_are_refused(path, data, words):
+def test_other_files_are_refused(path, data, message):
     path.write_bytes(data)
-    with pytest.raises(RecordingError, match=words):
-        WholeSegments(path)
+    with pytest.raises(RecordingError, match=message):
+        SegmentReader(path)
     assert path.read_bytes() == data
 
 
-def test_a_file_that_cannot_be_made_or_read_is_named(tmp_path, path):
+def test_a_file_that_cannot_be_created_or_read_is_named(tmp_path, path):
     with pytest.raises(RecordingError, match=r"nowhere/run.part: cannot be created"):
         SegmentFile(tmp_path / "nowhere" / "run.part")
     with pytest.raises(RecordingError, match="cannot be read"):
-        WholeSegments(path)
+        SegmentReader(path)
     write(path, CONTENTS)
     with pytest.raises(RecordingError, match="already exists"):
         SegmentFile(path)

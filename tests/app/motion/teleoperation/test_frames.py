@@ -1,28 +1,28 @@
-"""Modes: switching moves nothing, the tip goes where it is asked, joints stay in their ranges."""
+"""Modes: switching causes no motion, the tip follows, and joints stay in their ranges."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
-from rotemina.app.motion.teleoperation.frames import FrameError
-from rotemina.app.motion.teleoperation.linear_laws import LinearRate
-from rotemina.app.motion.teleoperation.micro_nano_axis import HybridFrame, Saturation
-from rotemina.app.motion.teleoperation.modes import Modes
+from rotemina.app.errors import FrameError
+from rotemina.app.motion.teleoperation import LinearRateLaw
+from rotemina.app.motion.teleoperation.micro_nano_axis import HybridFrame, PiezoSaturation
+from rotemina.app.motion.teleoperation.modes import SteeringModes
 from rotemina.app.motion.teleoperation.tip_pivot_modes import FineFrame, PivotFrame
-from rotemina.sim.kinematics.chain import JOINTS, Chain
-from rotemina.sim.kinematics.forward import tip_position
-from rotemina.sim.robot.file import load_robot
+from rotemina.sim.kinematics import JOINTS, KinematicChain, compute_tip_position
+from rotemina.sim.robot_files import load_robot
 
 ROBOT = load_robot("rotemina")
-CHAIN = Chain.of(ROBOT)
-MODES = Modes(ROBOT)
+CHAIN = KinematicChain.of(ROBOT)
+MODES = SteeringModes(ROBOT)
 RESOLUTION = {axis: ROBOT.axes[axis].sensor.resolution for axis in JOINTS}
 CENTRE = dict(zip(JOINTS, CHAIN.centre.tolist(), strict=True))
 
-places = st.tuples(*(st.one_of(st.floats(0.0, 1.0), st.sampled_from([0.0, 1.0])),) * 6).map(
+JOINT_POSITIONS = st.tuples(
+    *(st.one_of(st.floats(0.0, 1.0), st.sampled_from([0.0, 1.0])),) * 6
+).map(
     lambda shares: dict(
         zip(
             JOINTS,
@@ -31,222 +31,238 @@ places = st.tuples(*(st.one_of(st.floats(0.0, 1.0), st.sampled_from([0.0, 1.0]))
         )
     )
 )
-shares = st.tuples(*(st.floats(0.0, 1.0),) * 3)
+SHARES = st.tuples(*(st.floats(0.0, 1.0),) * 3)
 
 
-def somewhere(frame, shares):
+def interpolate_coordinates(frame, shares):
     return {
-        one.name: one.bounds.low + share * (one.bounds.high - one.bounds.low)
-        for one, share in zip(frame.coordinates.values(), shares, strict=False)
+        coordinate.name: coordinate.bounds.low
+        + share * (coordinate.bounds.high - coordinate.bounds.low)
+        for coordinate, share in zip(frame.coordinates.values(), shares, strict=False)
     }
 
 
-def tip_at(start, joints):
-    return tip_position(CHAIN, np.array([{**start, **joints}[axis] for axis in JOINTS]))
+def compute_tip(start, joints):
+    return compute_tip_position(CHAIN, np.array([{**start, **joints}[axis] for axis in JOINTS]))
 
 
 @settings(max_examples=200, deadline=None)
-@given(places, st.sampled_from(MODES.names), shares)
+@given(JOINT_POSITIONS, st.sampled_from(MODES.names), SHARES)
 def test_beginning_a_mode_moves_nothing_and_no_joint_leaves_its_range(joints, name, shares):
-    frame = MODES.begin(name, joints)
-    begun = frame.joints(frame.start)
-    assert set(begun) == set(frame.axes)
-    for axis, at in begun.items():
-        assert at == pytest.approx(joints[axis], abs=1e-3 * RESOLUTION[axis])
-    for one in frame.coordinates.values():
-        assert one.bounds.low <= one.start <= one.bounds.high
-    after = frame.joints(somewhere(frame, shares))
-    for axis, at in after.items():
+    frame = MODES.begin_mode(name, joints)
+    initial_joints = frame.compute_joints(frame.start)
+    assert set(initial_joints) == set(frame.axes)
+    for axis, position in initial_joints.items():
+        assert position == pytest.approx(joints[axis], abs=1e-3 * RESOLUTION[axis])
+    for coordinate in frame.coordinates.values():
+        assert coordinate.bounds.low <= coordinate.start <= coordinate.bounds.high
+    joints_after = frame.compute_joints(interpolate_coordinates(frame, shares))
+    for axis, position in joints_after.items():
         k = JOINTS.index(axis)
-        assert CHAIN.lower[k] <= at <= CHAIN.upper[k]
+        assert CHAIN.lower[k] <= position <= CHAIN.upper[k]
 
 
 @settings(max_examples=100, deadline=None)
-@given(places, st.sampled_from(["hybrid", "fine"]), shares)
-def test_the_tip_goes_where_the_coordinates_say(joints, name, shares):
-    """But for the last 0.1 µm at the edge, where ends of joints hang together."""
-    frame = MODES.begin(name, joints)
-    asked = somewhere(frame, [0.01 + 0.98 * share for share in shares])
-    tip = tip_at(joints, frame.joints(asked))
-    near_edge = 1e-7 if min(shares) < 0.02 or max(shares) > 0.98 else 1e-12
+@given(JOINT_POSITIONS, st.sampled_from(["hybrid", "fine"]), SHARES)
+def test_the_tip_moves_to_the_commanded_coordinates(joints, name, shares):
+    """Except for the last 0.1 µm at the edge, where the ends of joints depend on each other."""
+    frame = MODES.begin_mode(name, joints)
+    coordinates = interpolate_coordinates(frame, [0.01 + 0.98 * share for share in shares])
+    tip = compute_tip(joints, frame.compute_joints(coordinates))
+    tolerance = 1e-7 if min(shares) < 0.02 or max(shares) > 0.98 else 1e-12
     if name == "fine":
-        near_edge = 1e-7
-    assert tip == pytest.approx(list(asked.values()), abs=near_edge)
+        tolerance = 1e-7
+    assert tip == pytest.approx(list(coordinates.values()), abs=tolerance)
 
 
 @pytest.mark.parametrize("name", MODES.names)
 def test_speeds_are_the_derivative_of_the_joints(name):
     start = {**CENTRE, "thx": 3e-4, "zn": 45e-6}
-    frame = MODES.begin(name, start)
+    frame = MODES.begin_mode(name, start)
     rng = np.random.default_rng(7)
     for _ in range(20):
-        at = somewhere(frame, rng.uniform(0.3, 0.7, 3))
+        coordinates = interpolate_coordinates(frame, rng.uniform(0.3, 0.7, 3))
         if name == "hybrid":
-            at["z"] = frame.start["z"] + rng.uniform(-60e-6, 60e-6)
-        way = {
-            one.name: rng.uniform(-1.0, 1.0) * one.bounds.max_speed
-            for one in frame.coordinates.values()
+            coordinates["z"] = frame.start["z"] + rng.uniform(-60e-6, 60e-6)
+        velocity = {
+            coordinate.name: rng.uniform(-1.0, 1.0) * coordinate.bounds.max_speed
+            for coordinate in frame.coordinates.values()
         }
         h = 1e-5
         ahead, behind = (
-            frame.joints({n: at[n] + sign * h * way[n] for n in at}) for sign in (1.0, -1.0)
+            frame.compute_joints(
+                {key: coordinates[key] + sign * h * velocity[key] for key in coordinates}
+            )
+            for sign in (1.0, -1.0)
         )
-        speeds = frame.speeds(at, way)
+        speeds = frame.compute_axis_speeds(coordinates, velocity)
         for axis in frame.axes:
             slope = (ahead[axis] - behind[axis]) / (2.0 * h)
             assert speeds[axis] == pytest.approx(slope, rel=1e-5, abs=1e-9)
 
 
 @pytest.mark.parametrize("name", MODES.names)
-def test_the_speed_that_a_mode_begins_with_is_that_of_the_axes(name):
-    frame = MODES.begin(name, CENTRE)
-    way = {one.name: 0.1 * one.bounds.max_speed for one in frame.coordinates.values()}
-    again = frame.velocities(frame.speeds(frame.start, way))
-    assert again == {n: pytest.approx(v, rel=1e-9) for n, v in way.items()}
+def test_a_mode_begins_with_the_speed_of_the_axes(name):
+    frame = MODES.begin_mode(name, CENTRE)
+    velocity = {
+        coordinate.name: 0.1 * coordinate.bounds.max_speed
+        for coordinate in frame.coordinates.values()
+    }
+    converted_back = frame.compute_coordinate_speeds(
+        frame.compute_axis_speeds(frame.start, velocity)
+    )
+    assert converted_back == {
+        coordinate_name: pytest.approx(speed, rel=1e-9)
+        for coordinate_name, speed in velocity.items()
+    }
 
 
-# --- hybrid ---------------------------------------------------------------------------------------
+# Hybrid
 
 
-def test_the_piezo_takes_what_fits_and_the_table_the_rest():
-    frame = HybridFrame.at(CHAIN, CENTRE)
-    small = frame.joints({**frame.start, "z": frame.start["z"] + 10e-6})
+def test_the_piezo_moves_within_its_range_and_the_table_the_rest():
+    frame = HybridFrame.begin_at(CHAIN, CENTRE)
+    small = frame.compute_joints({**frame.start, "z": frame.start["z"] + 10e-6})
     assert small["zn"] - CENTRE["zn"] == pytest.approx(10e-6, rel=1e-5)
     assert small["z"] == pytest.approx(CENTRE["z"], abs=1e-11)
     large = {**frame.start, "z": frame.start["z"] + 1e-3}
-    assert frame.joints(large)["zn"] == pytest.approx(65e-6)
-    assert frame.joints(large)["z"] == pytest.approx(CENTRE["z"] + 1e-3 - 32.5e-6, abs=1e-10)
-    assert frame.reserve(frame.start) == pytest.approx(1.0)
-    assert frame.reserve(large) == 0.0
+    assert frame.compute_joints(large)["zn"] == pytest.approx(65e-6)
+    assert frame.compute_joints(large)["z"] == pytest.approx(
+        CENTRE["z"] + 1e-3 - 32.5e-6, abs=1e-10
+    )
+    assert frame.compute_reserve(frame.start) == pytest.approx(1.0)
+    assert frame.compute_reserve(large) == 0.0
 
 
-def test_the_way_back_is_the_way_there():
-    frame = HybridFrame.at(CHAIN, CENTRE)
+def test_forward_and_return_paths_are_equal():
+    frame = HybridFrame.begin_at(CHAIN, CENTRE)
     heights = frame.start["z"] + np.linspace(-2e-4, 2e-4, 101)
-    there = [frame.joints({**frame.start, "z": h}) for h in heights]
-    back = [frame.joints({**frame.start, "z": h}) for h in heights[::-1]]
-    assert there == back[::-1]
+    forward = [frame.compute_joints({**frame.start, "z": height}) for height in heights]
+    backward = [frame.compute_joints({**frame.start, "z": height}) for height in heights[::-1]]
+    assert forward == backward[::-1]
 
 
 @pytest.mark.parametrize("start_zn", [0.0, 8e-6, 32.5e-6, 65e-6])
-def test_taking_over_is_within_every_axis_acceleration_and_keeps_the_tip_s_speed(start_zn):
+def test_the_transition_keeps_axis_limits_and_the_speed_of_the_tip(start_zn):
     start = {**CENTRE, "zn": start_zn}
-    frame = HybridFrame.at(CHAIN, start)
+    frame = HybridFrame.begin_at(CHAIN, start)
     bounds = frame.coordinates["z"].bounds
     assert bounds.max_speed > 1e-3
-    law = LinearRate(bounds, bounds.max_speed)
+    law = LinearRateLaw(bounds, bounds.max_speed)
     law.start(frame.start["z"], 0.0, 0.0)
     dt, speeds, tips = 1e-3, [], []
     for k in range(600):
         motion = law.step(1.0 if k < 200 else -1.0, dt)
-        at = {**frame.start, "z": motion.position}
-        way = {"x": 0.0, "y": 0.0, "z": motion.velocity}
-        speeds.append(frame.speeds(at, way))
-        tips.append(tip_at(start, frame.joints(at)))
+        coordinates = {**frame.start, "z": motion.position}
+        velocity = {"x": 0.0, "y": 0.0, "z": motion.velocity}
+        speeds.append(frame.compute_axis_speeds(coordinates, velocity))
+        tips.append(compute_tip(start, frame.compute_joints(coordinates)))
         assert speeds[-1]["z"] + speeds[-1]["zn"] * np.cos(start["thx"]) * np.cos(
             start["thy"]
         ) == pytest.approx(motion.velocity, rel=1e-9)
     for axis in ("z", "zn"):
-        change = np.abs(np.diff([one[axis] for one in speeds])) / dt
+        change = np.abs(np.diff([axis_speeds[axis] for axis_speeds in speeds])) / dt
         assert change.max() <= ROBOT.axes[axis].max_acceleration
-        assert max(abs(one[axis]) for one in speeds) <= ROBOT.axes[axis].max_speed
+        assert max(abs(axis_speeds[axis]) for axis_speeds in speeds) <= ROBOT.axes[axis].max_speed
     sideways = np.array(tips)[:, :2] - tips[0][:2]
     assert np.abs(sideways).max() < 1e-12
 
 
 @given(st.floats(-1e-4, 1e-4), st.floats(0.0, 65e-6))
-def test_the_saturation_rises_ends_in_the_range_and_can_be_inverted(u, place):
-    saturation = Saturation(0.0, 65e-6)
-    assert 0.0 <= saturation.place(u) <= 65e-6 * (1.0 + 1e-12)
-    assert 0.0 <= saturation.slope(u) <= 1.0
-    assert saturation.place(saturation.inverse(place)) == pytest.approx(place, abs=1e-15)
+def test_the_saturation_is_monotone_bounded_and_invertible(u, position):
+    saturation = PiezoSaturation(0.0, 65e-6)
+    assert 0.0 <= saturation.compute_position(u) <= 65e-6 * (1.0 + 1e-12)
+    assert 0.0 <= saturation.compute_slope(u) <= 1.0
+    assert saturation.compute_position(saturation.invert(position)) == pytest.approx(
+        position, abs=1e-15
+    )
     h = 1e-10
-    slope = (saturation.place(u + h) - saturation.place(u - h)) / (2.0 * h)
-    assert saturation.slope(u) == pytest.approx(slope, abs=1e-4)
+    slope = (saturation.compute_position(u + h) - saturation.compute_position(u - h)) / (2.0 * h)
+    assert saturation.compute_slope(u) == pytest.approx(slope, abs=1e-4)
 
 
-def test_near_the_table_s_end_the_piezo_still_has_its_way():
-    top = {**CENTRE, "z": 0.08}
-    bounds = HybridFrame.at(CHAIN, top).coordinates["z"]
-    assert bounds.bounds.high - bounds.start == pytest.approx(16.25e-6, abs=1e-6)
+def test_near_the_end_of_the_table_the_piezo_keeps_its_range():
+    top_joints = {**CENTRE, "z": 0.08}
+    z = HybridFrame.begin_at(CHAIN, top_joints).coordinates["z"]
+    assert z.bounds.high - z.start == pytest.approx(16.25e-6, abs=1e-6)
 
 
-# --- fine and pivot -------------------------------------------------------------------------------
+# Fine and pivot
 
 
-def test_fine_reaches_46_um_and_tells_what_it_costs():
+def test_fine_mode_reaches_46_um_and_reports_its_tilt():
     corner = {**CENTRE, "thx": 0.0, "thy": 0.0}
-    frame = FineFrame.at(CHAIN, corner)
+    frame = FineFrame.begin_at(CHAIN, corner)
     x = frame.coordinates["x"].bounds
     assert x.high - x.low == pytest.approx(46.5e-6, rel=2e-3)
-    asked = {**frame.start, "x": x.low}
-    assert frame.joints(asked)["thy"] == pytest.approx(1.16355e-3, rel=1e-6)
-    assert frame.tilt(asked) == pytest.approx(1.16355e-3, rel=1e-6)
-    assert frame.reserve(asked) == 0.0
-    assert frame.tilt(frame.start) == 0.0
+    coordinates = {**frame.start, "x": x.low}
+    assert frame.compute_joints(coordinates)["thy"] == pytest.approx(1.16355e-3, rel=1e-6)
+    assert frame.compute_tilt(coordinates) == pytest.approx(1.16355e-3, rel=1e-6)
+    assert frame.compute_reserve(coordinates) == 0.0
+    assert frame.compute_tilt(frame.start) == 0.0
 
 
 @settings(max_examples=100, deadline=None)
-@given(places, shares)
-def test_pivoting_leaves_the_tip(joints, shares):
-    frame = PivotFrame.at(CHAIN, joints)
-    turned = frame.joints(somewhere(frame, shares))
-    # Where both z and zn stand at an end, or nearly, nothing makes up for what a tilt lifts.
-    strayed = tip_at(joints, turned) - tip_at(joints, {})
+@given(JOINT_POSITIONS, SHARES)
+def test_pivoting_keeps_the_tip_in_place(joints, shares):
+    frame = PivotFrame.begin_at(CHAIN, joints)
+    turned_joints = frame.compute_joints(interpolate_coordinates(frame, shares))
+    # With both z and zn at or near an end, nothing can compensate the lift of a tilt.
+    deviation = compute_tip(joints, turned_joints) - compute_tip(joints, {})
     at_end = min(joints["z"], 0.08 - joints["z"]) < 6e-8
-    assert np.abs(strayed).max() < (6e-8 if at_end else 1e-10)
+    assert np.abs(deviation).max() < (6e-8 if at_end else 1e-10)
 
 
-def test_pivoting_needs_no_step_of_the_table_z():
-    frame = PivotFrame.at(CHAIN, CENTRE)
-    turned = frame.joints({"thx": 0.0, "thy": 1.1e-3})
-    assert turned["z"] == CENTRE["z"]
-    assert turned["zn"] != CENTRE["zn"]
+def test_pivoting_needs_no_step_of_the_z_table():
+    frame = PivotFrame.begin_at(CHAIN, CENTRE)
+    turned_joints = frame.compute_joints({"thx": 0.0, "thy": 1.1e-3})
+    assert turned_joints["z"] == CENTRE["z"]
+    assert turned_joints["zn"] != CENTRE["zn"]
 
 
-def test_pivoting_is_bounded_by_the_tables_room_and_speed():
-    cornered = {**CENTRE, "x": 0.0, "thy": 5e-4}
-    bounds = PivotFrame.at(CHAIN, cornered).coordinates["thy"].bounds
+def test_pivoting_is_bounded_by_range_and_speed_of_the_tables():
+    joints = {**CENTRE, "x": 0.0, "thy": 5e-4}
+    bounds = PivotFrame.begin_at(CHAIN, joints).coordinates["thy"].bounds
     assert (bounds.low, bounds.high) == pytest.approx((5e-4, 1.16355e-3))
     assert bounds.max_speed == pytest.approx(2e-4, rel=2e-3)
     assert bounds.max_acceleration == pytest.approx(0.02, rel=2e-3)
 
 
-# --- robots ---------------------------------------------------------------------------------------
+# Robots
 
 
-def test_the_modes_go_round():
+def test_the_modes_cycle():
     assert MODES.names == ("micro", "nano", "hybrid", "fine", "pivot")
-    seen = ["micro"]
+    names = ["micro"]
     for _ in MODES.names:
-        seen.append(MODES.after(seen[-1]))
-    assert tuple(seen) == (*MODES.names, "micro")
-    assert MODES.after("gone") == "micro"
+        names.append(MODES.find_next(names[-1]))
+    assert tuple(names) == (*MODES.names, "micro")
+    assert MODES.find_next("gone") == "micro"
 
 
 @pytest.mark.parametrize(("name", "axes"), [("emps", "q"), ("picma", "p"), ("fsm", "m1 m2 m3")])
 def test_a_robot_without_a_tip_has_its_axes(name, axes):
     robot = load_robot(name)
-    modes = Modes(robot)
+    modes = SteeringModes(robot)
     assert modes.names == ("axes",)
     joints = {axis: robot.axes[axis].range[0] for axis in axes.split()}
-    frame = modes.begin("axes", joints)
-    assert frame.joints(frame.start) == joints
-    assert frame.reserve(frame.start) is None
-    assert frame.tilt(frame.start) is None
+    frame = modes.begin_mode("axes", joints)
+    assert frame.compute_joints(frame.start) == joints
+    assert frame.compute_reserve(frame.start) is None
+    assert frame.compute_tilt(frame.start) is None
     with pytest.raises(FrameError, match=r"no such mode \(it needs the axes of the hybrid chain\)"):
-        modes.begin("pivot", joints)
+        modes.begin_mode("pivot", joints)
     with pytest.raises(FrameError, match=r"'up'.*use one of axes"):
-        modes.begin("up", joints)
+        modes.begin_mode("up", joints)
 
 
 def test_a_robot_with_its_own_stages_has_a_mode_for_each():
     robot = replace(load_robot("fsm"), stages={"mirror": ("m1", "m2"), "piston": ("m3",)})
-    assert Modes(robot).names == ("mirror", "piston")
+    assert SteeringModes(robot).names == ("mirror", "piston")
 
 
 @pytest.mark.parametrize("name", MODES.names)
-def test_a_mode_does_not_begin_at_an_unknown_place(name):
-    known = {axis: at for axis, at in CENTRE.items() if axis not in ("x", "thy")}
+def test_a_mode_does_not_begin_at_an_unknown_position(name):
+    known = {axis: position for axis, position in CENTRE.items() if axis not in ("x", "thy")}
     with pytest.raises(FrameError, match="is not known; connect and home first"):
-        MODES.begin(name, known)
+        MODES.begin_mode(name, known)

@@ -1,28 +1,24 @@
-"""Conversations with the arbiter: readings at 100 Hz in, intents out."""
+"""The input arbiter: readings at 100 Hz in, intents out."""
 
 from math import nan
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from rotemina.app.motion.teleoperation.axis_calibration import (
-    AxisCalibration,
-    Calibration,
-    CalibrationError,
-)
-from rotemina.app.motion.teleoperation.input_arbiter import InputArbiter
-from rotemina.app.motion.teleoperation.intent import Action
-from rotemina.app.motion.teleoperation.profile import (
+from rotemina.app.errors import InputCalibrationError, InputProfileError
+from rotemina.app.motion.inputs import (
     ActionMapping,
     AxisMapping,
     DeviceMapping,
+    InputArbiter,
+    InputAxisCalibration,
+    InputCalibration,
+    InputProfile,
+    OperatorAction,
     OperatorRole,
-    Profile,
-    ProfileError,
+    PluggedDevice,
 )
-from rotemina.app.motion.teleoperation.profile_check import PluggedDevice
-from rotemina.drivers.inputs.device import InputIdentity, InputReading
+from rotemina.drivers.inputs import InputIdentity, InputReading
 
 ROBOT = ("x", "y", "z", "thx", "thy", "zn")
 STEP_S = 0.01
@@ -31,17 +27,25 @@ BUTTONS = ("stop", "stage", "dead", "fine", "take")
 ACTIONS = dict(
     zip(
         BUTTONS,
-        (Action.STOP, Action.STAGE, Action.DEAD_MAN, Action.FINE, Action.TAKE_OVER),
+        (
+            OperatorAction.STOP,
+            OperatorAction.STAGE,
+            OperatorAction.DEAD_MAN,
+            OperatorAction.FINE,
+            OperatorAction.TAKE_OVER,
+        ),
         strict=True,
     )
 )
 
 
-def stick(key, streams=False, axes=("X", "Y"), buttons=BUTTONS):
+def make_stick(key, streams=False, axes=("X", "Y"), buttons=BUTTONS):
     return PluggedDevice(InputIdentity(key, f"stick {key}", "hid"), axes, buttons, streams)
 
 
-def mapping(key, seat=OperatorRole.TRAINER, without=(Action.DEAD_MAN,), drives=("x", "y")):
+def make_mapping(
+    key, seat=OperatorRole.TRAINER, excluded=(OperatorAction.DEAD_MAN,), drives=("x", "y")
+):
     axes = tuple(
         AxisMapping(control=control, drives=target)
         for control, target in zip("XY", drives, strict=False)
@@ -49,37 +53,37 @@ def mapping(key, seat=OperatorRole.TRAINER, without=(Action.DEAD_MAN,), drives=(
     actions = tuple(
         ActionMapping(control=control, action=action)
         for control, action in ACTIONS.items()
-        if action not in without
+        if action not in excluded
     )
     return DeviceMapping(key=key, seat=seat, axes=axes, actions=actions)
 
 
-def profile(*devices):
-    return Profile(name="Bench", devices=devices)
+def make_profile(*devices):
+    return InputProfile(name="Bench", devices=devices)
 
 
-class Bench:
-    """A arbiter, what its devices say at present, and the time."""
+class ArbiterBench:
+    """An arbiter, the current reports of its devices, and the time."""
 
     def __init__(self, *mappings, devices=("a",), streams=False, calibration=None):
-        self.arbiter = InputArbiter(ROBOT, profile(*(mappings or [mapping("a")])))
+        self.arbiter = InputArbiter(ROBOT, make_profile(*(mappings or [make_mapping("a")])))
         self.now_s = 0.0
         self.state = {}
         for key in devices:
-            self.arbiter.plug(stick(key, streams), calibration)
+            self.arbiter.plug(make_stick(key, streams), calibration)
             self.state[key] = (REST, ())
 
-    def say(self, key="a", axes=None, held=()):
-        """Set what a device says from now on."""
+    def report(self, key="a", axes=None, held=()):
+        """Set the report that a device repeats from now on."""
         self.state[key] = (axes or self.state[key][0], held)
         return self
 
-    def silence(self, key="a"):
-        """Let a device say nothing any more."""
+    def stop_reporting(self, key="a"):
+        """Let a device send no more reports."""
         del self.state[key]
 
     def step(self):
-        """Return the intent one step later."""
+        """Take one step and return its intent."""
         self.now_s += STEP_S
         readings = {
             key: [InputReading(self.now_s, axes, tuple(name in held for name in BUTTONS))]
@@ -88,368 +92,374 @@ class Bench:
         return self.arbiter.step(readings, self.now_s)
 
     def run(self, seconds):
-        """Return the intents of a while."""
+        """Return the intents of this period."""
         return [self.step() for _ in range(round(seconds / STEP_S))]
 
-    def reasons(self, key="a"):
-        views = {view.device.identity.key: view for view in self.arbiter.views}
+    def list_reasons(self, key="a"):
+        views = {view.device.identity.key: view for view in self.arbiter.device_views}
         return [axis.reason for axis in views[key].axes]
 
 
-def pressed(intents):
+def list_presses(intents):
     return [action for intent in intents for action in sorted(intent.pressed)]
 
 
-def lost(intents):
-    return [intent.lost for intent in intents if intent.lost is not None]
+def list_losses(intents):
+    return [intent.loss_reason for intent in intents if intent.loss_reason is not None]
 
 
 # One device
 
 
 def test_a_stick_at_rest_earns_trust_and_then_deflects():
-    bench = Bench()
+    bench = ArbiterBench()
     assert bench.step().deflections == {}
     assert bench.run(0.2)[-1].deflections == {"x": 0.0, "y": 0.0}
-    intent = bench.say(axes=(1.0, -1.0)).step()
+    intent = bench.report(axes=(1.0, -1.0)).step()
     assert intent.deflections == {"x": 1.0, "y": -1.0}
-    assert (intent.device, intent.host_time_s, intent.lost) == ("a", bench.now_s, None)
+    assert (intent.device, intent.host_time_s, intent.loss_reason) == ("a", bench.now_s, None)
 
 
-def test_a_stick_that_was_never_centred_moves_nothing_on_that_axis_only():
-    bench = Bench().say(axes=(0.6, 0.0))
+def test_only_the_axis_that_was_never_centred_stays_inactive():
+    bench = ArbiterBench().report(axes=(0.6, 0.0))
     assert bench.run(1.0)[-1].deflections == {"y": 0.0}
-    assert "release it" in bench.reasons()[0]
-    assert bench.reasons()[1] is None
+    assert "release it" in bench.list_reasons()[0]
+    assert bench.list_reasons()[1] is None
 
 
-def test_a_saturated_stick_is_named():
-    bench = Bench().say(axes=(1.0, 0.0))
+def test_a_saturated_axis_is_reported():
+    bench = ArbiterBench().report(axes=(1.0, 0.0))
     assert "x" not in bench.run(1.0)[-1].deflections
-    assert "at its end from the start" in bench.reasons()[0]
+    assert "at its end from the start" in bench.list_reasons()[0]
 
 
-def test_a_jittering_axis_stops_acting_and_the_other_goes_on():
-    bench = Bench()
+def test_a_jittering_axis_stops_acting_and_the_other_continues():
+    bench = ArbiterBench()
     bench.run(0.2)
     for count in range(30):
-        intent = bench.say(axes=(0.9 if count % 2 else -0.9, 0.5)).step()
+        intent = bench.report(axes=(0.9 if count % 2 else -0.9, 0.5)).step()
     assert set(intent.deflections) == {"y"}
-    assert "jitters" in bench.reasons()[0]
+    assert "jitters" in bench.list_reasons()[0]
 
 
 @pytest.mark.parametrize("raw", [nan, 7.0])
-def test_numbers_that_are_none_move_nothing(raw):
-    bench = Bench()
+def test_invalid_numbers_move_nothing(raw):
+    bench = ArbiterBench()
     bench.run(0.2)
-    assert set(bench.say(axes=(raw, 0.5)).step().deflections) == {"y"}
-    assert bench.reasons()[0] is not None
-    assert bench.arbiter.views[0].axes[0].deflection in (0.0, 1.0)
+    assert set(bench.report(axes=(raw, 0.5)).step().deflections) == {"y"}
+    assert bench.list_reasons()[0] is not None
+    assert bench.arbiter.device_views[0].axes[0].deflection in (0.0, 1.0)
 
 
-def test_a_swapped_stick_with_other_controls_is_refused_where_it_is_mapped():
-    bench = Bench()
+def test_a_swapped_stick_without_a_mapped_control_is_refused():
+    bench = ArbiterBench()
     bench.run(0.2)
     bench.arbiter.unplug("a")
-    bench.arbiter.plug(stick("a", axes=("X", "Rz")))
+    bench.arbiter.plug(make_stick("a", axes=("X", "Rz")))
     assert bench.run(1.0)[-1].deflections == {}
     assert "has no axis 'Y'; it has X, Rz" in bench.arbiter.problems[0]
-    assert bench.arbiter.views[0].problem == bench.arbiter.problems[0]
+    assert bench.arbiter.device_views[0].problem == bench.arbiter.problems[0]
 
 
 def test_readings_of_another_shape_move_nothing():
-    bench = Bench()
+    bench = ArbiterBench()
     bench.run(0.2)
     reading = InputReading(bench.now_s, (1.0,), ())
     assert bench.arbiter.step({"a": [reading]}, bench.now_s).deflections == {}
-    assert "a reading has 1 axes and 0 buttons" in bench.reasons()[0]
+    assert "a reading has 1 axes and 0 buttons" in bench.list_reasons()[0]
     assert bench.run(0.2)[-1].deflections == {"x": 0.0, "y": 0.0}
 
 
-def test_a_device_whose_readings_stop_matching_is_lost_once_and_wants_the_centre():
-    bench = Bench()
+def test_a_device_whose_readings_stop_matching_is_lost_once_and_must_be_centred():
+    bench = ArbiterBench()
     bench.run(0.2)
-    bench.say(axes=(1.0, 0.0), held=("fine",)).run(0.1)
+    bench.report(axes=(1.0, 0.0), held=("fine",)).run(0.1)
     intents = []
     for _ in range(3):
         bench.now_s += STEP_S
         reading = InputReading(bench.now_s, (1.0,), ())
         intents.append(bench.arbiter.step({"a": [reading]}, bench.now_s))
-    [why] = lost(intents)
-    assert why.startswith("stick a: a reading has 1 axes and 0 buttons, but the device has 2")
-    assert intents[0].lost == why
+    [reason] = list_losses(intents)
+    assert reason.startswith("stick a: a reading has 1 axes and 0 buttons, but the device has 2")
+    assert intents[0].loss_reason == reason
     assert intents[0].held == frozenset()
-    [view] = bench.arbiter.views
-    assert why.endswith(view.problem)
-    assert view.newest is None
+    [view] = bench.arbiter.device_views
+    assert reason.endswith(view.problem)
+    assert view.latest_reading is None
     assert bench.run(0.5)[-1].deflections == {"y": 0.0}  # it is still deflected
-    assert bench.say(axes=REST).run(0.2)[-1].deflections["x"] == 0.0
+    assert bench.report(axes=REST).run(0.2)[-1].deflections["x"] == 0.0
 
 
-def test_that_a_device_streams_may_turn_out_while_it_is_open():
-    bench = Bench()
+def test_an_open_device_can_turn_out_to_stream():
+    bench = ArbiterBench()
     bench.run(0.2)
-    bench.silence()
-    assert lost(bench.run(1.0)) == []
+    bench.stop_reporting()
+    assert list_losses(bench.run(1.0)) == []
     bench.state["a"] = (REST, ())
     bench.run(0.2)
-    bench.arbiter.inform("a", streams=True)
-    bench.silence()
-    assert len(lost(bench.run(1.0))) == 1
+    bench.arbiter.set_streaming("a", streams=True)
+    bench.stop_reporting()
+    assert len(list_losses(bench.run(1.0))) == 1
 
 
-def test_a_view_has_what_was_said_and_the_buttons_that_are_down():
-    bench = Bench()
-    bench.say(axes=(0.5, 0.0), held=("fine", "take")).run(0.1)
-    [view] = bench.arbiter.views
-    assert view.lit == {"fine", "take"}
-    assert view.newest.axes == (0.5, 0.0)
-    assert view.calibration == Calibration(device="a")
+def test_a_view_has_the_latest_reading_and_the_pressed_buttons():
+    bench = ArbiterBench()
+    bench.report(axes=(0.5, 0.0), held=("fine", "take")).run(0.1)
+    [view] = bench.arbiter.device_views
+    assert view.pressed_buttons == {"fine", "take"}
+    assert view.latest_reading.axes == (0.5, 0.0)
+    assert view.calibration == InputCalibration(device="a")
 
 
-def test_unplugging_is_said_once_and_replugging_wants_the_centre():
-    bench = Bench()
+def test_unplugging_is_reported_once_and_a_replugged_stick_must_be_centred():
+    bench = ArbiterBench()
     bench.run(0.2)
-    bench.say(axes=(1.0, 0.0)).run(0.1)
+    bench.report(axes=(1.0, 0.0)).run(0.1)
     bench.arbiter.unplug("a")
     intents = bench.run(0.2)
-    assert lost(intents) == ["stick a: unplugged"]
-    assert intents[0].lost is not None
+    assert list_losses(intents) == ["stick a: unplugged"]
+    assert intents[0].loss_reason is not None
     assert all(not intent.deflections for intent in intents)
-    bench.arbiter.plug(stick("a"))
+    bench.arbiter.plug(make_stick("a"))
     assert "x" not in bench.run(0.5)[-1].deflections
-    assert bench.say(axes=REST).run(0.2)[-1].deflections["x"] == 0.0
+    assert bench.report(axes=REST).run(0.2)[-1].deflections["x"] == 0.0
 
 
-def test_plugging_in_what_is_there_already_is_a_replug():
-    bench = Bench()
-    bench.say(axes=REST).run(0.2)
-    bench.arbiter.plug(stick("a"))
-    assert lost(bench.say(axes=(0.5, 0.0)).run(0.1)) == ["stick a: replugged"]
+def test_plugging_in_a_device_twice_is_a_replug():
+    bench = ArbiterBench()
+    bench.report(axes=REST).run(0.2)
+    bench.arbiter.plug(make_stick("a"))
+    assert list_losses(bench.report(axes=(0.5, 0.0)).run(0.1)) == ["stick a: replugged"]
     assert bench.run(0.5)[-1].deflections == {"y": 0.0}
 
 
-def test_a_stick_that_streams_is_lost_when_it_falls_silent_and_drops_what_it_held():
-    bench = Bench(streams=True)
+def test_a_silent_stream_is_lost_and_releases_its_buttons():
+    bench = ArbiterBench(streams=True)
     bench.run(0.2)
-    bench.say(axes=(1.0, 0.0), held=("fine",)).run(0.1)
-    bench.silence()
+    bench.report(axes=(1.0, 0.0), held=("fine",)).run(0.1)
+    bench.stop_reporting()
     intents = bench.run(1.0)
-    [why] = lost(intents)
-    assert why.startswith("stick a: silent: a streaming device")
+    [reason] = list_losses(intents)
+    assert reason.startswith("stick a: silent: a streaming device")
     assert intents[20].deflections == {"x": 1.0, "y": 0.0}
     assert intents[-1].deflections == {}
     assert intents[-1].held == frozenset()
-    assert "silent" in bench.reasons()[0]
+    assert "silent" in bench.list_reasons()[0]
     bench.state["a"] = ((1.0, 0.0), ("fine",))
     intent = bench.run(0.3)[-1]
     assert (intent.deflections, intent.held) == ({"y": 0.0}, frozenset())
 
 
-def test_a_calibration_acts_at_once_and_wants_the_centre():
-    bench = Bench()
-    bench.say(axes=(0.5, 0.0)).run(0.2)
-    axis = AxisCalibration(low=-0.9, centre=0.5, high=1.0, dead_zone=0.05, travel_m=0.02)
-    bench.arbiter.calibrate("a", Calibration(device="a", axes={"X": axis}))
-    assert lost([bench.step()]) == ["stick a: recalibrated"]
+def test_a_calibration_acts_at_once_and_the_stick_must_be_centred():
+    bench = ArbiterBench()
+    bench.report(axes=(0.5, 0.0)).run(0.2)
+    axis = InputAxisCalibration(low=-0.9, centre=0.5, high=1.0, dead_zone=0.05, travel_m=0.02)
+    bench.arbiter.use_calibration("a", InputCalibration(device="a", axes={"X": axis}))
+    assert list_losses([bench.step()]) == ["stick a: recalibrated"]
     assert bench.run(0.2)[-1].deflections == {"x": 0.0, "y": 0.0}
-    assert bench.say(axes=(1.0, 0.0)).step().deflections["x"] == 1.0
-    assert (bench.arbiter.travel_m("x"), bench.arbiter.travel_m("y")) == (0.02, None)
-    with pytest.raises(CalibrationError, match="'b' is not plugged in"):
-        bench.arbiter.calibrate("b", Calibration(device="b"))
-    with pytest.raises(CalibrationError, match="is for 'b', not for 'a'"):
-        bench.arbiter.calibrate("a", Calibration(device="b"))
+    assert bench.report(axes=(1.0, 0.0)).step().deflections["x"] == 1.0
+    assert (bench.arbiter.find_travel_m("x"), bench.arbiter.find_travel_m("y")) == (0.02, None)
+    with pytest.raises(InputCalibrationError, match="'b' is not plugged in"):
+        bench.arbiter.use_calibration("b", InputCalibration(device="b"))
+    with pytest.raises(InputCalibrationError, match="is for 'b', not for 'a'"):
+        bench.arbiter.use_calibration("a", InputCalibration(device="b"))
 
 
-def test_a_mapping_may_turn_an_axis_round():
+def test_a_mapping_can_invert_an_axis():
     axes = (AxisMapping(control="X", drives="thx", inverted=True),)
-    bench = Bench(DeviceMapping(key="a", axes=axes))
+    bench = ArbiterBench(DeviceMapping(key="a", axes=axes))
     bench.run(0.2)
-    assert bench.say(axes=(1.0, 0.0)).step().deflections == {"thx": -1.0}
+    assert bench.report(axes=(1.0, 0.0)).step().deflections == {"thx": -1.0}
 
 
 # Buttons
 
 
-def test_a_press_is_told_once_and_a_hold_as_long_as_it_lasts():
-    bench = Bench()
+def test_a_press_counts_once_and_a_hold_as_long_as_it_lasts():
+    bench = ArbiterBench()
     bench.run(0.1)
-    intents = bench.say(held=("stage",)).run(0.5)
-    assert pressed(intents) == [Action.STAGE]
-    assert all(intent.held == {Action.STAGE} for intent in intents)
-    assert bench.say().run(0.1)[-1].held == frozenset()
+    intents = bench.report(held=("stage",)).run(0.5)
+    assert list_presses(intents) == [OperatorAction.STAGE]
+    assert all(intent.held == {OperatorAction.STAGE} for intent in intents)
+    assert bench.report().run(0.1)[-1].held == frozenset()
 
 
 def test_a_press_between_two_steps_is_not_missed():
-    bench = Bench()
+    bench = ArbiterBench()
     bench.run(0.1)
-    downs = [(0.002, True), (0.004, False), (0.006, True), (0.009, False)]
+    states = [(0.002, True), (0.004, False), (0.006, True), (0.009, False)]
     readings = [
-        InputReading(bench.now_s + after_s, REST, (False, down, False, False, False))
-        for after_s, down in downs
+        InputReading(bench.now_s + offset_s, REST, (False, is_down, False, False, False))
+        for offset_s, is_down in states
     ]
     intent = bench.arbiter.step({"a": readings}, bench.now_s + 0.01)
-    assert intent.pressed == {Action.STAGE}
+    assert intent.pressed == {OperatorAction.STAGE}
 
 
 def test_fine_is_held_and_never_pressed():
-    bench = Bench()
+    bench = ArbiterBench()
     bench.run(0.1)
-    intents = bench.say(held=("fine",)).run(0.1)
-    assert pressed(intents) == []
-    assert intents[-1].held == {Action.FINE}
+    intents = bench.report(held=("fine",)).run(0.1)
+    assert list_presses(intents) == []
+    assert intents[-1].held == {OperatorAction.FINE}
 
 
-def test_without_its_dead_man_a_stick_does_nothing():
-    bench = Bench(mapping("a", without=()))
+def test_without_its_dead_man_switch_a_stick_does_nothing():
+    bench = ArbiterBench(make_mapping("a", excluded=()))
     bench.run(0.2)
-    assert bench.say(axes=(1.0, 0.0)).step().deflections == {}
-    assert bench.say(held=("dead",)).step().deflections == {"x": 1.0, "y": 0.0}
-    bench.say().run(0.05)
+    assert bench.report(axes=(1.0, 0.0)).step().deflections == {}
+    assert bench.report(held=("dead",)).step().deflections == {"x": 1.0, "y": 0.0}
+    bench.report().run(0.05)
     assert bench.step().deflections == {}
 
 
-def test_a_dead_man_that_is_taped_down_does_nothing():
-    bench = Bench(mapping("a", without=())).say(held=("dead",))
+def test_a_dead_man_switch_held_from_the_start_does_nothing():
+    bench = ArbiterBench(make_mapping("a", excluded=())).report(held=("dead",))
     assert bench.run(1.0)[-1].deflections == {}
 
 
-def test_a_dead_man_on_another_device_that_is_missing_holds_all_back():
+def test_a_missing_device_with_the_dead_man_switch_blocks_all_axes():
     pedal = DeviceMapping(
-        key="pedal", actions=(ActionMapping(control="dead", action=Action.DEAD_MAN),)
+        key="pedal", actions=(ActionMapping(control="dead", action=OperatorAction.DEAD_MAN),)
     )
-    bench = Bench(mapping("a"), pedal)
-    assert bench.say(held=("dead",)).run(1.0)[-1].deflections == {}
+    bench = ArbiterBench(make_mapping("a"), pedal)
+    assert bench.report(held=("dead",)).run(1.0)[-1].deflections == {}
     assert (
         "needs pedal, which is not connected; connected: stick a (a)" in bench.arbiter.problems[0]
     )
-    bench.arbiter.plug(stick("pedal"))
+    bench.arbiter.plug(make_stick("pedal"))
     bench.state["pedal"] = (REST, ())
     bench.run(0.2)
-    assert bench.say("pedal", held=("dead",)).step().deflections == {"x": 0.0, "y": 0.0}
+    assert bench.report("pedal", held=("dead",)).step().deflections == {"x": 0.0, "y": 0.0}
     assert bench.arbiter.problems == ()
 
 
-def test_losing_the_pedal_of_a_seat_stops_its_stick():
-    pedal = DeviceMapping(key="p", actions=(ActionMapping(control="stop", action=Action.STOP),))
-    bench = Bench(mapping("a"), pedal, devices=("a", "p"))
+def test_losing_a_pedal_stops_the_stick_of_its_seat():
+    pedal = DeviceMapping(
+        key="p", actions=(ActionMapping(control="stop", action=OperatorAction.STOP),)
+    )
+    bench = ArbiterBench(make_mapping("a"), pedal, devices=("a", "p"))
     bench.run(0.2)
-    bench.say(axes=(1.0, 0.0)).step()
+    bench.report(axes=(1.0, 0.0)).step()
     bench.arbiter.unplug("p")
     intents = bench.run(0.5)
-    assert lost(intents) == ["stick p: unplugged"]
+    assert list_losses(intents) == ["stick p: unplugged"]
     assert "x" not in intents[-1].deflections
 
 
-def test_a_device_without_a_part_may_come_and_go():
-    bench = Bench(devices=("a", "spare"))
+def test_a_device_without_a_mapping_may_come_and_go():
+    bench = ArbiterBench(devices=("a", "spare"))
     bench.run(0.2)
-    bench.say(axes=(1.0, 0.0)).step()
+    bench.report(axes=(1.0, 0.0)).step()
     bench.arbiter.unplug("spare")
-    assert lost(bench.run(0.1)) == []
+    assert list_losses(bench.run(0.1)) == []
     assert bench.step().deflections["x"] == 1.0
 
 
 def test_an_axis_beyond_a_threshold_is_a_button():
     actions = (
-        ActionMapping(control="Y", action=Action.STOP, at=-0.9),
-        ActionMapping(control="Y", action=Action.FINE, at=0.5),
+        ActionMapping(control="Y", action=OperatorAction.STOP, at=-0.9),
+        ActionMapping(control="Y", action=OperatorAction.FINE, at=0.5),
     )
-    bench = Bench(DeviceMapping(key="a", actions=actions))
+    bench = ArbiterBench(DeviceMapping(key="a", actions=actions))
     bench.run(0.1)
-    assert bench.say(axes=(0.0, 0.8)).step().held == {Action.FINE}
-    bench.say(axes=(0.0, 0.0)).run(0.1)
-    assert pressed(bench.say(axes=(0.0, -1.0)).run(0.1)) == [Action.STOP]
+    assert bench.report(axes=(0.0, 0.8)).step().held == {OperatorAction.FINE}
+    bench.report(axes=(0.0, 0.0)).run(0.1)
+    assert list_presses(bench.report(axes=(0.0, -1.0)).run(0.1)) == [OperatorAction.STOP]
 
 
 def test_a_jittering_axis_presses_nothing():
-    bench = Bench(
-        DeviceMapping(key="a", actions=(ActionMapping(control="Y", action=Action.STAGE, at=0.5),))
+    bench = ArbiterBench(
+        DeviceMapping(
+            key="a", actions=(ActionMapping(control="Y", action=OperatorAction.STAGE, at=0.5),)
+        )
     )
     intents = []
     for count in range(200):
-        intents.append(bench.say(axes=(0.0, 1.0 if count % 2 else -1.0)).step())
-    assert len(pressed(intents)) < 6
-    assert pressed(intents[30:]) == []
+        intents.append(bench.report(axes=(0.0, 1.0 if count % 2 else -1.0)).step())
+    assert len(list_presses(intents)) < 6
+    assert list_presses(intents[30:]) == []
 
 
 # Mapping
 
 
-def test_while_mappings_are_made_nothing_is_sent_but_stops():
-    bench = Bench()
+def test_while_the_mapping_is_open_only_stops_are_sent():
+    bench = ArbiterBench()
     bench.run(0.2)
-    bench.say(axes=(1.0, 0.0)).step()
+    bench.report(axes=(1.0, 0.0)).step()
     bench.arbiter.open_mapping()
-    assert bench.arbiter.mapping_open
-    intents = bench.run(0.2) + bench.say(held=("stage", "fine")).run(0.1)
-    assert lost(intents) == ["input devices are being set up"]
+    assert bench.arbiter.is_mapping_open
+    intents = bench.run(0.2) + bench.report(held=("stage", "fine")).run(0.1)
+    assert list_losses(intents) == ["input devices are being set up"]
     assert all((i.deflections, i.pressed, i.held) == ({}, set(), set()) for i in intents)
-    intents = bench.say(held=("stop",)).run(0.1)
-    assert pressed(intents) == [Action.STOP]
-    assert intents[-1].held == {Action.STOP}
-    assert bench.arbiter.views[0].axes[0].raw == 1.0
+    intents = bench.report(held=("stop",)).run(0.1)
+    assert list_presses(intents) == [OperatorAction.STOP]
+    assert intents[-1].held == {OperatorAction.STOP}
+    assert bench.arbiter.device_views[0].axes[0].raw == 1.0
 
 
-def test_afterwards_sticks_and_buttons_must_be_let_go_of():
-    bench = Bench()
+def test_after_the_mapping_sticks_and_buttons_must_be_released():
+    bench = ArbiterBench()
     bench.run(0.2)
     bench.arbiter.open_mapping()
-    bench.say(axes=(1.0, 0.0), held=("stage",)).run(0.2)
+    bench.report(axes=(1.0, 0.0), held=("stage",)).run(0.2)
     bench.arbiter.close_mapping()
     intents = bench.run(0.5)
     assert "x" not in intents[-1].deflections
-    assert pressed(intents) == []
-    bench.say(axes=REST).run(0.2)
-    assert pressed(bench.say(held=("stage",)).run(0.1)) == [Action.STAGE]
+    assert list_presses(intents) == []
+    bench.report(axes=REST).run(0.2)
+    assert list_presses(bench.report(held=("stage",)).run(0.1)) == [OperatorAction.STAGE]
     assert bench.step().deflections == {"x": 0.0, "y": 0.0}
 
 
 @pytest.mark.parametrize(("raw", "acts"), [(0.02, True), (0.5, False)])
-def test_one_that_speaks_only_of_changes_is_remembered_when_all_begins_anew(raw, acts):
-    bench = Bench()
-    bench.say(axes=(raw, 0.0), held=("stage", "stop")).run(0.2)
-    bench.silence()
+def test_the_state_of_a_device_that_reports_changes_survives_a_new_profile(raw, acts):
+    bench = ArbiterBench()
+    bench.report(axes=(raw, 0.0), held=("stage", "stop")).run(0.2)
+    bench.stop_reporting()
     bench.arbiter.open_mapping()
     bench.step()
     bench.arbiter.close_mapping()
-    bench.arbiter.use(profile(mapping("a")))
+    bench.arbiter.use_profile(make_profile(make_mapping("a")))
     intents = bench.run(0.5)
     assert ("x" in intents[-1].deflections) is acts
-    assert intents[-1].held == {Action.STOP}
-    assert bench.arbiter.views[0].axes[0].raw == raw
+    assert intents[-1].held == {OperatorAction.STOP}
+    assert bench.arbiter.device_views[0].axes[0].raw == raw
 
 
-def test_what_a_silent_stream_said_is_not_remembered():
-    bench = Bench(streams=True)
+def test_the_state_of_a_silent_stream_is_forgotten():
+    bench = ArbiterBench(streams=True)
     bench.run(0.2)
-    bench.silence()
+    bench.stop_reporting()
     bench.run(0.5)
-    bench.arbiter.use(profile(mapping("a", drives=("thx", "thy"))))
+    bench.arbiter.use_profile(make_profile(make_mapping("a", drives=("thx", "thy"))))
     assert bench.run(0.1)[-1].deflections == {}
 
 
-def test_another_profile_acts_after_the_centre_and_a_bad_one_not_at_all():
-    bench = Bench()
+def test_another_profile_acts_after_centring_and_a_bad_one_not_at_all():
+    bench = ArbiterBench()
     bench.run(0.2)
-    bench.say(axes=(1.0, 0.0)).step()
-    with pytest.raises(ProfileError, match="two owners"):
-        bench.arbiter.use(profile(mapping("a", drives=("z", "zn"))))
-    with pytest.raises(ProfileError, match="has no button 'nine'"):
-        bench.arbiter.use(
-            profile(
-                DeviceMapping(key="*", actions=(ActionMapping(control="nine", action=Action.STOP),))
+    bench.report(axes=(1.0, 0.0)).step()
+    with pytest.raises(InputProfileError, match="two owners"):
+        bench.arbiter.use_profile(make_profile(make_mapping("a", drives=("z", "zn"))))
+    with pytest.raises(InputProfileError, match="has no button 'nine'"):
+        bench.arbiter.use_profile(
+            make_profile(
+                DeviceMapping(
+                    key="*", actions=(ActionMapping(control="nine", action=OperatorAction.STOP),)
+                )
             )
         )
     assert bench.step().deflections == {"x": 1.0, "y": 0.0}
-    bench.arbiter.use(profile(mapping("a", drives=("thx", "thy"))))
-    assert lost([bench.step()]) == ["another profile is now in use"]
+    bench.arbiter.use_profile(make_profile(make_mapping("a", drives=("thx", "thy"))))
+    assert list_losses([bench.step()]) == ["another profile is now in use"]
     assert bench.step().deflections == {}
-    assert bench.say(axes=REST).run(0.2)[-1].deflections == {"thx": 0.0, "thy": 0.0}
+    assert bench.report(axes=REST).run(0.2)[-1].deflections == {"thx": 0.0, "thy": 0.0}
 
 
-def test_a_profile_for_another_device_drives_nothing_and_says_so():
-    bench = Bench(mapping("hid:046d:*"))
+def test_a_profile_for_another_device_drives_nothing_and_reports_it():
+    bench = ArbiterBench(make_mapping("hid:046d:*"))
     assert bench.run(1.0)[-1].deflections == {}
     assert bench.arbiter.problems == (
         "profile 'Bench' needs hid:046d:*, which is not connected; connected: stick a (a). "
@@ -457,18 +467,18 @@ def test_a_profile_for_another_device_drives_nothing_and_says_so():
     )
 
 
-def test_without_a_profile_nothing_is_driven_and_a_bad_one_is_refused_at_once():
+def test_without_a_profile_nothing_moves_and_a_bad_one_is_refused_at_once():
     arbiter = InputArbiter(ROBOT)
-    arbiter.plug(stick("a"))
+    arbiter.plug(make_stick("a"))
     intent = arbiter.step({"a": [InputReading(0.0, REST, (True,) * 5)]}, 0.0)
     assert (intent.deflections, intent.pressed, intent.device) == ({}, set(), "")
     assert "no profile" in arbiter.problems[0]
-    with pytest.raises(ProfileError):
-        InputArbiter(("x",), profile(mapping("a", drives=("phi",))))
+    with pytest.raises(InputProfileError):
+        InputArbiter(("x",), make_profile(make_mapping("a", drives=("phi",))))
 
 
-def test_readings_of_a_device_that_has_gone_are_passed_over():
-    bench = Bench()
+def test_readings_of_an_unplugged_device_are_ignored():
+    bench = ArbiterBench()
     bench.arbiter.unplug("a")
     bench.arbiter.unplug("a")
     assert bench.run(0.1)[-1].deflections == {}
@@ -478,114 +488,118 @@ def test_readings_of_a_device_that_has_gone_are_passed_over():
 
 
 @pytest.fixture
-def school():
-    """Return a bench at which trainer ``a`` drives, and trainee ``b`` looks on."""
-    bench = Bench(mapping("a"), mapping("b", OperatorRole.TRAINEE), devices=("a", "b"))
+def training_bench():
+    """Return a bench at which trainer ``a`` drives and trainee ``b`` watches."""
+    bench = ArbiterBench(
+        make_mapping("a"), make_mapping("b", OperatorRole.TRAINEE), devices=("a", "b")
+    )
     bench.run(0.2)
     return bench
 
 
-def give_to_the_trainee(bench):
-    bench.say("b", held=("take",)).run(0.1)
-    return bench.say("b", axes=REST).run(0.2)
+def give_control_to_trainee(bench):
+    bench.report("b", held=("take",)).run(0.1)
+    return bench.report("b", axes=REST).run(0.2)
 
 
-def test_the_trainee_looks_on_but_may_stop(school):
-    intents = school.say("b", axes=(1.0, 0.0), held=("stage", "fine")).run(0.2)
+def test_the_trainee_cannot_drive_but_can_stop(training_bench):
+    intents = training_bench.report("b", axes=(1.0, 0.0), held=("stage", "fine")).run(0.2)
     assert intents[-1].deflections == {"x": 0.0, "y": 0.0}
-    assert (pressed(intents), intents[-1].held, intents[-1].device) == ([], set(), "a")
-    assert pressed(school.say("b", held=("stop",)).run(0.1)) == [Action.STOP]
+    assert (list_presses(intents), intents[-1].held, intents[-1].device) == ([], set(), "a")
+    assert list_presses(training_bench.report("b", held=("stop",)).run(0.1)) == [
+        OperatorAction.STOP
+    ]
 
 
-def test_the_trainee_takes_over_by_the_button_and_from_rest(school):
-    intents = school.say("b", axes=(1.0, 0.0), held=("take",)).run(0.2)
-    assert lost(intents) == ["the trainee has taken over"]
-    assert pressed(intents) == [Action.TAKE_OVER]
+def test_the_trainee_takes_over_with_the_button_and_from_rest(training_bench):
+    intents = training_bench.report("b", axes=(1.0, 0.0), held=("take",)).run(0.2)
+    assert list_losses(intents) == ["the trainee has taken over"]
+    assert list_presses(intents) == [OperatorAction.TAKE_OVER]
     assert "x" not in intents[-1].deflections
-    school.say("b", axes=REST).run(0.2)
-    intent = school.say("b", axes=(0.0, 1.0)).step()
+    training_bench.report("b", axes=REST).run(0.2)
+    intent = training_bench.report("b", axes=(0.0, 1.0)).step()
     assert (intent.deflections, intent.device) == ({"x": 0.0, "y": 1.0}, "b")
-    assert [view.drives for view in school.arbiter.views] == [False, True]
+    assert [view.is_driving for view in training_bench.arbiter.device_views] == [False, True]
 
 
-@pytest.mark.parametrize("how", [{"axes": (0.4, 0.0)}, {"held": ("take",)}])
-def test_the_trainer_takes_over_at_once_by_moving_or_by_the_button(school, how):
-    give_to_the_trainee(school)
-    school.say("b", axes=(1.0, 0.0)).step()
-    intent = school.say("a", **how).step()
-    assert intent.lost == "the trainer has taken over"
-    assert "x" not in intent.deflections or how.get("held")
+@pytest.mark.parametrize("report", [{"axes": (0.4, 0.0)}, {"held": ("take",)}])
+def test_the_trainer_takes_over_at_once_by_moving_or_by_the_button(training_bench, report):
+    give_control_to_trainee(training_bench)
+    training_bench.report("b", axes=(1.0, 0.0)).step()
+    intent = training_bench.report("a", **report).step()
+    assert intent.loss_reason == "the trainer has taken over"
+    assert "x" not in intent.deflections or report.get("held")
     assert 1.0 not in intent.deflections.values()
-    assert school.arbiter.driving is OperatorRole.TRAINER
-    assert school.say("a", axes=REST).run(0.2)[-1].deflections == {"x": 0.0, "y": 0.0}
+    assert training_bench.arbiter.driving_seat is OperatorRole.TRAINER
+    assert training_bench.report("a", axes=REST).run(0.2)[-1].deflections == {"x": 0.0, "y": 0.0}
 
 
-def test_a_trainer_who_takes_over_by_moving_drives_from_rest_only(school):
-    give_to_the_trainee(school)
-    intents = school.say("a", axes=(0.9, 0.0)).run(1.0)
+def test_a_trainer_who_takes_over_by_moving_drives_from_rest_only(training_bench):
+    give_control_to_trainee(training_bench)
+    intents = training_bench.report("a", axes=(0.9, 0.0)).run(1.0)
     assert all("x" not in intent.deflections for intent in intents)
-    assert "release it first" in school.reasons("a")[0]
+    assert "release it first" in training_bench.list_reasons("a")[0]
 
 
-def test_a_touch_of_the_trainers_stick_does_not_take_over(school):
-    give_to_the_trainee(school)
-    assert lost(school.say("a", axes=(0.2, 0.0)).run(0.5)) == []
-    assert school.arbiter.driving is OperatorRole.TRAINEE
+def test_a_touch_of_the_trainers_stick_does_not_take_over(training_bench):
+    give_control_to_trainee(training_bench)
+    assert list_losses(training_bench.report("a", axes=(0.2, 0.0)).run(0.5)) == []
+    assert training_bench.arbiter.driving_seat is OperatorRole.TRAINEE
 
 
-def test_the_trainer_never_gives_the_drive_away_by_the_same_button(school):
-    school.say("a", held=("take",)).run(0.1)
-    assert school.arbiter.driving is OperatorRole.TRAINER
+def test_the_trainer_cannot_give_up_control_with_the_same_button(training_bench):
+    training_bench.report("a", held=("take",)).run(0.1)
+    assert training_bench.arbiter.driving_seat is OperatorRole.TRAINER
 
 
-def test_the_trainee_does_not_get_it_while_the_trainer_moves(school):
-    school.say("a", axes=(1.0, 0.0)).step()
-    assert lost(school.say("b", held=("take",)).run(0.2)) == []
-    assert school.step().deflections["x"] == 1.0
+def test_the_trainee_gets_no_control_while_the_trainer_moves(training_bench):
+    training_bench.report("a", axes=(1.0, 0.0)).step()
+    assert list_losses(training_bench.report("b", held=("take",)).run(0.2)) == []
+    assert training_bench.step().deflections["x"] == 1.0
 
 
-def test_the_trainee_does_not_get_it_back_by_moving(school):
-    give_to_the_trainee(school)
-    school.say("a", held=("take",)).run(0.1)
-    school.say("a").run(0.1)
-    assert lost(school.say("b", axes=(1.0, 1.0)).run(0.5)) == []
-    assert school.arbiter.driving is OperatorRole.TRAINER
+def test_the_trainee_does_not_regain_control_by_moving(training_bench):
+    give_control_to_trainee(training_bench)
+    training_bench.report("a", held=("take",)).run(0.1)
+    training_bench.report("a").run(0.1)
+    assert list_losses(training_bench.report("b", axes=(1.0, 1.0)).run(0.5)) == []
+    assert training_bench.arbiter.driving_seat is OperatorRole.TRAINER
 
 
-def test_without_the_trainer_the_trainee_does_not_drive(school):
-    give_to_the_trainee(school)
-    school.say("b", axes=(1.0, 0.0)).step()
-    school.arbiter.unplug("a")
-    intents = school.run(0.2)
-    assert "the trainee cannot drive alone" in lost(intents)[0]
+def test_without_the_trainer_the_trainee_does_not_drive(training_bench):
+    give_control_to_trainee(training_bench)
+    training_bench.report("b", axes=(1.0, 0.0)).step()
+    training_bench.arbiter.unplug("a")
+    intents = training_bench.run(0.2)
+    assert "the trainee cannot drive alone" in list_losses(intents)[0]
     assert intents[-1].deflections == {}
-    assert lost(school.say("b", held=("take",)).run(0.2)) == []
+    assert list_losses(training_bench.report("b", held=("take",)).run(0.2)) == []
 
 
-def test_a_dead_man_guards_its_own_seat_only():
-    trainer, trainee = mapping("a"), mapping("b", OperatorRole.TRAINEE, without=())
-    bench = Bench(trainer, trainee, devices=("a", "b"))
+def test_a_dead_man_switch_guards_only_its_own_seat():
+    trainer, trainee = make_mapping("a"), make_mapping("b", OperatorRole.TRAINEE, excluded=())
+    bench = ArbiterBench(trainer, trainee, devices=("a", "b"))
     bench.run(0.2)
     assert bench.step().deflections == {"x": 0.0, "y": 0.0}
-    give_to_the_trainee(bench)
+    give_control_to_trainee(bench)
     assert bench.run(0.2)[-1].deflections == {}
-    assert bench.say("b", held=("dead",)).step().deflections == {"x": 0.0, "y": 0.0}
+    assert bench.report("b", held=("dead",)).step().deflections == {"x": 0.0, "y": 0.0}
 
 
-def test_the_drive_does_not_change_while_mappings_are_made(school):
-    school.arbiter.open_mapping()
-    school.say("b", held=("take",)).run(0.1)
-    school.arbiter.close_mapping()
-    school.run(0.1)
-    assert school.arbiter.driving is OperatorRole.TRAINER
+def test_control_does_not_change_while_the_mapping_is_open(training_bench):
+    training_bench.arbiter.open_mapping()
+    training_bench.report("b", held=("take",)).run(0.1)
+    training_bench.arbiter.close_mapping()
+    training_bench.run(0.1)
+    assert training_bench.arbiter.driving_seat is OperatorRole.TRAINER
 
 
-# Whatever happens
+# Any sequence of events
 
 RAW = st.sampled_from([0.0, 0.02, 0.3, -0.7, 1.0, -1.0, nan, 3.0])
 EVENTS = st.one_of(
     st.tuples(
-        st.just("say"),
+        st.just("report"),
         st.sampled_from("ab"),
         st.tuples(RAW, RAW),
         st.sets(st.sampled_from(BUTTONS)),
@@ -596,30 +610,33 @@ EVENTS = st.one_of(
 
 
 @given(st.lists(st.tuples(EVENTS, st.sampled_from([1, 3, 20])), max_size=30), st.booleans())
-def test_what_no_conversation_can_bring_about(events, streams):
-    """No deflection without trust, dead-man and a closed mapping; a stop is always heard."""
-    bench = Bench(
-        mapping("a", without=()),
-        mapping("b", OperatorRole.TRAINEE),
+def test_invariants_hold_for_any_sequence_of_events(events, streams):
+    """Deflections need trust, the dead-man switch and a closed mapping; a stop always acts."""
+    bench = ArbiterBench(
+        make_mapping("a", excluded=()),
+        make_mapping("b", OperatorRole.TRAINEE),
         devices=("a", "b"),
         streams=streams,
     )
     for (name, *details), steps in events:
-        if name == "say":
-            bench.say(*details)
+        if name == "report":
+            bench.report(*details)
         elif name == "plug":
-            bench.arbiter.plug(stick(details[0], streams))
+            bench.arbiter.plug(make_stick(details[0], streams))
         else:
             getattr(bench.arbiter, name)(*details)
         for intent in bench.run(steps * STEP_S):
             assert intent.pressed <= intent.held
-        views = bench.arbiter.views
-        said = [bench.state[view.device.identity.key] for view in views]
+        views = bench.arbiter.device_views
+        states = [bench.state[view.device.identity.key] for view in views]
         if steps == 20:
-            assert (Action.STOP in intent.held) is any("stop" in held for _, held in said)
+            assert (OperatorAction.STOP in intent.held) is any("stop" in held for _, held in states)
         if intent.deflections:
-            assert not bench.arbiter.mapping_open
-            assert bench.arbiter.driving is OperatorRole.TRAINEE or Action.DEAD_MAN in intent.held
-            (view,) = (view for view in views if view.drives)
+            assert not bench.arbiter.is_mapping_open
+            assert (
+                bench.arbiter.driving_seat is OperatorRole.TRAINEE
+                or OperatorAction.DEAD_MAN in intent.held
+            )
+            (view,) = (view for view in views if view.is_driving)
             assert set(intent.deflections) == {axis.drives for axis in view.axes if not axis.reason}
             assert all(abs(value) <= 1.0 for value in intent.deflections.values())

@@ -1,23 +1,22 @@
-"""Input devices found, opened, read and lost, with the arbiter told of it all."""
+"""Detecting, opening, reading and losing input devices, and their reports to the arbiter."""
 
 import threading
 
 import pytest
 
-from rotemina.app.motion.teleoperation.input_devices import InputDevices, automatic_profile
-from rotemina.app.motion.teleoperation.intent import Action
-from rotemina.app.motion.teleoperation.profile import (
+from rotemina.app.errors import InputProfileError
+from rotemina.app.motion.inputs import (
     AxisMapping,
     DeviceMapping,
+    InputDevices,
+    InputProfile,
+    OperatorAction,
     OperatorRole,
-    Profile,
-    ProfileError,
+    PluggedDevice,
 )
-from rotemina.app.motion.teleoperation.profile_check import PluggedDevice
-from rotemina.drivers.clock import VirtualClock
-from rotemina.drivers.inputs.device import InputIdentity
-from rotemina.drivers.inputs.hub import InputHub
-from rotemina.drivers.inputs.pad import Pad
+from rotemina.app.motion.inputs.input_devices import make_automatic_profile
+from rotemina.drivers.contract import VirtualClock
+from rotemina.drivers.inputs import InputHub, InputIdentity, InputPad
 
 ROBOT = ("x", "y", "z", "thx", "thy", "zn")
 TICK_S = 0.005
@@ -28,12 +27,12 @@ def clock():
     return VirtualClock(3.0)
 
 
-def pad(clock, label="pad", buttons=("stop", "stage")):
-    return Pad(label, buttons=buttons, clock=clock)
+def make_pad(clock, label="pad", buttons=("stop", "stage")):
+    return InputPad(label, buttons=buttons, clock=clock)
 
 
-class Stick(Pad):
-    """A pad that is taken for a joystick."""
+class Stick(InputPad):
+    """A pad that identifies itself as a joystick."""
 
     def __init__(self, label, clock):
         super().__init__(label, buttons=("stop", "take_over"), clock=clock)
@@ -46,228 +45,234 @@ def stick(clock):
 
 
 @pytest.fixture
-def make(clock, tmp_path):
-    made = []
+def make_devices(clock, tmp_path):
+    created = []
 
-    def make(*sources):
+    def make_devices(*sources):
         hub = InputHub({source.identity.key: source for source in sources})
         devices = InputDevices(hub, ROBOT, tmp_path)
-        made.append(devices)
-        devices.look()
+        created.append(devices)
+        devices.detect_changes()
         return devices
 
-    yield make
-    for devices in made:
+    yield make_devices
+    for devices in created:
         devices.close()
 
 
 def run(devices, clock, seconds=0.3):
     for _ in range(round(seconds / TICK_S)):
         clock.advance(TICK_S)
-        heard = devices.step(clock())
-    return heard
+        update = devices.step(clock())
+    return update
 
 
-def test_a_device_that_is_there_drives_when_seen_at_rest(make, clock, stick):
-    devices = make(stick)
+def test_a_device_drives_after_it_was_at_rest(make_devices, clock, stick):
+    devices = make_devices(stick)
     assert run(devices, clock).intent.deflections == {"x": 0.0, "y": 0.0, "z": 0.0}
     stick.deflect("x", 1.0)
-    heard = run(devices, clock, TICK_S)
-    assert heard.intent.deflections["x"] == 1.0
-    assert heard.intent.device == "hid:stick"
-    assert heard.readings["hid:stick"][-1].axes == (1.0, 0.0, 0.0)
+    update = run(devices, clock, TICK_S)
+    assert update.intent.deflections["x"] == 1.0
+    assert update.intent.device == "hid:stick"
+    assert update.readings["hid:stick"][-1].axes == (1.0, 0.0, 0.0)
     assert devices.profile.name == "Automatic"
     assert devices.view.problems == ()
 
 
-def test_unplugged_it_is_lost_once_and_replugged_it_must_be_seen_at_rest(make, clock, stick):
-    devices = make(stick)
+def test_an_unplugged_device_is_lost_once_and_must_be_at_rest_after_replugging(
+    make_devices, clock, stick
+):
+    devices = make_devices(stick)
     run(devices, clock)
-    stick.withdraw()
-    lost = run(devices, clock, TICK_S).intent
-    assert "was removed" in lost.lost
-    assert lost.deflections == {}
-    assert run(devices, clock, TICK_S).intent.lost is None
-    stick.offer()
+    stick.unplug()
+    intent = run(devices, clock, TICK_S).intent
+    assert "was removed" in intent.loss_reason
+    assert intent.deflections == {}
+    assert run(devices, clock, TICK_S).intent.loss_reason is None
+    stick.plug_in()
     stick.deflect("x", 0.8)
-    devices.look()
+    devices.detect_changes()
     assert "x" not in run(devices, clock).intent.deflections
     stick.deflect("x", 0.0)
     assert run(devices, clock).intent.deflections["x"] == 0.0
 
 
-def test_a_joystick_goes_before_the_pad_which_may_take_over(make, clock, stick):
-    keys = pad(clock, buttons=("stop", "take_over"))
-    devices = make(keys)
+def test_a_joystick_has_priority_over_the_pad_which_may_take_over(make_devices, clock, stick):
+    pad = make_pad(clock, buttons=("stop", "take_over"))
+    devices = make_devices(pad)
     run(devices, clock)
     assert devices.profile.devices[0].key == "keys:pad"
     devices.hub._sources["hid:stick"] = stick  # plugged in later
-    devices.look()
+    devices.detect_changes()
     run(devices, clock)
-    assert [(one.key, one.seat) for one in devices.profile.devices] == [
+    assert [(device.key, device.seat) for device in devices.profile.devices] == [
         ("hid:stick", OperatorRole.TRAINER),
         ("keys:pad", OperatorRole.TRAINEE),
     ]
-    keys.deflect("x", 1.0)
+    pad.deflect("x", 1.0)
     assert run(devices, clock).intent.deflections["x"] == 0.0
-    keys.release_all()
-    keys.hold("take_over")
+    pad.release_all()
+    pad.hold("take_over")
     run(devices, clock)
-    keys.hold("take_over", False)
-    keys.deflect("x", 1.0)
+    pad.hold("take_over", False)
+    pad.deflect("x", 1.0)
     assert run(devices, clock).intent.device == "keys:pad"
-    keys.hold("stop")
-    assert Action.STOP in run(devices, clock, 0.1).intent.held
-    stick.withdraw()
-    devices.look()
+    pad.hold("stop")
+    assert OperatorAction.STOP in run(devices, clock, 0.1).intent.held
+    stick.unplug()
+    devices.detect_changes()
     run(devices, clock)
     assert devices.profile.devices[0].key == "keys:pad"
     assert devices.profile.devices[0].seat is OperatorRole.TRAINER
 
 
-def test_a_kept_profile_that_fits_is_used_by_itself(make, clock, stick):
-    own = Profile(
+def test_a_saved_profile_that_fits_is_used_automatically(make_devices, clock, stick):
+    saved_profile = InputProfile(
         name="Mine",
         devices=(DeviceMapping(key="hid:st*", axes=(AxisMapping(control="x", drives="zn"),)),),
     )
-    first = make(stick)
-    first.keep(own)
-    first.close()
-    devices = make(stick)
+    first_devices = make_devices(stick)
+    first_devices.save_profile(saved_profile)
+    first_devices.close()
+    devices = make_devices(stick)
     assert run(devices, clock).intent.deflections == {"zn": 0.0}
-    assert devices.profile == own
+    assert devices.profile == saved_profile
 
 
-def test_a_chosen_profile_stays_until_another_one_is_chosen(make, clock, stick):
-    other = Profile(
+def test_a_chosen_profile_stays_until_another_one_is_chosen(make_devices, clock, stick):
+    other = InputProfile(
         name="Elsewhere",
         devices=(DeviceMapping(key="hid:other", axes=(AxisMapping(control="x", drives="x"),)),),
     )
-    devices = make(stick)
+    devices = make_devices(stick)
     run(devices, clock)
-    devices.use(other)
+    devices.use_profile(other)
     assert run(devices, clock).intent.deflections == {}
     assert any("hid:other" in problem for problem in devices.view.problems)
-    devices.use(None)
+    devices.use_profile(None)
     assert run(devices, clock).intent.deflections["x"] == 0.0
 
 
-def test_back_to_automatic_what_was_chosen_is_used_no_more(make, clock, stick):
+def test_without_a_chosen_profile_the_automatic_one_is_used_again(make_devices, clock, stick):
     mapping = DeviceMapping(key="hid:stick", axes=(AxisMapping(control="x", drives="zn"),))
-    devices = make(stick)
+    devices = make_devices(stick)
     run(devices, clock)
-    devices.use(Profile(name="Other", devices=(mapping,)))
+    devices.use_profile(InputProfile(name="Other", devices=(mapping,)))
     assert run(devices, clock).intent.deflections == {"zn": 0.0}
-    devices.use(None)
+    devices.use_profile(None)
     assert run(devices, clock).intent.deflections == {"x": 0.0, "y": 0.0, "z": 0.0}
 
 
-def test_a_profile_with_two_owners_of_one_axis_is_refused_and_the_one_before_stays(
-    make, clock, stick
+def test_a_profile_with_two_owners_of_an_axis_is_refused_and_the_previous_one_stays(
+    make_devices, clock, stick
 ):
-    devices = make(stick)
+    devices = make_devices(stick)
     run(devices, clock)
     axes = (AxisMapping(control="x", drives="x"), AxisMapping(control="y", drives="x"))
-    with pytest.raises(ProfileError, match="two owners"):
-        devices.use(Profile(name="Both", devices=(DeviceMapping(key="hid:stick", axes=axes),)))
+    with pytest.raises(InputProfileError, match="two owners"):
+        devices.use_profile(
+            InputProfile(name="Both", devices=(DeviceMapping(key="hid:stick", axes=axes),))
+        )
     assert devices.profile.name == "Automatic"
     assert run(devices, clock).intent.deflections["y"] == 0.0
 
 
-def test_a_device_that_raises_anything_is_dropped_and_the_others_go_on(make, clock, stick):
-    keys = pad(clock)
-    devices = make(stick, keys)
+def test_a_device_that_raises_an_error_is_dropped_and_the_others_continue(
+    make_devices, clock, stick
+):
+    pad = make_pad(clock)
+    devices = make_devices(stick, pad)
     run(devices, clock)
 
-    def broken():
+    def raise_error():
         raise RuntimeError("a bug of a plugin")
 
-    devices.device("hid:stick").read = broken
+    devices.find_device("hid:stick").read = raise_error
     intent = run(devices, clock, TICK_S).intent
-    assert "a bug of a plugin" in intent.lost
+    assert "a bug of a plugin" in intent.loss_reason
     assert run(devices, clock).intent.deflections["x"] == 0.0  # the pad drives now
-    assert [one.device.identity.key for one in devices.view.devices] == ["keys:pad"]
-    devices.look()
+    assert [view.device.identity.key for view in devices.view.devices] == ["keys:pad"]
+    devices.detect_changes()
     run(devices, clock)
-    assert {one.device.identity.key for one in devices.view.devices} == {"hid:stick", "keys:pad"}
+    assert {view.device.identity.key for view in devices.view.devices} == {"hid:stick", "keys:pad"}
 
 
-def test_a_calibration_is_used_and_kept(make, clock, stick):
-    devices = make(stick)
+def test_a_calibration_is_used_and_saved(make_devices, clock, stick):
+    devices = make_devices(stick)
     run(devices, clock)
-    calibration = devices.calibrations.load(stick.identity)
-    turned = calibration.with_axes({"x": calibration.axis("x").__class__(inverted=True)})
-    devices.calibrate("hid:stick", turned)
+    calibration = devices.calibrations.load_or_default(stick.identity)
+    inverted = calibration.with_axes({"x": calibration.find_axis("x").__class__(inverted=True)})
+    devices.use_calibration("hid:stick", inverted)
     run(devices, clock)
     stick.deflect("x", 1.0)
     assert run(devices, clock, TICK_S).intent.deflections["x"] == -1.0
-    assert devices.calibrations.read(stick.identity) == turned
+    assert devices.calibrations.read(stick.identity) == inverted
 
 
-def test_a_view_is_taken_seldom_but_at_once_after_a_change(make, clock, stick):
-    devices = make(stick)
+def test_the_view_is_updated_at_30_hz_and_at_once_after_a_change(make_devices, clock, stick):
+    devices = make_devices(stick)
     run(devices, clock)
-    before = devices.view
+    previous_view = devices.view
     run(devices, clock, TICK_S)
     run(devices, clock, TICK_S)
     assert clock() - devices.view.host_time_s <= 1.0 / 30.0
     devices.open_mapping()
     run(devices, clock, TICK_S)
     view = devices.view
-    assert view is not before
-    assert view.setting_up
+    assert view is not previous_view
+    assert view.is_mapping_open
     assert view.host_time_s == clock()
-    assert [one.device.identity.key for one in view.devices] == ["hid:stick"]
+    assert [device.device.identity.key for device in view.devices] == ["hid:stick"]
     assert view.profile == devices.profile
 
 
-def test_who_listens_is_told_every_step_until_it_leaves(make, clock, stick):
-    devices = make(stick)
+def test_a_listener_is_called_every_step_until_it_is_removed(make_devices, clock, stick):
+    devices = make_devices(stick)
     run(devices, clock)
-    heard = []
-    leave = devices.listen(heard.append)
+    updates = []
+    remove_listener = devices.add_listener(updates.append)
     stick.deflect("x", 0.5)
     run(devices, clock, 2 * TICK_S)
-    leave()
+    remove_listener()
     stick.deflect("x", 1.0)
     run(devices, clock, TICK_S)
-    told = [one.readings["hid:stick"] for one in heard]
-    assert [len(readings) for readings in told] == [1, 0]
-    assert told[0][0].axes == (0.5, 0.0, 0.0)
+    readings_per_step = [update.readings["hid:stick"] for update in updates]
+    assert [len(readings) for readings in readings_per_step] == [1, 0]
+    assert readings_per_step[0][0].axes == (0.5, 0.0, 0.0)
 
 
-def test_nobody_waits_while_a_device_is_opened(make, clock, stick):
-    devices = make(stick)
-    opened = stick.open
+def test_other_threads_do_not_wait_while_a_device_is_opened(make_devices, clock, stick):
+    devices = make_devices(stick)
+    open_stick = stick.open
 
-    def slowly(identity):
-        other = threading.Thread(target=devices.open_mapping, daemon=True)
-        other.start()
-        other.join(5.0)
-        assert not other.is_alive()
-        return opened(identity)
+    def open_slowly(identity):
+        thread = threading.Thread(target=devices.open_mapping, daemon=True)
+        thread.start()
+        thread.join(5.0)
+        assert not thread.is_alive()
+        return open_stick(identity)
 
-    stick.open = slowly
+    stick.open = open_slowly
     run(devices, clock, TICK_S)
-    assert devices.view.setting_up
-    assert [one.device.identity.key for one in devices.view.devices] == ["hid:stick"]
+    assert devices.view.is_mapping_open
+    assert [device.device.identity.key for device in devices.view.devices] == ["hid:stick"]
 
 
-def test_a_device_that_turns_out_to_stream_is_lost_when_it_falls_silent(make, clock, stick):
-    devices = make(stick)
+def test_a_device_that_turns_out_to_stream_is_lost_when_silent(make_devices, clock, stick):
+    devices = make_devices(stick)
     run(devices, clock)
-    assert not devices.arbiter.views[0].device.streams
-    devices.device("hid:stick").streams = True
+    assert not devices.arbiter.device_views[0].device.streams
+    devices.find_device("hid:stick").streams = True
     run(devices, clock, TICK_S)
-    assert devices.arbiter.views[0].device.streams
+    assert devices.arbiter.device_views[0].device.streams
     run(devices, clock, 0.5)
     assert "silent: a streaming device" in devices.view.devices[0].problem
 
 
-def test_nothing_plugged_in_has_no_profile(make, clock):
-    assert automatic_profile(()) is None
-    bare = PluggedDevice(InputIdentity("hid:0", "nothing", "hid"), (), ())
-    assert automatic_profile([bare]) is None
-    devices = make()
+def test_without_devices_there_is_no_profile(make_devices, clock):
+    assert make_automatic_profile(()) is None
+    device = PluggedDevice(InputIdentity("hid:0", "nothing", "hid"), (), ())
+    assert make_automatic_profile([device]) is None
+    devices = make_devices()
     assert run(devices, clock).intent.deflections == {}
     assert devices.profile is None

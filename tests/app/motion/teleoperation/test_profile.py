@@ -2,27 +2,28 @@ import re
 from pathlib import Path
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from rotemina.app.motion.teleoperation.intent import Action
-from rotemina.app.motion.teleoperation.profile import (
+from rotemina.app.errors import InputProfileError
+from rotemina.app.motion.inputs import (
     ActionMapping,
     AxisMapping,
     DeviceMapping,
+    InputProfile,
+    OperatorAction,
     OperatorRole,
-    Profile,
-    ProfileError,
-    listed_profiles,
+    check_profile,
+)
+from rotemina.app.motion.inputs.profile import (
+    list_profiles,
     load_profile,
     save_profile,
 )
-from rotemina.app.motion.teleoperation.profile_check import check_profile
-from rotemina.sim.whole_files import FileWriteError
+from rotemina.sim.errors import FileWriteError
 
 TEXT = st.text(st.characters(codec="utf-8", exclude_categories=("Cs",)), min_size=1, max_size=20)
 PROFILES = st.builds(
-    Profile,
+    InputProfile,
     name=st.from_regex(r"[A-Za-z0-9][A-Za-z0-9 ().,+-]{0,20}[A-Za-z0-9]", fullmatch=True),
     devices=st.lists(
         st.builds(
@@ -36,7 +37,7 @@ PROFILES = st.builds(
                 st.builds(
                     ActionMapping,
                     control=TEXT,
-                    action=st.sampled_from(Action),
+                    action=st.sampled_from(OperatorAction),
                     at=st.none() | st.floats(0.1, 1) | st.floats(-1, -0.1),
                     hysteresis=st.floats(0, 0.5),
                 )
@@ -46,50 +47,50 @@ PROFILES = st.builds(
         max_size=3,
     ).map(tuple),
 )
-ONE = Profile(
+PROFILE = InputProfile(
     name="Bench", devices=(DeviceMapping(key="a", axes=(AxisMapping(control="X", drives="x"),)),)
 )
 
 
 @given(PROFILES)
-def test_what_is_saved_comes_back(tmp_path_factory, profile):
+def test_a_saved_profile_reads_back(tmp_path_factory, profile):
     folder = tmp_path_factory.mktemp("profiles")
     assert load_profile(save_profile(folder / "new", profile)) == profile
 
 
-def test_a_folder_lists_good_and_bad_ones(tmp_path):
-    save_profile(tmp_path, ONE)
+def test_a_folder_lists_good_and_bad_profiles(tmp_path):
+    save_profile(tmp_path, PROFILE)
     (tmp_path / "Odd.toml").write_text("name = 1")
     (tmp_path / "notes.txt").write_text("")
     (tmp_path / ".Bench.toml.1.part").write_text("")
-    good, bad = listed_profiles(tmp_path)
-    assert (good.path.name, good.profile, good.problem) == ("Bench.toml", ONE, None)
+    good, bad = list_profiles(tmp_path)
+    assert (good.path.name, good.profile, good.problem) == ("Bench.toml", PROFILE, None)
     assert bad.profile is None
     assert "Odd.toml: name = 1: must be text" in bad.problem
-    assert listed_profiles(tmp_path / "none") == ()
+    assert list_profiles(tmp_path / "none") == ()
 
 
-def test_saving_replaces_one_of_the_same_name(tmp_path):
-    save_profile(tmp_path, ONE)
-    other = Profile(name="Bench", devices=(DeviceMapping(key="b"),))
+def test_saving_replaces_a_profile_of_the_same_name(tmp_path):
+    save_profile(tmp_path, PROFILE)
+    other = InputProfile(name="Bench", devices=(DeviceMapping(key="b"),))
     assert load_profile(save_profile(tmp_path, other)) == other
-    assert len(listed_profiles(tmp_path)) == 1
+    assert len(list_profiles(tmp_path)) == 1
 
 
-def test_a_file_that_cannot_be_written_leaves_the_one_before(tmp_path, monkeypatch):
-    path = save_profile(tmp_path, ONE)
+def test_a_failed_save_leaves_the_previous_file(tmp_path, monkeypatch):
+    path = save_profile(tmp_path, PROFILE)
 
-    def full(*_):
+    def raise_disk_full(*_):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("os.fsync", full)
+    monkeypatch.setattr("os.fsync", raise_disk_full)
     with pytest.raises(FileWriteError, match="No space left"):
-        save_profile(tmp_path, Profile(name="Bench", devices=(DeviceMapping(key="b"),)))
-    assert load_profile(path) == ONE
+        save_profile(tmp_path, InputProfile(name="Bench", devices=(DeviceMapping(key="b"),)))
+    assert load_profile(path) == PROFILE
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("", "name: missing; the file needs it (and 1 more)"),
         ('name = "a"\ndevices = []', "devices = []: must have at least 1 entry"),
@@ -123,17 +124,17 @@ def test_a_file_that_cannot_be_written_leaves_the_one_before(tmp_path, monkeypat
         ),
     ],
 )
-def test_bad_profiles_are_explained(tmp_path, text, said):
+def test_bad_profiles_are_explained(tmp_path, text, message):
     path = tmp_path / "bench.toml"
     path.write_text(text, "utf-8")
-    with pytest.raises(ProfileError) as caught:
+    with pytest.raises(InputProfileError) as caught:
         load_profile(path)
     assert str(caught.value).startswith(f"{path}: ")
-    assert said in str(caught.value)
+    assert message in str(caught.value)
 
 
 def test_a_missing_file_is_explained(tmp_path):
-    with pytest.raises(ProfileError, match=r"none\.toml cannot be read \(file not found"):
+    with pytest.raises(InputProfileError, match=r"none\.toml cannot be read \(file not found"):
         load_profile(tmp_path / "none.toml")
 
 
@@ -150,5 +151,5 @@ def test_the_documentation_names_every_key_and_action():
     page = (Path(__file__).parents[4] / "docs" / "input-mapping.md").read_text("utf-8")
     keys = {"name", "devices", *DeviceMapping.__dataclass_fields__}
     keys |= {*AxisMapping.__dataclass_fields__, *ActionMapping.__dataclass_fields__}
-    missing = [word for word in (*sorted(keys), *Action) if f"`{word}`" not in page]
+    missing = [word for word in (*sorted(keys), *OperatorAction) if f"`{word}`" not in page]
     assert missing == []

@@ -1,149 +1,171 @@
 import pytest
 
-from rotemina.app.motion.teleoperation.default_profile import default_profile
-from rotemina.app.motion.teleoperation.intent import Action
-from rotemina.app.motion.teleoperation.profile import (
+from rotemina.app.errors import InputProfileError
+from rotemina.app.motion.inputs import (
     ActionMapping,
     AxisMapping,
     DeviceMapping,
+    InputProfile,
+    OperatorAction,
     OperatorRole,
-    Profile,
-    ProfileError,
-)
-from rotemina.app.motion.teleoperation.profile_check import (
     PluggedDevice,
-    assigned,
-    check_controls,
+    assign_mappings,
     check_profile,
-    missing,
 )
-from rotemina.drivers.inputs.device import InputIdentity
+from rotemina.app.motion.inputs.default_profile import make_default_profile
+from rotemina.app.motion.inputs.profile_check import check_controls, describe_missing_devices
+from rotemina.drivers.inputs import InputIdentity
 
 ROBOT = ("x", "y", "z", "thx", "thy", "zn")
 
 
-def device(key="hid:1", axes=("X", "Y", "Z"), buttons=("Button 1", "Button 2"), source="hid"):
+def make_device(key="hid:1", axes=("X", "Y", "Z"), buttons=("Button 1", "Button 2"), source="hid"):
     return PluggedDevice(InputIdentity(key, f"Stick {key}", source), axes, buttons)
 
 
-def axis(control, drives):
+def map_axis(control, drives):
     return AxisMapping(control=control, drives=drives)
 
 
-def action(control, action, **options):
-    return ActionMapping(control=control, action=action, **options)
+def map_action(control, map_action, **options):
+    return ActionMapping(control=control, action=map_action, **options)
 
 
-def profile(*devices):
-    return Profile(name="Bench", devices=devices)
+def make_profile(*devices):
+    return InputProfile(name="Bench", devices=devices)
 
 
-def check(profile, robot_axes, devices):
-    """Refuse a profile that does not fit robot and devices in any way."""
-    check_profile(profile, robot_axes)
-    if (absent := missing(profile, devices)) is not None:
-        raise ProfileError(absent)
-    found = assigned(profile, devices)
-    for device in devices:
-        if device.identity.key in found:
-            check_controls(found[device.identity.key], device)
-
-
-@pytest.mark.parametrize(
-    ("mapping", "said"),
-    [
-        ((axis("X", "x"), axis("Y", "x")), ["robot axis x", "'X' of hid:1", "'Y' of hid:1"]),
-        ((axis("X", "z"), axis("Y", "zn")), ["robot axis zn", "(drives z)", "(drives zn)"]),
-        ((axis("X", "thx"), axis("Y", "y")), ["robot axis thx", "'X' of", "'Y' of"]),
-        ((axis("X", "phi"),), ["'X' drives 'phi'", "known: x, y, z, thx, thy, zn"]),
-        ((axis("X", "x"), axis("X", "y")), ["control 'X'", "drives x and drives y"]),
-    ],
-)
-def test_axes_that_cannot_be_are_refused(mapping, said):
-    with pytest.raises(ProfileError) as caught:
-        check_profile(profile(DeviceMapping(key="hid:1", axes=mapping)), ROBOT)
-    assert all(part in str(caught.value) for part in said)
-
-
-def test_two_owners_on_two_alike_devices_are_found():
-    one = DeviceMapping(key="hid:*", axes=(axis("X", "x"),))
-    with pytest.raises(ProfileError, match=r"'X' of hid:\* .* and 'X' of hid:\*"):
-        check_profile(profile(one, DeviceMapping(key="hid:*", axes=(axis("X", "x"),))), ROBOT)
-
-
-def test_two_seats_may_drive_the_same():
-    trainer = DeviceMapping(key="a", axes=(axis("X", "x"),))
-    trainee = DeviceMapping(key="b", axes=(axis("X", "x"),), seat=OperatorRole.TRAINEE)
-    check_profile(profile(trainer, trainee), ROBOT)
-    with pytest.raises(ProfileError, match="one must have 'trainer'"):
-        check_profile(profile(trainee), ROBOT)
+def check_all(make_profile, robot_axes, devices):
+    """Refuse a profile that does not fit the robot or the devices."""
+    check_profile(make_profile, robot_axes)
+    if (missing := describe_missing_devices(make_profile, devices)) is not None:
+        raise InputProfileError(missing)
+    mappings = assign_mappings(make_profile, devices)
+    for make_device in devices:
+        if make_device.identity.key in mappings:
+            check_controls(mappings[make_device.identity.key], make_device)
 
 
 @pytest.mark.parametrize(
-    ("mapping", "said"),
+    ("mapping", "message_parts"),
     [
-        ((action("1", Action.STOP), action("1", Action.LAW)), "'1' of hid:1 .* stop and law"),
-        ((action("X", Action.STOP, at=0.5), action("X", Action.LAW, at=0.9)), "'X' of hid:1"),
+        (
+            (map_axis("X", "x"), map_axis("Y", "x")),
+            ["robot axis x", "'X' of hid:1", "'Y' of hid:1"],
+        ),
+        ((map_axis("X", "z"), map_axis("Y", "zn")), ["robot axis zn", "(drives z)", "(drives zn)"]),
+        ((map_axis("X", "thx"), map_axis("Y", "y")), ["robot axis thx", "'X' of", "'Y' of"]),
+        ((map_axis("X", "phi"),), ["'X' drives 'phi'", "known: x, y, z, thx, thy, zn"]),
+        ((map_axis("X", "x"), map_axis("X", "y")), ["control 'X'", "drives x and drives y"]),
     ],
 )
-def test_a_control_does_one_thing(mapping, said):
-    with pytest.raises(ProfileError, match=said):
-        check_profile(profile(DeviceMapping(key="hid:1", actions=mapping)), ROBOT)
+def test_impossible_axis_mappings_are_refused(mapping, message_parts):
+    with pytest.raises(InputProfileError) as caught:
+        check_profile(make_profile(DeviceMapping(key="hid:1", axes=mapping)), ROBOT)
+    assert all(part in str(caught.value) for part in message_parts)
 
 
-def test_an_axis_may_do_one_thing_each_way_and_a_button_share_its_name():
+def test_two_owners_on_devices_of_the_same_kind_are_found():
+    mapping = DeviceMapping(key="hid:*", axes=(map_axis("X", "x"),))
+    with pytest.raises(InputProfileError, match=r"'X' of hid:\* .* and 'X' of hid:\*"):
+        check_profile(
+            make_profile(mapping, DeviceMapping(key="hid:*", axes=(map_axis("X", "x"),))), ROBOT
+        )
+
+
+def test_two_seats_may_drive_the_same_axis():
+    trainer = DeviceMapping(key="a", axes=(map_axis("X", "x"),))
+    trainee = DeviceMapping(key="b", axes=(map_axis("X", "x"),), seat=OperatorRole.TRAINEE)
+    check_profile(make_profile(trainer, trainee), ROBOT)
+    with pytest.raises(InputProfileError, match="one must have 'trainer'"):
+        check_profile(make_profile(trainee), ROBOT)
+
+
+@pytest.mark.parametrize(
+    ("mapping", "message"),
+    [
+        (
+            (map_action("1", OperatorAction.STOP), map_action("1", OperatorAction.LAW)),
+            "'1' of hid:1 .* stop and law",
+        ),
+        (
+            (
+                map_action("X", OperatorAction.STOP, at=0.5),
+                map_action("X", OperatorAction.LAW, at=0.9),
+            ),
+            "'X' of hid:1",
+        ),
+    ],
+)
+def test_a_control_may_have_only_one_action(mapping, message):
+    with pytest.raises(InputProfileError, match=message):
+        check_profile(make_profile(DeviceMapping(key="hid:1", actions=mapping)), ROBOT)
+
+
+def test_an_axis_may_have_one_action_per_direction_and_share_a_buttons_name():
     actions = (
-        action("X", Action.FINE, at=-0.5),
-        action("X", Action.COARSE, at=0.5),
-        action("X", Action.STOP),
+        map_action("X", OperatorAction.FINE, at=-0.5),
+        map_action("X", OperatorAction.COARSE, at=0.5),
+        map_action("X", OperatorAction.STOP),
     )
-    check_profile(profile(DeviceMapping(key="hid:1", actions=actions)), ROBOT)
+    check_profile(make_profile(DeviceMapping(key="hid:1", actions=actions)), ROBOT)
 
 
-def test_an_axis_that_drives_does_nothing_else():
-    one = DeviceMapping(
-        key="hid:1", axes=(axis("X", "x"),), actions=(action("X", Action.STOP, at=0.9),)
+def test_an_axis_that_drives_may_have_no_action():
+    mapping = DeviceMapping(
+        key="hid:1",
+        axes=(map_axis("X", "x"),),
+        actions=(map_action("X", OperatorAction.STOP, at=0.9),),
     )
-    with pytest.raises(ProfileError, match="drives x and stop"):
-        check_profile(profile(one), ROBOT)
+    with pytest.raises(InputProfileError, match="drives x and stop"):
+        check_profile(make_profile(mapping), ROBOT)
 
 
-def test_a_profile_for_another_device_says_which_and_what_is_there():
-    one = profile(DeviceMapping(key="hid:046d:*", axes=(axis("X", "x"),)))
-    with pytest.raises(ProfileError) as caught:
-        check(one, ROBOT, [device("hid:054c:1")])
+def test_a_profile_for_another_device_names_it_and_the_connected_ones():
+    profile = make_profile(DeviceMapping(key="hid:046d:*", axes=(map_axis("X", "x"),)))
+    with pytest.raises(InputProfileError) as caught:
+        check_all(profile, ROBOT, [make_device("hid:054c:1")])
     assert "needs hid:046d:*" in str(caught.value)
     assert "connected: Stick hid:054c:1 (hid:054c:1)" in str(caught.value)
-    assert "connected: nothing" in missing(one, [])
+    assert "connected: nothing" in describe_missing_devices(profile, [])
 
 
 @pytest.mark.parametrize(
-    ("mapping", "said"),
+    ("mapping", "message"),
     [
-        (DeviceMapping(key="*", axes=(axis("Rz", "z"),)), "no axis 'Rz'; it has X, Y, Z"),
-        (DeviceMapping(key="*", actions=(action("9", Action.STOP),)), "no button '9'; it has Bu"),
-        (DeviceMapping(key="*", actions=(action("X", Action.STOP),)), "an axis needs at = "),
+        (DeviceMapping(key="*", axes=(map_axis("Rz", "z"),)), "no axis 'Rz'; it has X, Y, Z"),
         (
-            DeviceMapping(key="*", actions=(action("Button 1", Action.STOP, at=0.5),)),
+            DeviceMapping(key="*", actions=(map_action("9", OperatorAction.STOP),)),
+            "no button '9'; it has Bu",
+        ),
+        (
+            DeviceMapping(key="*", actions=(map_action("X", OperatorAction.STOP),)),
+            "an axis needs at = ",
+        ),
+        (
+            DeviceMapping(key="*", actions=(map_action("Button 1", OperatorAction.STOP, at=0.5),)),
             "no axis 'Button 1'",
         ),
     ],
 )
-def test_controls_that_a_device_does_not_have_are_refused(mapping, said):
-    with pytest.raises(ProfileError) as caught:
-        check(profile(mapping), ROBOT, [device()])
-    assert said in str(caught.value)
+def test_controls_that_a_device_does_not_have_are_refused(mapping, message):
+    with pytest.raises(InputProfileError) as caught:
+        check_all(make_profile(mapping), ROBOT, [make_device()])
+    assert message in str(caught.value)
 
 
-def test_a_full_key_goes_before_a_pattern_and_a_device_has_one_mapping():
+def test_a_full_key_has_priority_over_a_pattern_and_a_device_has_one_mapping():
     pattern, full = DeviceMapping(key="hid:*"), DeviceMapping(key="hid:2")
-    one = profile(pattern, full, DeviceMapping(key="hid:*", seat=OperatorRole.TRAINEE))
-    found = assigned(one, [device("hid:2"), device("hid:1"), device("hid:3"), device("hid:4")])
-    assert found == {"hid:2": full, "hid:1": pattern, "hid:3": one.devices[2]}
+    profile = make_profile(pattern, full, DeviceMapping(key="hid:*", seat=OperatorRole.TRAINEE))
+    mappings = assign_mappings(
+        profile,
+        [make_device("hid:2"), make_device("hid:1"), make_device("hid:3"), make_device("hid:4")],
+    )
+    assert mappings == {"hid:2": full, "hid:1": pattern, "hid:3": profile.devices[2]}
 
 
 @pytest.mark.parametrize(
-    ("axes", "chosen"),
+    ("axes", "controls"),
     [
         (("X", "Y", "Z"), ["X", "Y", "Z"]),
         (("Slider", "Rz", "Y", "X", "Hat x", "Hat y"), ["X", "Y", "Rz"]),
@@ -155,38 +177,41 @@ def test_a_full_key_goes_before_a_pattern_and_a_device_has_one_mapping():
         ((), []),
     ],
 )
-def test_any_device_has_a_default_that_fits_it(axes, chosen):
-    one = device(axes=axes)
-    made = default_profile(one)
-    check(made, ROBOT, [one])
-    assert [mapping.control for mapping in made.devices[0].axes] == chosen
+def test_every_device_has_a_fitting_default_profile(axes, controls):
+    device = make_device(axes=axes)
+    profile = make_default_profile(device)
+    check_all(profile, ROBOT, [device])
+    assert [mapping.control for mapping in profile.devices[0].axes] == controls
 
 
 @pytest.mark.parametrize(
     ("buttons", "actions"),
     [
-        (("Button 1", "Button 2", "Button 3"), [Action.DEAD_MAN, Action.STOP, Action.STAGE]),
-        (("0", "1"), [Action.PENETRATION, Action.STAGE]),
-        (("Mode", "Start/stop penetration"), [Action.STAGE, Action.PENETRATION]),
+        (
+            ("Button 1", "Button 2", "Button 3"),
+            [OperatorAction.DEAD_MAN, OperatorAction.STOP, OperatorAction.STAGE],
+        ),
+        (("0", "1"), [OperatorAction.PENETRATION, OperatorAction.STAGE]),
+        (("Mode", "Start/stop penetration"), [OperatorAction.STAGE, OperatorAction.PENETRATION]),
         (("emergency_stop", "stop", "take-over"), ["emergency_stop", "stop", "take_over"]),
         (tuple(map(str, range(32))), None),
     ],
 )
-def test_default_buttons_do_what_they_are_called(buttons, actions):
-    one = device(buttons=buttons)
-    made = default_profile(one)
-    check(made, ROBOT, [one])
+def test_default_buttons_match_their_names(buttons, actions):
+    device = make_device(buttons=buttons)
+    profile = make_default_profile(device)
+    check_all(profile, ROBOT, [device])
     if actions is not None:
-        assert [mapping.action for mapping in made.devices[0].actions] == actions
+        assert [mapping.action for mapping in profile.devices[0].actions] == actions
 
 
-def test_away_is_along_y():
-    inverted = [mapping.inverted for mapping in default_profile(device()).devices[0].axes]
+def test_default_directions_of_a_stick_are_inverted_in_y_and_z():
+    inverted = [mapping.inverted for mapping in make_default_profile(make_device()).devices[0].axes]
     assert inverted == [False, True, True]
-    keys = default_profile(device(source="keyboard"))
-    assert not any(mapping.inverted for mapping in keys.devices[0].axes)
+    profile = make_default_profile(make_device(source="keyboard"))
+    assert not any(mapping.inverted for mapping in profile.devices[0].axes)
 
 
-def test_nothing_can_be_mapped_of_a_device_without_controls():
-    with pytest.raises(ProfileError, match="neither axes nor buttons"):
-        default_profile(device(axes=(), buttons=()))
+def test_a_device_without_controls_cannot_be_mapped():
+    with pytest.raises(InputProfileError, match="neither axes nor buttons"):
+        make_default_profile(make_device(axes=(), buttons=()))

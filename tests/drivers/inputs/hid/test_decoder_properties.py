@@ -1,31 +1,30 @@
-"""For any descriptor: each value that is put in comes out, and no bytes do any harm."""
+"""Any valid report is decoded to its values, and damaged bytes do no harm."""
 
 from dataclasses import dataclass
 
 import pytest
-from hypothesis import example, given
-from hypothesis import strategies as st
+from hypothesis import example, given, strategies as st
 
-from rotemina.drivers.inputs.hid.decoder import Decoder
-from rotemina.drivers.inputs.hid.descriptor import ReportDescriptor
-from rotemina.drivers.inputs.hid.items import DescriptorError
+from rotemina.drivers.contract import DescriptorError
+from rotemina.drivers.inputs.hid_decoder import HidDecoder
+from rotemina.drivers.inputs.hid_descriptor import ReportDescriptor
 
 PAGE, LOW, HIGH, SIZE, COUNT, NUMBER = 0x04, 0x14, 0x24, 0x74, 0x94, 0x84
 USAGE, FIRST, LAST, INPUT = 0x08, 0x18, 0x28, 0x80
 CONSTANT, VARIABLE = 0x01, 0x02
-LISTED = 9
+MAX_LISTED_BUTTON = 9
 JOYSTICK, END = bytes.fromhex("05 01 09 04 A1 01"), b"\xc0"
 
 
-def item(prefix, value):
-    """An item with as few bytes of data as its value fits in, signed."""
+def encode_item(prefix, value):
+    """Return an item whose signed value takes as few bytes as possible."""
     size = next(n for n in (1, 2, 4) if -(1 << 8 * n - 1) <= value < 1 << 8 * n - 1)
     return bytes([prefix | {1: 1, 2: 2, 4: 3}[size]]) + value.to_bytes(size, "little", signed=True)
 
 
 @dataclass
-class Piece:
-    """One input item: what it is, its range, and a value for each element."""
+class InputItem:
+    """An input item with its kind, its range, and a value for each element."""
 
     kind: str
     size: int
@@ -33,17 +32,25 @@ class Piece:
     high: int
     values: list[int]
 
-    def declared(self):
+    def encode_declaration(self):
         count = len(self.values)
         page, usages, flags = {
-            "axes": (0x01, item(USAGE, 0x36) * count, VARIABLE),
-            "buttons": (0x09, item(USAGE, 0x14) * count, VARIABLE),
-            "list": (0x09, item(FIRST, 1) + item(LAST, LISTED), 0),
-            "vendor": (0x7F00, item(USAGE, 0x20), VARIABLE),  # one usage for all elements
+            "axes": (0x01, encode_item(USAGE, 0x36) * count, VARIABLE),
+            "buttons": (0x09, encode_item(USAGE, 0x14) * count, VARIABLE),
+            "list": (0x09, encode_item(FIRST, 1) + encode_item(LAST, MAX_LISTED_BUTTON), 0),
+            "vendor": (0x7F00, encode_item(USAGE, 0x20), VARIABLE),  # one usage for all elements
             "padding": (0x01, b"", CONSTANT | VARIABLE),
         }[self.kind]
-        ranged = item(PAGE, page) + item(LOW, self.low) + item(HIGH, self.high)
-        return ranged + item(SIZE, self.size) + item(COUNT, count) + usages + item(INPUT, flags)
+        range_items = (
+            encode_item(PAGE, page) + encode_item(LOW, self.low) + encode_item(HIGH, self.high)
+        )
+        return (
+            range_items
+            + encode_item(SIZE, self.size)
+            + encode_item(COUNT, count)
+            + usages
+            + encode_item(INPUT, flags)
+        )
 
     def axes(self):
         if self.kind != "axes":
@@ -55,68 +62,70 @@ class Piece:
         if self.kind == "buttons":
             return [value == 1 for value in self.values]
         if self.kind == "list":
-            return [number in self.values for number in range(1, LISTED + 1)]
+            return [number in self.values for number in range(1, MAX_LISTED_BUTTON + 1)]
         return []
 
 
 @st.composite
-def pieces(draw):
+def input_items(draw):
     kind = draw(st.sampled_from(["axes", "buttons", "list", "vendor", "padding"]))
     size = draw({"buttons": st.just(1), "list": st.integers(5, 9)}.get(kind, st.integers(2, 31)))
-    low, high = {"buttons": (0, 1), "list": (1, LISTED)}.get(kind, (0, (1 << size) - 1))
+    low, high = {"buttons": (0, 1), "list": (1, MAX_LISTED_BUTTON)}.get(kind, (0, (1 << size) - 1))
     if kind == "axes" and draw(st.booleans()):
         low, high = -(1 << size - 1), (1 << size - 1) - 1
-    # 0 in a list: nothing in this place
+    # A 0 in a list means that no button is pressed.
     value = st.integers(0 if kind == "list" else low, high)
-    return Piece(kind, size, low, high, draw(st.lists(value, min_size=1, max_size=5)))
+    return InputItem(kind, size, low, high, draw(st.lists(value, min_size=1, max_size=5)))
 
 
-def sent(parts):
-    """The bytes of a report with the values of its pieces."""
+def encode_report(items):
+    """Return the bytes of a report with the values of its items."""
     bits = "".join(
-        format(value & (1 << part.size) - 1, f"0{part.size}b")[::-1]
-        for part in parts
-        for value in part.values
+        format(value & (1 << item.size) - 1, f"0{item.size}b")[::-1]
+        for item in items
+        for value in item.values
     )
     bits += "0" * (-len(bits) % 8)
-    return bytes(int(bits[at : at + 8][::-1], 2) for at in range(0, len(bits), 8))
+    return bytes(int(bits[start : start + 8][::-1], 2) for start in range(0, len(bits), 8))
 
 
-@given(st.lists(pieces(), min_size=1, max_size=8))
-def test_what_is_put_in_comes_out(parts):
-    descriptor = JOYSTICK + b"".join(part.declared() for part in parts) + END
-    axes = [value for part in parts for value in part.axes()]
-    buttons = [held for part in parts for held in part.buttons()]
+@given(st.lists(input_items(), min_size=1, max_size=8))
+def test_a_report_is_decoded_to_its_values(items):
+    descriptor = JOYSTICK + b"".join(item.encode_declaration() for item in items) + END
+    axes = [value for item in items for value in item.axes()]
+    buttons = [is_pressed for item in items for is_pressed in item.buttons()]
     if not axes and not buttons:
         with pytest.raises(DescriptorError, match="no axis and no button"):
-            Decoder(ReportDescriptor.parse(descriptor))
+            HidDecoder(ReportDescriptor.parse(descriptor))
         return
-    decoder = Decoder(ReportDescriptor.parse(descriptor))
+    decoder = HidDecoder(ReportDescriptor.parse(descriptor))
     assert len(set(decoder.axes + decoder.buttons)) == len(axes) + len(buttons)
-    assert decoder.decode(sent(parts)) == (tuple(axes), tuple(buttons))
+    assert decoder.decode(encode_report(items)) == (tuple(axes), tuple(buttons))
 
 
-@given(st.lists(st.lists(pieces(), min_size=1, max_size=3), min_size=2, max_size=4))
-def test_reports_are_told_apart_by_their_numbers(reports):
+@given(st.lists(st.lists(input_items(), min_size=1, max_size=3), min_size=2, max_size=4))
+def test_reports_are_distinguished_by_their_numbers(reports):
     for report in reports:
-        report.append(Piece("buttons", 1, 0, 1, [1]))  # each has something to tell
+        report.append(InputItem("buttons", 1, 0, 1, [1]))  # so that no report is empty
     descriptor = JOYSTICK
-    for number, parts in enumerate(reports, 1):
-        descriptor += item(NUMBER, number) + b"".join(part.declared() for part in parts)
-    decoder = Decoder(ReportDescriptor.parse(descriptor + END))
-    for number, parts in enumerate(reports, 1):
-        axes, buttons = decoder.decode(bytes([number]) + sent(parts))
-        told = [value for part in parts for value in part.axes()]
-        # An axis in several reports is one, so this report's are the first of as many.
-        assert list(axes[: len(told)]) == told
-        assert sum(buttons) >= sum(any(part.buttons()) for part in parts)
+    for number, items in enumerate(reports, 1):
+        descriptor += encode_item(NUMBER, number) + b"".join(
+            item.encode_declaration() for item in items
+        )
+    decoder = HidDecoder(ReportDescriptor.parse(descriptor + END))
+    for number, items in enumerate(reports, 1):
+        axes, buttons = decoder.decode(bytes([number]) + encode_report(items))
+        expected_axes = [value for item in items for value in item.axes()]
+        # An axis that is in several reports exists once, so this report's axes come first.
+        assert list(axes[: len(expected_axes)]) == expected_axes
+        assert sum(buttons) >= sum(any(item.buttons()) for item in items)
     assert decoder.ignored.unknown == decoder.ignored.short == decoder.ignored.long == 0
 
 
-def use(descriptor, reports):
-    """Decode reports by a descriptor, whatever both are; return the decoder, if there is one."""
+def decode_reports(descriptor, reports):
+    """Decode any bytes with any descriptor, and check the number and range of the results."""
     try:
-        decoder = Decoder(ReportDescriptor.parse(descriptor))
+        decoder = HidDecoder(ReportDescriptor.parse(descriptor))
     except DescriptorError:
         return
     for report in reports:
@@ -132,11 +141,11 @@ def use(descriptor, reports):
 @example(bytes.fromhex("05 09 19 00 2B FF FF FF FF 95 01 75 20 81 00"), [bytes(4)])
 @example(bytes.fromhex("05 09 15 00 27 FF FF FF 7F 19 00 2B FF FF FF 7F 96 FF 0F 75 08 81 00"), [])
 def test_random_bytes_do_no_harm(descriptor, reports):
-    use(descriptor, reports)
-    use(JOYSTICK + descriptor, reports)
+    decode_reports(descriptor, reports)
+    decode_reports(JOYSTICK + descriptor, reports)
 
 
-SOUND = bytes.fromhex(
+VALID_DESCRIPTOR = bytes.fromhex(
     "05 01 09 04 A1 01 85 01 15 81 25 7F 75 08 95 02 09 30 09 31 81 42 75 04 95 01 25 07 15 00"
     "09 39 81 42 05 09 19 01 29 0C 25 01 75 01 95 0C 81 02 15 01 25 0A 19 01 29 0A 75 04 95 03"
     "81 00 A4 B4 C0"
@@ -144,13 +153,13 @@ SOUND = bytes.fromhex(
 
 
 @given(
-    st.lists(st.tuples(st.integers(0, len(SOUND) - 1), st.integers(0, 255)), max_size=4),
-    st.integers(0, len(SOUND)),
+    st.lists(st.tuples(st.integers(0, len(VALID_DESCRIPTOR) - 1), st.integers(0, 255)), max_size=4),
+    st.integers(0, len(VALID_DESCRIPTOR)),
     st.lists(st.binary(min_size=1, max_size=12).map(lambda rest: b"\1" + rest), max_size=5),
 )
-def test_a_damaged_descriptor_does_no_harm(damage, end, reports):
-    damaged = bytearray(SOUND)
-    for at, byte in damage:
-        damaged[at] = byte
-    use(bytes(damaged), reports)
-    use(bytes(damaged[:end]), reports)
+def test_a_damaged_descriptor_does_no_harm(damage, length, reports):
+    damaged = bytearray(VALID_DESCRIPTOR)
+    for index, byte in damage:
+        damaged[index] = byte
+    decode_reports(bytes(damaged), reports)
+    decode_reports(bytes(damaged[:length]), reports)

@@ -1,50 +1,49 @@
-"""Which of the model's own parameters is a cause, beside rivals that are fitted without it."""
+"""Parameters of the model as causes, compared with rivals that are fitted without them."""
 
 import numpy as np
 
-from rotemina.sim.gap.compare import attribution
+from rotemina.sim.gap.compare import attribution, explain, untouched
 from rotemina.sim.gap.compare.attribution import attributed, without_own
-from rotemina.sim.gap.compare.explanations import explain, untouched
-from rotemina.sim.gap.fit.evidence import Evidence
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.robot.model import AxisEffect
-from rotemina.sim.simulation.simulation import simulate
+from rotemina.sim.gap.fit import Evidence
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot import AxisEffect
+from rotemina.sim.robot_files import load_robot
+from rotemina.sim.simulation import simulate
 
 GAIN, RESONANCE = "gain_error", "resonance_mismatch"
 ROBOT = load_robot("rotemina")
 TIME_S = np.arange(2000) / 1000.0
-SLOW_RING = AxisEffect(
+RESONANCE_SHIFT = AxisEffect(
     axis="zn", id=RESONANCE, parameters={"frequency_error": -0.05, "damping_error": 0.0}
 )
-LATE = AxisEffect(axis="zn", id="delay", parameters={"delay": 2e-4})
+DELAY = AxisEffect(axis="zn", id="delay", parameters={"delay": 2e-4})
 
 
-def evidence(*effects):
-    own = ROBOT.axes["zn"]
-    sweep = 0.1 * own.span * np.sin(np.pi * TIME_S * (1.0 + 150.0 * TIME_S))
+def make_evidence(*effects):
+    axis = ROBOT.axes["zn"]
+    sweep = 0.1 * axis.span * np.sin(np.pi * TIME_S * (1.0 + 150.0 * TIME_S))
     commands = Record.from_signals(
-        TIME_S, {("zn", Tap.CMD): sum(own.range) / 2 + sweep}, {"zn": own.unit}
+        TIME_S, {("zn", Tap.CMD): sum(axis.range) / 2 + sweep}, {"zn": axis.unit}
     )
     rng = np.random.default_rng(0)
     return Evidence.of(ROBOT, "zn", [simulate(ROBOT, effects, commands, rng) for _ in range(2)])
 
 
-def test_an_own_parameter_that_alone_closes_its_share_is_a_cause_beside_others():
-    seen = evidence(SLOW_RING, LATE)
-    found = attributed(seen, untouched(seen), explain(seen, [LATE]))
-    assert found.ids == (("delay", None), (RESONANCE, None))
+def test_a_model_parameter_that_alone_closes_its_share_is_a_cause_among_others():
+    evidence = make_evidence(RESONANCE_SHIFT, DELAY)
+    explanation = attributed(evidence, untouched(evidence), explain(evidence, [DELAY]))
+    assert explanation.ids == (("delay", None), (RESONANCE, None))
 
 
-def test_what_was_fitted_without_an_own_parameter_may_take_its_place(monkeypatch):
-    seen = evidence(SLOW_RING)
-    best = attributed(seen, untouched(seen), explain(seen, []))
+def test_a_cause_fitted_without_a_model_parameter_may_replace_it(monkeypatch):
+    evidence = make_evidence(RESONANCE_SHIFT)
+    best = attributed(evidence, untouched(evidence), explain(evidence, []))
     assert best.ids == ((RESONANCE, None),)
-    (late,) = without_own(seen, best, [explain(seen, [LATE])], best.ids[0])
-    assert RESONANCE not in {one.id for one in late.fit.effects}
-    # A fit goes on where another one ended, and may leave more of what it did not see.
-    bare = untouched(seen)
-    monkeypatch.setattr(attribution, "_without", lambda *_: bare)
-    found = attributed(seen, bare, late)
-    assert ("delay", None) in found.ids
-    assert {name for name, _ in found.ids} <= {"delay", GAIN}
+    (with_delay,) = without_own(evidence, best, [explain(evidence, [DELAY])], best.ids[0])
+    assert RESONANCE not in {effect.id for effect in with_delay.fit.effects}
+    # A fit continues from another one, and may leave a larger gap in unseen data.
+    untouched_model = untouched(evidence)
+    monkeypatch.setattr(attribution, "_without", lambda *_: untouched_model)
+    explanation = attributed(evidence, untouched_model, with_delay)
+    assert ("delay", None) in explanation.ids
+    assert {name for name, _ in explanation.ids} <= {"delay", GAIN}

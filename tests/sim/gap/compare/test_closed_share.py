@@ -2,7 +2,7 @@
 
 import pytest
 
-from rotemina.sim.gap.compare.closed_share import closed
+from rotemina.sim.gap.result import closed
 
 
 @pytest.mark.parametrize(
@@ -11,8 +11,8 @@ from rotemina.sim.gap.compare.closed_share import closed
         (101.0, 101.0, 0.0),
         (101.0, 1.0, 1.0),
         (101.0, 26.0, 0.75),
-        (101.0, 0.5, 1.0),  # below the floor there is nothing more to close
-        (101.0, 500.0, 0.0),  # a model that is worse closes nothing
+        (101.0, 0.5, 1.0),  # Below the floor there is nothing more to close.
+        (101.0, 500.0, 0.0),  # A worse model closes nothing.
         (0.9, 0.9, 1.0),
     ],
 )

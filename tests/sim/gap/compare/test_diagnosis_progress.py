@@ -2,21 +2,20 @@
 
 import pytest
 
-from rotemina.sim.gap.compare.diagnosis_progress import Account
-from rotemina.sim.gap.compare.ranking import Grade
-from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.gap.result import Account, Grade
+from rotemina.sim.robot import AxisEffect
 
 
-def test_an_axis_fills_its_own_share_of_the_whole():
+def test_an_axis_fills_its_share_of_the_progress():
     steps = []
     account = Account("zn", steps.append, begin=0.5, share=0.25)
     for stage in ("screening", "fitting", "deciding"):
         account.tell(stage, "creep")
-    assert [one.share for one in steps] == pytest.approx([0.5, 0.575, 0.725])
-    assert {(one.axis, one.candidate) for one in steps} == {("zn", "creep")}
+    assert [step.share for step in steps] == pytest.approx([0.5, 0.575, 0.725])
+    assert {(step.axis, step.candidate) for step in steps} == {("zn", "creep")}
 
 
-def test_a_second_look_does_not_turn_progress_back():
+def test_a_second_screening_does_not_lower_the_progress():
     steps = []
     account = Account("zn", steps.append)
     account.tell("deciding", None)
@@ -25,7 +24,7 @@ def test_a_second_look_does_not_turn_progress_back():
     assert steps[1].share == steps[0].share
 
 
-def test_the_ranking_stays_with_the_steps_that_follow():
+def test_later_steps_keep_the_ranking():
     steps = []
     account = Account("zn", steps.append)
     account.begin(101.0)
@@ -36,7 +35,7 @@ def test_the_ranking_stays_with_the_steps_that_follow():
     assert steps[2] == steps[1]
 
 
-def test_what_a_listener_raises_ends_the_work():
+def test_an_exception_in_a_listener_ends_the_work():
     class StopError(Exception):
         pass
 

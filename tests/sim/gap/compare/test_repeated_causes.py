@@ -1,21 +1,21 @@
-"""What repeats another cause: a mode at the axis' own resonance, a harmonic of a period."""
+"""Causes that repeat another one: a mode at the resonance of the axis, a harmonic of a period."""
 
 from types import SimpleNamespace
 
 import pytest
 
 from rotemina.sim.gap.compare.repeated_causes import has_overtone, is_own_mode
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.robot import AxisEffect
+from rotemina.sim.robot_files import load_robot
 
 
-@pytest.mark.parametrize(("frequency_hz", "own"), [(302.0, True), (340.0, False)])
-def test_a_mode_at_the_axis_own_resonance_is_no_further_one(frequency_hz, own):
+@pytest.mark.parametrize(("frequency_hz", "is_own"), [(302.0, True), (340.0, False)])
+def test_a_mode_at_the_resonance_of_the_axis_is_not_another_mode(frequency_hz, is_own):
     mode = AxisEffect(axis="thx", id="flexible_mode", parameters={"frequency": frequency_hz})
     tuned = AxisEffect(axis="thx", id="resonance_mismatch", parameters={"frequency_error": 0.0})
     evidence = SimpleNamespace(robot=load_robot("rotemina"), axis="thx")
-    one = SimpleNamespace(causes=(mode,), fit=SimpleNamespace(effects=(mode, tuned)))
-    assert is_own_mode(evidence, one, one) is own
+    explanation = SimpleNamespace(causes=(mode,), fit=SimpleNamespace(effects=(mode, tuned)))
+    assert is_own_mode(evidence, explanation, explanation) is is_own
 
 
 @pytest.mark.parametrize(
@@ -28,7 +28,9 @@ def test_a_mode_at_the_axis_own_resonance_is_no_further_one(frequency_hz, own):
         ("encoder_interpolation", 1e-3 / 50, False, False),
     ],
 )
-def test_what_repeats_a_few_times_a_period_is_a_harmonic(second, period, with_ref, overtone):
+def test_a_cause_that_repeats_a_few_times_per_period_is_a_harmonic(
+    second, period, with_ref, overtone
+):
     evidence = SimpleNamespace(has=lambda tap: with_ref)
     causes = [
         AxisEffect(axis="x", id="leadscrew_error", parameters={"period": 1e-3}),

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from rotemina.sim.gap.diagnosis import Experiment
-from rotemina.sim.gap.experiment.experiment_files import may_be_suggested, suggestion
+from rotemina.sim.gap.experiment import is_experiment_file, make_experiment_records
+from rotemina.sim.gap.result import SuggestedExperiment
 from rotemina.sim.messages import message
-from rotemina.sim.records.record import Tap
+from rotemina.sim.records import Tap
 
 TIME_S = (0.0, 0.1, 0.2)
-EXPERIMENT = Experiment(
+EXPERIMENT = SuggestedExperiment(
     axis="zn",
     splits=("creep", "hysteresis"),
     why=message("gap", "Wait."),
@@ -20,23 +20,23 @@ EXPERIMENT = Experiment(
 UNITS = {"zn": "m", "x": "m"}
 
 
-def test_the_commands_are_a_trajectory_and_each_rival_has_its_prediction():
-    made = suggestion(EXPERIMENT, 2, "day", UNITS)
-    assert made.names.commands == "day_experiment_2.csv"
-    trajectory = made.records[made.names.commands]
+def test_the_commands_are_a_trajectory_and_each_rival_has_a_prediction():
+    files = make_experiment_records(EXPERIMENT, 2, "day", UNITS)
+    assert files.names.commands == "day_experiment_2.csv"
+    trajectory = files.records[files.names.commands]
     assert {column.tap for column in trajectory.columns} == {Tap.CMD}
     assert trajectory.time_s == pytest.approx(np.array(TIME_S))
     for rival, reading in EXPERIMENT.predictions.items():
-        record = made.records[made.names.predictions[rival]]
+        record = files.records[files.names.predictions[rival]]
         assert record.signal("zn", Tap.MEAS) == pytest.approx(np.array(reading))
         assert record.signal("zn", Tap.CMD) == pytest.approx(trajectory.signal("zn", Tap.CMD))
 
 
-def test_names_are_those_of_files_and_of_the_document_alone():
-    made = suggestion(EXPERIMENT, 1, "day", UNITS)
-    assert set(made.records) == {made.names.commands, *made.names.predictions.values()}
-    for name in made.records:
+def test_names_of_files_are_valid_and_those_of_the_document():
+    files = make_experiment_records(EXPERIMENT, 1, "day", UNITS)
+    assert set(files.records) == {files.names.commands, *files.names.predictions.values()}
+    for name in files.records:
         assert "/" not in name
-        assert may_be_suggested(name, "day")
-        assert not may_be_suggested(name, "da.")
-    assert not may_be_suggested("day_experiment_1.toml", "day")
+        assert is_experiment_file(name, "day")
+        assert not is_experiment_file(name, "da.")
+    assert not is_experiment_file("day_experiment_1.toml", "day")

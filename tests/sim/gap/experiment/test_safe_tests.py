@@ -1,80 +1,85 @@
-"""Trials of a next experiment: all of them may be played, and none asks for more than records."""
+"""Trials of the next experiment: all may be played, and none exceeds the records."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from rotemina.sim.gap.experiment.safe_tests import trials
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.robot.model import KeepOut
-from rotemina.sim.trajectory.dry_run import dry_run
+from rotemina.sim.gap.experiment.safe_tests import find_safe_tests
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot import KeepOut
+from rotemina.sim.robot_files import load_robot
+from rotemina.sim.trajectory import dry_run
 
 ROBOT = load_robot("rotemina")
 
 
-def commands(robot=ROBOT, share=0.2, hertz=1.0, rate_hz=1000.0, seconds=4.0, axes=("zn",)):
-    """Sines about the middle of the range, each axis a little slower than the one before."""
+def make_commands(robot=ROBOT, share=0.2, hertz=1.0, rate_hz=1000.0, seconds=4.0, axes=("zn",)):
+    """Return sines around the middle of the range, each axis a little slower than the previous."""
     time_s = np.arange(round(seconds * rate_hz)) / rate_hz
     signals = {}
     for number, axis in enumerate(axes):
-        own = robot.axes[axis]
+        description = robot.axes[axis]
         wave = np.minimum(time_s, 1.0) * np.sin(2.0 * np.pi * hertz * 0.7**number * time_s)
-        signals[axis, Tap.CMD] = sum(own.range) / 2.0 + share * own.span * wave
+        signals[axis, Tap.CMD] = sum(description.range) / 2.0 + share * description.span * wave
     units = {axis: robot.unit(axis) for axis in axes}
     return Record.from_signals(time_s, signals, units)
 
 
-def test_an_axis_is_held_while_the_one_moves_that_may_leak_into_it():
-    record = commands(axes=("thx", "thy"))
-    able = trials(ROBOT, "thx", [record], ["thy"])
-    of_thy = [one.record for one in able if str(one.name).endswith("of thy while thx is held")]
-    assert len(of_thy) >= 3
-    assert all(np.ptp(one.signal("thx", Tap.CMD)) == 0.0 for one in of_thy)
-    assert all(np.ptp(one.signal("thy", Tap.CMD)) > 0.0 for one in of_thy)
+def test_an_axis_is_held_while_the_axis_that_may_couple_into_it_moves():
+    record = make_commands(axes=("thx", "thy"))
+    trials = find_safe_tests(ROBOT, "thx", [record], ["thy"])
+    thy_records = [
+        trial.record for trial in trials if str(trial.name).endswith("of thy while thx is held")
+    ]
+    assert len(thy_records) >= 3
+    assert all(np.ptp(record.signal("thx", Tap.CMD)) == 0.0 for record in thy_records)
+    assert all(np.ptp(record.signal("thy", Tap.CMD)) > 0.0 for record in thy_records)
 
 
-def test_near_a_keep_out_no_test_leaves_where_the_records_were():
-    record = commands(share=0.02)
-    low, high = (float(end(record.signal("zn", Tap.CMD))) for end in (np.min, np.max))
-    guarded = replace(ROBOT, keep_out=KeepOut(floor=0.0))
-    for robot, inside in ((ROBOT, False), (guarded, True)):
-        able = trials(robot, "zn", [record], beyond_records=True)
-        assert len(able) >= 12
-        ends = [(one.record.signal("zn", Tap.CMD)) for one in able]
+def test_near_a_keep_out_no_trial_leaves_the_recorded_range():
+    record = make_commands(share=0.02)
+    low, high = (float(limit(record.signal("zn", Tap.CMD))) for limit in (np.min, np.max))
+    guarded_robot = replace(ROBOT, keep_out=KeepOut(floor=0.0))
+    for robot, inside in ((ROBOT, False), (guarded_robot, True)):
+        trials = find_safe_tests(robot, "zn", [record], beyond_records=True)
+        assert len(trials) >= 12
+        trial_commands = [trial.record.signal("zn", Tap.CMD) for trial in trials]
         slack = 1e-9 * (high - low)
-        kept = [one.min() >= low - slack and one.max() <= high + slack for one in ends]
-        assert all(kept) is inside
+        are_inside = [
+            command.min() >= low - slack and command.max() <= high + slack
+            for command in trial_commands
+        ]
+        assert all(are_inside) is inside
 
 
 @pytest.mark.parametrize("axis", ROBOT.axes)
 @pytest.mark.parametrize("beyond_records", [False, True])
-def test_every_test_of_every_axis_may_be_played(axis, beyond_records):
-    records = [commands(axes=(axis,), share=0.1 if "th" in axis else 0.02)]
-    able = trials(ROBOT, axis, records, beyond_records=beyond_records)
-    assert len(able) >= 12
-    assert all(dry_run(ROBOT, one.record).allowed for one in able)
-    assert max(one.record.duration_s for one in able) <= 30.0
+def test_every_trial_of_every_axis_may_be_played(axis, beyond_records):
+    records = [make_commands(axes=(axis,), share=0.1 if "th" in axis else 0.02)]
+    trials = find_safe_tests(ROBOT, axis, records, beyond_records=beyond_records)
+    assert len(trials) >= 12
+    assert all(dry_run(ROBOT, trial.record).allowed for trial in trials)
+    assert max(trial.record.duration_s for trial in trials) <= 30.0
 
 
-def test_an_axis_that_nothing_makes_follow_has_no_test():
+def test_an_axis_without_a_controller_has_no_trial():
     robot = load_robot("emps")
-    free = replace(robot, axes={"q": replace(robot.axes["q"], controller=None)})
+    uncontrolled = replace(robot, axes={"q": replace(robot.axes["q"], controller=None)})
     record = Record.from_signals(np.arange(100) / 1e3, {("q", Tap.CMD): np.ones(100)}, {"q": "m"})
-    assert trials(free, "q", [record]) == []
+    assert find_safe_tests(uncontrolled, "q", [record]) == []
 
 
-def without_limits(robot):
-    free = {
+def remove_limits(robot):
+    axes = {
         name: replace(axis, max_speed=None, max_acceleration=None)
         for name, axis in robot.axes.items()
     }
-    return replace(robot, axes=free)
+    return replace(robot, axes=axes)
 
 
-def recorded(axis, robot, kind, rate_hz):
-    """A record of 6 s of one axis that follows its command with a lag of 10 ms and some noise."""
+def make_record(axis, robot, kind, rate_hz):
+    """Return 6 s of an axis that follows its command with a lag of 10 ms and some noise."""
     rng = np.random.default_rng(7)
     rows = round(6.0 * rate_hz)
     time_s = np.arange(rows) / rate_hz
@@ -86,19 +91,19 @@ def recorded(axis, robot, kind, rate_hz):
         "coarse sine": np.round(8.0 * np.sin(2.0 * np.pi * 0.5 * time_s)) / 8.0,
         "multisine": sum(np.sin(2.0 * np.pi * f * time_s + f) for f in (0.5, 3.5, 11.5)) / 3.0,
     }[kind]
-    described = robot.axes[axis]
-    command = sum(described.range) / 2.0 + 0.1 * described.span * wave
-    forgetting = np.exp(-1.0 / (rate_hz * 0.01))
+    description = robot.axes[axis]
+    command = sum(description.range) / 2.0 + 0.1 * description.span * wave
+    decay = np.exp(-1.0 / (rate_hz * 0.01))
     measured = command.copy()
     for row in range(1, rows):
-        measured[row] = forgetting * measured[row - 1] + (1.0 - forgetting) * command[row]
-    measured += 1e-5 * described.span * rng.standard_normal(rows)
+        measured[row] = decay * measured[row - 1] + (1.0 - decay) * command[row]
+    measured += 1e-5 * description.span * rng.standard_normal(rows)
     signals = {(axis, Tap.CMD): command, (axis, Tap.MEAS): measured}
     return Record.from_signals(time_s, signals, {axis: robot.unit(axis)})
 
 
-def rates(record, axis):
-    """Greatest speed and acceleration from row to row; before and after, the axis rests."""
+def find_peak_rates(record, axis):
+    """Return the greatest speed and acceleration between rows. The axis rests before and after."""
     step_s = np.diff(record.time_s)
     assert np.ptp(step_s) < 1e-9
     speed = np.diff(np.pad(record.signal(axis, Tap.CMD), 2, mode="edge")) / step_s.mean()
@@ -111,35 +116,42 @@ def rates(record, axis):
 @pytest.mark.parametrize(
     "kind", ["sine", "triangle", "staircase", "random steps", "coarse sine", "multisine"]
 )
-def test_without_limits_no_test_exceeds_the_records_and_all_begin_and_end_at_rest(
+def test_without_limits_no_trial_exceeds_the_records_and_all_start_and_end_at_rest(
     kind, name, rate_hz
 ):
-    robot = without_limits(load_robot(name))
+    robot = remove_limits(load_robot(name))
     axis = "thx" if name == "rotemina" else next(iter(robot.axes))
-    record = recorded(axis, robot, kind, rate_hz)
+    record = make_record(axis, robot, kind, rate_hz)
     command, step_s = record.signal(axis, Tap.CMD), 1.0 / rate_hz
-    most_speed = np.abs(np.diff(command)).max() / step_s
-    most_acceleration = np.abs(np.diff(command, 2)).max() / step_s**2
-    able = trials(robot, axis, [record])
-    assert len(able) >= 12
-    assert trials(robot, axis, [record], beyond_records=True) == []
-    for one in able:
-        asked = one.record.signal(axis, Tap.CMD)
-        speed, acceleration = rates(one.record, axis)
-        assert command.min() - 1e-12 <= asked.min() < asked.max() <= command.max() + 1e-12
-        assert speed <= most_speed * (1.0 + 1e-6)
-        assert acceleration <= most_acceleration * (1.0 + 1e-6)
+    max_speed = np.abs(np.diff(command)).max() / step_s
+    max_acceleration = np.abs(np.diff(command, 2)).max() / step_s**2
+    trials = find_safe_tests(robot, axis, [record])
+    assert len(trials) >= 12
+    assert find_safe_tests(robot, axis, [record], beyond_records=True) == []
+    for trial in trials:
+        trial_command = trial.record.signal(axis, Tap.CMD)
+        speed, acceleration = find_peak_rates(trial.record, axis)
+        assert (
+            command.min() - 1e-12
+            <= trial_command.min()
+            < trial_command.max()
+            <= command.max() + 1e-12
+        )
+        assert speed <= max_speed * (1.0 + 1e-6)
+        assert acceleration <= max_acceleration * (1.0 + 1e-6)
 
 
-def test_a_step_counts_with_the_speed_at_which_the_machine_made_it():
-    robot = without_limits(ROBOT)
-    record = recorded("thx", robot, "staircase", 1000.0)
-    measured = np.abs(np.diff(record.signal("thx", Tap.MEAS))).max() * 1000.0
-    asked = np.abs(np.diff(record.signal("thx", Tap.CMD))).max() * 1000.0
-    fastest = max(rates(one.record, "thx")[0] for one in trials(robot, "thx", [record]))
-    assert fastest <= measured < 0.2 * asked
+def test_a_step_counts_with_the_measured_speed_of_the_machine():
+    robot = remove_limits(ROBOT)
+    record = make_record("thx", robot, "staircase", 1000.0)
+    measured_speed = np.abs(np.diff(record.signal("thx", Tap.MEAS))).max() * 1000.0
+    commanded_speed = np.abs(np.diff(record.signal("thx", Tap.CMD))).max() * 1000.0
+    max_trial_speed = max(
+        find_peak_rates(trial.record, "thx")[0] for trial in find_safe_tests(robot, "thx", [record])
+    )
+    assert max_trial_speed <= measured_speed < 0.2 * commanded_speed
 
 
 def test_an_axis_that_never_moved_in_the_records_is_not_moved():
-    still = commands(share=0.0)
-    assert trials(without_limits(ROBOT), "zn", [still]) == []
+    commands_at_rest = make_commands(share=0.0)
+    assert find_safe_tests(remove_limits(ROBOT), "zn", [commands_at_rest]) == []

@@ -1,10 +1,9 @@
-"""Effects found by what they are, not by their names."""
+"""Effects are found by their properties, not by their names."""
 
 import pytest
 
-from rotemina.sim.effects.identification import Sign
-from rotemina.sim.effects.kinship import Family
-from rotemina.sim.gap.fit.catalogue import (
+from rotemina.sim.effects import EffectFamily, EffectSignature
+from rotemina.sim.gap.fit import (
     brought_along,
     by_spectra,
     catalogue,
@@ -14,14 +13,14 @@ from rotemina.sim.gap.fit.catalogue import (
 )
 
 
-def test_each_sign_shows_an_effect_and_no_two_show_the_same():
-    shown = [shown_as(sign) for sign in Sign]
-    assert None not in shown
-    assert len(set(shown)) == len(shown)
+def test_each_signature_belongs_to_a_different_effect():
+    effects = [shown_as(signature) for signature in EffectSignature]
+    assert None not in effects
+    assert len(set(effects)) == len(effects)
 
 
 @pytest.mark.parametrize("coupled", [False, True])
-def test_what_is_found_from_spectra_acts_from_the_axis_that_is_asked_for(coupled):
+def test_the_effect_for_spectra_is_coupled_if_requested(coupled):
     effect, formulation = by_spectra(coupled=coupled)
     assert effect.coupled is coupled
     assert formulation in effect.formulations
@@ -31,12 +30,12 @@ def test_no_effect_has_an_unknown_parameter():
     assert with_parameter("no such parameter") is None
     effect, formulation = with_parameter("width")
     assert formulation in effect.formulations
-    assert formulation.parameter("width")
+    assert formulation.find_parameter("width")
 
 
-def test_what_an_effect_brings_along_is_of_a_family_and_a_share():
-    for one in catalogue():
+def test_companions_belong_to_a_family_and_have_a_share():
+    for effect in catalogue():
         for other in catalogue():
-            share = brought_along(one.id, other.id)
+            share = brought_along(effect.id, other.id)
             assert 0.0 <= share <= 1.0
-            assert share == 0.0 or any(is_of(family, one.id) for family in Family)
+            assert share == 0.0 or any(is_of(family, effect.id) for family in EffectFamily)

@@ -1,4 +1,4 @@
-"""Evidence: what records of unknown memory leave, and what of it goes to another process."""
+"""Evidence: residuals of records with unknown memory, and transfer to another process."""
 
 import sys
 from dataclasses import replace
@@ -9,52 +9,54 @@ import pytest
 
 from rotemina.sim.gap.fit.evidence import beside, within_a_row
 
-sys.path.insert(0, str(Path(__file__).parents[1]))  # no test module: the records
-from short_records import LATE, evidence
+# The shared records are in a module of the parent folder.
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from short_records import DELAY, make_evidence
 
 PARALLEL = np.outer(1e8 * np.sin(np.linspace(0.0, 9.0, 2000)), [1.0, 1.0])
 
 
-def test_memories_that_are_parallel_and_huge_are_nuisances_all_the_same():
-    """Normal equations of such columns are singular to the last digit."""
+def test_huge_parallel_memories_are_removed():
+    """The normal equations of such columns are numerically singular."""
     gap = PARALLEL[:, 0] * 1e-8 + np.cos(np.linspace(0.0, 40.0, 2000))
-    left = beside(list(PARALLEL.T), gap)
-    along = PARALLEL[:, 0] / np.linalg.norm(PARALLEL[:, 0])
-    expected = gap - along * (along @ gap)
-    assert np.max(np.abs(left - expected)) < 1e-3
+    residual = beside(list(PARALLEL.T), gap)
+    direction = PARALLEL[:, 0] / np.linalg.norm(PARALLEL[:, 0])
+    expected = gap - direction * (direction @ gap)
+    assert np.max(np.abs(residual - expected)) < 1e-3
 
 
-def test_a_memory_is_taken_in_amounts_of_about_one():
+def test_a_memory_is_removed_with_a_coefficient_of_about_one():
     memory = np.full(4, 0.5)
-    left = beside([memory], 3.0 * memory)
-    assert left == pytest.approx(1.5 * memory)  # mᵀm = 1: half of what would take all away
+    residual = beside([memory], 3.0 * memory)
+    # mᵀm = 1, therefore half of the coefficient that would remove everything.
+    assert residual == pytest.approx(1.5 * memory)
 
 
 def test_evidence_is_sent_without_its_caches_and_listeners():
-    seen = replace(evidence(LATE), heartbeat=lambda: None)
-    residual = seen.residual()
-    assert seen._runs
-    make, figures = seen.__reduce__()
-    sent = make(*figures)
-    assert sent.heartbeat is not seen.heartbeat
-    assert not sent._runs
-    np.testing.assert_allclose(sent.residual(), residual)
+    evidence = replace(make_evidence(DELAY), heartbeat=lambda: None)
+    residual = evidence.residual()
+    assert evidence._runs
+    make, arguments = evidence.__reduce__()
+    received = make(*arguments)
+    assert received.heartbeat is not evidence.heartbeat
+    assert not received._runs
+    np.testing.assert_allclose(received.residual(), residual)
 
 
-def centred(signal):
+def centre(signal):
     return signal - signal.mean()
 
 
 @pytest.mark.parametrize("rows", [-1.0, -0.4, 0.0, 0.7, 1.0])
-def test_when_within_its_row_an_output_was_read_is_no_gap(rows):
+def test_a_shift_of_less_than_a_row_is_not_a_gap(rows):
     output = np.cumsum(np.sin(np.linspace(0.0, 40.0, 2000)))
     real = np.interp(np.arange(2000) + rows, np.arange(2000), output)
-    left = within_a_row(centred(real - output), output, centred)
-    assert np.abs(left).max() < 0.01 * np.abs(np.diff(output)).max()
+    residual = within_a_row(centre(real - output), output, centre)
+    assert np.abs(residual).max() < 0.01 * np.abs(np.diff(output)).max()
 
 
-def test_an_output_that_is_late_by_rows_is_a_gap_all_the_same():
+def test_a_delay_of_several_rows_is_a_gap():
     output = np.cumsum(np.sin(np.linspace(0.0, 40.0, 2000)))
-    gap = centred(np.interp(np.arange(2000) - 5, np.arange(2000), output) - output)
-    left = within_a_row(gap, output, centred)
-    assert np.linalg.norm(left) == pytest.approx(0.8 * np.linalg.norm(gap), rel=0.01)
+    gap = centre(np.interp(np.arange(2000) - 5, np.arange(2000), output) - output)
+    residual = within_a_row(gap, output, centre)
+    assert np.linalg.norm(residual) == pytest.approx(0.8 * np.linalg.norm(gap), rel=0.01)

@@ -1,33 +1,33 @@
-"""Noise floors where no sensor is declared."""
+"""Noise floors of sensors without declared noise."""
 
 import numpy as np
 import pytest
 
 from rotemina.sim.gap.fit.noise_floors import floors, unforetold
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.file import load_robot
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot_files import load_robot
 
 TIME_S = np.arange(5000) * 1e-3
 
 
-def test_noise_is_told_from_motion_and_from_steps():
+def test_noise_is_distinguished_from_motion_and_steps():
     noise = np.random.default_rng(0).standard_normal(5000)
     smooth = 1e3 * np.sin(2.0 * np.pi * 3.0 * TIME_S)
-    leaps = 50.0 * (np.floor(TIME_S) % 2.0)
-    assert unforetold(noise + smooth + leaps) == pytest.approx(1.0, rel=0.1)
+    steps = 50.0 * (np.floor(TIME_S) % 2.0)
+    assert unforetold(noise + smooth + steps) == pytest.approx(1.0, rel=0.1)
 
 
-def test_what_was_computed_has_no_noise():
+def test_computed_signals_have_no_noise():
     assert unforetold(np.zeros(5000)) is None
     assert unforetold(np.ones(5000)) is None
 
 
-def test_too_few_rows_tell_nothing():
+def test_too_few_rows_give_no_noise_level():
     assert unforetold(np.random.default_rng(0).standard_normal(50)) is None
     assert unforetold(np.random.default_rng(0).standard_normal(100)) == pytest.approx(1.0, rel=0.3)
 
 
-def measured(axis, mode):
+def make_record(axis, mode):
     rng = np.random.default_rng(1)
     path = 0.1 + 0.05 * np.sin(2.0 * np.pi * TIME_S)
     return Record.from_signals(
@@ -42,25 +42,25 @@ def measured(axis, mode):
     )
 
 
-def test_under_a_controller_without_declared_sensor_the_effort_speaks_alone():
-    found = floors(load_robot("emps"), measured("q", "closed_loop"), "q")
-    assert list(found) == [Tap.U]
-    assert found[Tap.U] == pytest.approx(1e-2, rel=0.1)
+def test_under_a_controller_without_declared_sensor_only_the_effort_has_a_floor():
+    floor_by_tap = floors(load_robot("emps"), make_record("q", "closed_loop"), "q")
+    assert list(floor_by_tap) == [Tap.U]
+    assert floor_by_tap[Tap.U] == pytest.approx(1e-2, rel=0.1)
 
 
-def test_an_effort_that_drives_the_model_is_no_answer():
-    found = floors(load_robot("emps"), measured("q", "open_loop"), "q")
-    assert list(found) == [Tap.MEAS]
-    assert found[Tap.MEAS] == pytest.approx(1e-7, rel=0.1)
+def test_an_effort_that_drives_the_model_has_no_floor():
+    floor_by_tap = floors(load_robot("emps"), make_record("q", "open_loop"), "q")
+    assert list(floor_by_tap) == [Tap.MEAS]
+    assert floor_by_tap[Tap.MEAS] == pytest.approx(1e-7, rel=0.1)
 
 
-def test_a_held_axis_that_shakes_has_no_more_noise_for_that():
+def test_a_vibration_at_rest_does_not_raise_the_noise_floor():
     rng = np.random.default_rng(2)
     path = np.interp(TIME_S, [0.0, 1.0, 5.0], [0.05, 0.1, 0.1])
-    shaken = 0.1 * np.sin(2.0 * np.pi * 11.0 * TIME_S) + 1e-2 * rng.standard_normal(5000)
+    vibrating_effort = 0.1 * np.sin(2.0 * np.pi * 11.0 * TIME_S) + 1e-2 * rng.standard_normal(5000)
     record = Record.from_signals(
         TIME_S,
-        {("q", Tap.CMD): path, ("q", Tap.U): shaken, ("q", Tap.MEAS): path},
+        {("q", Tap.CMD): path, ("q", Tap.U): vibrating_effort, ("q", Tap.MEAS): path},
         {"q": "m"},
         {"mode": "closed_loop"},
     )

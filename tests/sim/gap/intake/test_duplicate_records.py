@@ -5,29 +5,37 @@ from pathlib import Path
 
 import numpy as np
 
-from rotemina.sim.gap.intake.record_checks import check
-from rotemina.sim.simulation.simulation import simulate
+from rotemina.sim.gap.intake import check_records
+from rotemina.sim.simulation import simulate
 
-sys.path.insert(0, str(Path(__file__).parents[1]))  # no test module: the records
-from intake_records import ROBOT, changed, make_commands, measured, refusal
+# The shared records are in a module of the parent folder.
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from intake_records import ROBOT, get_refusal, make_commands, modify_record, simulate_record
 
 
 def test_the_same_measurements_twice_are_refused():
-    record = measured()
-    copy = changed(record, {}, name="another")
-    said = refusal(record, measured(seed=1), copy, names=["a.csv", "b.csv", "c.csv"])
-    assert said.startswith("c.csv: it holds measurements of a.csv again (")
-    for part in (record.part(slice(1000, 3000)), record.part(slice(2500, None))):
-        assert "again" in refusal(record, part)
-        assert "again" in refusal(part, record)
-    overlapping = record.part(slice(0, 2500)), record.part(slice(2000, None))
-    assert "again" in refusal(*overlapping)
+    record = simulate_record()
+    copy = modify_record(record, {}, name="another")
+    message = get_refusal(record, simulate_record(seed=1), copy, names=["a.csv", "b.csv", "c.csv"])
+    assert message.startswith("c.csv: it contains the same measurements as a.csv (")
+    for piece in (record.select_rows(slice(1000, 3000)), record.select_rows(slice(2500, None))):
+        assert "the same measurements" in get_refusal(record, piece)
+        assert "the same measurements" in get_refusal(piece, record)
+    overlapping = record.select_rows(slice(0, 2500)), record.select_rows(slice(2000, None))
+    assert "the same measurements" in get_refusal(*overlapping)
 
 
-def test_other_runs_of_the_same_commands_and_rests_are_no_copies():
-    assert check(ROBOT, [measured(seed=1), measured(seed=2)]) == ()
-    still = make_commands(("x",), share=0.0)
-    rests = [simulate(ROBOT, (), still, np.random.default_rng(seed)) for seed in (1, 2)]
-    assert {str(one.text)[:27] for one in check(ROBOT, rests)} == {"The axis was never commande"}
-    whole = measured()
-    assert check(ROBOT, [whole.part(slice(0, 2000)), whole.part(slice(2000, None))]) == ()
+def test_repeated_runs_and_rests_are_not_copies():
+    assert check_records(ROBOT, [simulate_record(seed=1), simulate_record(seed=2)]) == ()
+    commands_at_rest = make_commands(("x",), share=0.0)
+    rests = [simulate(ROBOT, (), commands_at_rest, np.random.default_rng(seed)) for seed in (1, 2)]
+    assert {str(caution.text)[:27] for caution in check_records(ROBOT, rests)} == {
+        "The axis was never commande"
+    }
+    record = simulate_record()
+    assert (
+        check_records(
+            ROBOT, [record.select_rows(slice(0, 2000)), record.select_rows(slice(2000, None))]
+        )
+        == ()
+    )

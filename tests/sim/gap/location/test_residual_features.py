@@ -1,4 +1,4 @@
-"""A black box that looks for what is left in a residual."""
+"""A black-box model that searches a residual for dependencies."""
 
 import sys
 from pathlib import Path
@@ -6,33 +6,34 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rotemina.sim.gap.location.residual_features import probed
-from rotemina.sim.records.record import Tap
+from rotemina.sim.gap.location import probe_residual
+from rotemina.sim.records import Tap
 
-sys.path.insert(0, str(Path(__file__).parents[1]))  # no test module: the records
-from short_records import evidence
+# The shared records are in a module of the parent folder.
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from short_records import make_evidence
 
 
 @pytest.fixture(scope="module")
-def seen():
-    return evidence()
+def evidence():
+    return make_evidence()
 
 
-def noise(seen):
-    return np.random.default_rng(0).standard_normal(seen.parts[-1].rows.stop)
+def make_noise(evidence):
+    return np.random.default_rng(0).standard_normal(evidence.parts[-1].rows.stop)
 
 
-def test_noise_is_left_as_it_is(seen):
-    found = probed(seen, noise(seen))
-    assert found.score == pytest.approx(1.0, abs=0.1)
-    assert found.depends_on == ()
+def test_noise_has_no_features(evidence):
+    probe = probe_residual(evidence, make_noise(evidence))
+    assert probe.score == pytest.approx(1.0, abs=0.1)
+    assert probe.depends_on == ()
 
 
-def test_a_remainder_that_turns_with_the_motion_depends_on_its_direction(seen):
-    remainder = noise(seen)
-    for part in seen.parts:
-        command = seen.observations[part.record].record.signal("zn", Tap.CMD)
+def test_a_remainder_that_changes_sign_with_the_motion_depends_on_its_direction(evidence):
+    remainder = make_noise(evidence)
+    for part in evidence.parts:
+        command = evidence.observations[part.record].record.signal("zn", Tap.CMD)
         remainder[part.rows] += 20.0 * np.sign(np.gradient(command))
-    found = probed(seen, remainder)
-    assert found.score < 0.1 * np.mean(remainder**2)
-    assert found.depends_on[0][0] == "direction"
+    probe = probe_residual(evidence, remainder)
+    assert probe.score < 0.1 * np.mean(remainder**2)
+    assert probe.depends_on[0][0] == "direction"

@@ -1,53 +1,55 @@
-"""What commands do not cause is found, named and set aside; what they do cause is left alone."""
+"""Disturbances not caused by commands are found, named and removed; other gaps remain."""
 
 import numpy as np
 import pytest
 
-from rotemina.sim.gap.compare.explanations import mean_squares
-from rotemina.sim.gap.fit.evidence import Evidence
-from rotemina.sim.gap.noise.disturbances import Disturbance, power_by_tap, set_aside
-from rotemina.sim.gap.noise.sensor_wander import wander
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.robot.model import AxisEffect
-from rotemina.sim.simulation.simulation import simulate
+from rotemina.sim.gap.compare import mean_squares
+from rotemina.sim.gap.fit import Evidence
+from rotemina.sim.gap.noise import (
+    Disturbance,
+    power_by_tap,
+    set_aside,
+    wander,
+)
+from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot import AxisEffect
+from rotemina.sim.robot_files import load_robot
+from rotemina.sim.simulation import simulate
 
 ROBOT = load_robot("rotemina")
-
-
 RATE_HZ = 1000.0
-
-
 TIME_S = np.arange(8000) / RATE_HZ
 
 
-def steps_and_triangles(axis, share=0.1):
-    """Move at constant speed, then in steps with holds between."""
-    own = ROBOT.axes[axis]
+def make_triangles_and_steps(axis, share=0.1):
+    """Return motion at constant speed, then steps with holds between them."""
+    description = ROBOT.axes[axis]
     wave = 2.0 / np.pi * np.arcsin(np.sin(2.0 * np.pi * 0.5 * TIME_S))
     stairs = np.floor(TIME_S) % 3 - 1.0
-    way = np.where(TIME_S < 4.0, wave, 0.3 * stairs)
+    path = np.where(TIME_S < 4.0, wave, 0.3 * stairs)
     return Record.from_signals(
-        TIME_S, {(axis, Tap.CMD): sum(own.range) / 2 + share * own.span * way}, {axis: own.unit}
+        TIME_S,
+        {(axis, Tap.CMD): sum(description.range) / 2 + share * description.span * path},
+        {axis: description.unit},
     )
 
 
-def aside(effects, axis, share=0.1, seeds=(0, 1)):
-    command = steps_and_triangles(axis, share)
+def remove_disturbances(effects, axis, share=0.1, seeds=(0, 1)):
+    command = make_triangles_and_steps(axis, share)
     records = [simulate(ROBOT, effects, command, np.random.default_rng(s)) for s in seeds]
     evidence = Evidence.of(ROBOT, axis, records)
     return evidence, *set_aside(evidence)
 
 
-def rms(evidence):
+def compute_rms(evidence):
     return float(np.sqrt(np.mean(evidence.residual() ** 2)))
 
 
 @pytest.mark.parametrize("axis", ["zn", "thx"])
 def test_a_healthy_axis_has_no_disturbances(axis):
-    _, clean, found = aside([], axis)
-    assert found == ()
-    assert rms(clean) == pytest.approx(1.0, abs=0.05)
+    _, clean, disturbances = remove_disturbances([], axis)
+    assert disturbances == ()
+    assert compute_rms(clean) == pytest.approx(1.0, abs=0.05)
 
 
 @pytest.mark.parametrize(
@@ -61,149 +63,175 @@ def test_a_healthy_axis_has_no_disturbances(axis):
     ],
     ids=lambda effect: f"{effect.id} {effect.formulation or ''}",
 )
-def test_a_disturbance_is_named_and_set_aside(effect):
-    raw, clean, found = aside([effect], "zn")
-    assert {one.effect for one in found if one.power > 0.03 * rms(raw) ** 2} == {effect.id}
-    assert rms(raw) > 1.3
-    assert rms(clean) < 1.3
+def test_a_disturbance_is_named_and_removed(effect):
+    raw, clean, disturbances = remove_disturbances([effect], "zn")
+    assert {
+        disturbance.effect
+        for disturbance in disturbances
+        if disturbance.power > 0.03 * compute_rms(raw) ** 2
+    } == {effect.id}
+    assert compute_rms(raw) > 1.3
+    assert compute_rms(clean) < 1.3
 
 
 @pytest.mark.parametrize(
     "effect", ["hysteresis", "delay", "creep", "gain_error", "resonance_mismatch", "contact"]
 )
-def test_what_commands_cause_is_no_disturbance(effect):
-    raw, _, found = aside([AxisEffect(axis="zn", id=effect)], "zn")
-    power = sum(one.power for one in found)
-    assert power < 0.03 * rms(raw) ** 2
+def test_gaps_caused_by_commands_are_not_disturbances(effect):
+    raw, _, disturbances = remove_disturbances([AxisEffect(axis="zn", id=effect)], "zn")
+    power = sum(disturbance.power for disturbance in disturbances)
+    assert power < 0.03 * compute_rms(raw) ** 2
 
 
-def test_lost_steps_are_taken_back_by_whole_multiples():
-    lost = AxisEffect(
+def test_lost_steps_are_removed_by_whole_multiples():
+    lost_steps = AxisEffect(
         axis="x", id="lost_steps", formulation="event", parameters={"time": 2.3, "slips": -2.0}
     )
-    raw, clean, found = aside([lost], "x", share=0.01)
-    assert {one.effect for one in found} == {"lost_steps"}
-    assert rms(raw) > 100.0
-    assert rms(clean) < 2.0
+    raw, clean, disturbances = remove_disturbances([lost_steps], "x", share=0.01)
+    assert {disturbance.effect for disturbance in disturbances} == {"lost_steps"}
+    assert compute_rms(raw) > 100.0
+    assert compute_rms(clean) < 2.0
 
 
-def test_lost_steps_that_a_screw_hides_are_seen_beside_its_error():
-    lost = AxisEffect(
+def test_lost_steps_are_found_after_the_error_of_a_screw_is_modelled():
+    lost_steps = AxisEffect(
         axis="x", id="lost_steps", formulation="event", parameters={"time": 2.3, "slips": 1.0}
     )
     screw = AxisEffect(
         axis="x", id="leadscrew_error", parameters={"period": 1e-3, "sine": 6e-6, "cosine": 1.2e-5}
     )
-    raw, _, hidden = aside([lost, screw], "x", share=0.05)
-    assert hidden == ()
-    clean, found = set_aside(raw, [screw])
-    assert {one.effect for one in found} == {"lost_steps"}
+    raw, _, found_without_screw = remove_disturbances([lost_steps, screw], "x", share=0.05)
+    assert found_without_screw == ()
+    clean, disturbances = set_aside(raw, [screw])
+    assert {disturbance.effect for disturbance in disturbances} == {"lost_steps"}
     assert clean.robot is raw.robot
-    # Behind the jump the screw stands elsewhere: some of its error is left.
-    before, after = (np.mean(one.residual([screw]) ** 2) for one in (raw, clean))
+    # After the jump the screw has another phase, so that some of its error remains.
+    before, after = (np.mean(evidence.residual([screw]) ** 2) for evidence in (raw, clean))
     assert after < 0.5 * before
 
 
-def test_noise_behind_a_late_sensor_is_measured_beside_its_lag():
+def test_noise_of_a_sensor_is_measured_next_to_its_lag():
     lag = AxisEffect(axis="zn", id="sensor_lag", parameters={"time_constant": 1e-3})
     noise = AxisEffect(axis="zn", id="sensor_noise", parameters={"rms": 3e-8})
-    raw, _, _ = aside([lag, noise], "zn", share=0.4)
-    _, found = set_aside(raw, [lag])
-    (one,) = [each for each in found if each.effect == "sensor_noise"]
-    declared = raw.floor(Tap.MEAS)
-    assert one.power == pytest.approx((3e-8 / declared) ** 2, rel=0.25)
+    raw, _, _ = remove_disturbances([lag, noise], "zn", share=0.4)
+    _, disturbances = set_aside(raw, [lag])
+    (sensor_noise,) = [
+        disturbance for disturbance in disturbances if disturbance.effect == "sensor_noise"
+    ]
+    declared_floor = raw.floor(Tap.MEAS)
+    assert sensor_noise.power == pytest.approx((3e-8 / declared_floor) ** 2, rel=0.25)
 
 
 @pytest.mark.parametrize("at_rest", [0.0, 10.0])
-def test_noise_of_a_sensor_is_there_at_rest_as_well(at_rest):
-    """A delay that is never quite the same makes a moving axis' reading as rough as noise does."""
+def test_noise_of_a_sensor_is_present_at_rest_too(at_rest):
+    """A varying delay makes the reading of a moving axis as rough as noise does."""
     time_s = np.arange(6000) / RATE_HZ
-    own = ROBOT.axes["zn"]
-    moving = np.minimum(time_s % 0.5, 0.4) + 0.4 * (time_s // 0.5)  # with short holds
-    way = 2.0 / np.pi * np.arcsin(np.sin(2.0 * np.pi * moving))
-    command = sum(own.range) / 2 + 0.1 * own.span * way
-    moved = Record.from_signals(time_s, {("zn", Tap.CMD): command}, {"zn": own.unit})
+    axis = ROBOT.axes["zn"]
+    # With short holds.
+    motion_time_s = np.minimum(time_s % 0.5, 0.4) + 0.4 * (time_s // 0.5)
+    path = 2.0 / np.pi * np.arcsin(np.sin(2.0 * np.pi * motion_time_s))
+    command = sum(axis.range) / 2 + 0.1 * axis.span * path
+    commands = Record.from_signals(time_s, {("zn", Tap.CMD): command}, {"zn": axis.unit})
     records = []
     for seed in (0, 1):
         rng = np.random.default_rng(seed)
-        nominal = simulate(ROBOT, [], moved, rng)
-        pace = np.abs(np.gradient(command, time_s))
-        size = own.sensor.noise_rms * np.maximum(at_rest, 10.0 * pace / pace.max())
-        reading = nominal.signal("zn", Tap.MEAS) + size * rng.standard_normal(len(time_s))
+        nominal = simulate(ROBOT, [], commands, rng)
+        speed = np.abs(np.gradient(command, time_s))
+        noise_rms = axis.sensor.noise_rms * np.maximum(at_rest, 10.0 * speed / speed.max())
+        reading = nominal.signal("zn", Tap.MEAS) + noise_rms * rng.standard_normal(len(time_s))
         signals = {("zn", Tap.CMD): command, ("zn", Tap.MEAS): reading}
-        records.append(Record.from_signals(time_s, signals, {"zn": own.unit}))
-    _, found = set_aside(Evidence.of(ROBOT, "zn", records))
-    assert ("sensor_noise" in [one.effect for one in found]) is bool(at_rest)
+        records.append(Record.from_signals(time_s, signals, {"zn": axis.unit}))
+    _, disturbances = set_aside(Evidence.of(ROBOT, "zn", records))
+    assert ("sensor_noise" in [disturbance.effect for disturbance in disturbances]) is bool(at_rest)
 
 
-def test_a_wander_of_the_sensor_is_told_from_motion():
+def test_a_drift_of_the_sensor_is_distinguished_from_motion():
     drift = AxisEffect(axis="zn", id="sensor_drift", parameters={"rate": 5e-7})
-    raw, clean, found = aside([drift], "zn")
-    assert not {one.effect for one in found} - {"sensor_noise"}
-    told = wander(clean, clean.residual())
-    assert told is not None
-    reading = mean_squares(raw, raw.residual())[Tap.MEAS]
-    assert told.power == pytest.approx(reading, rel=0.2)
-    assert wander(*(lambda e: (e, e.residual()))(aside([], "zn")[1])) is None
+    raw, clean, disturbances = remove_disturbances([drift], "zn")
+    assert not {disturbance.effect for disturbance in disturbances} - {"sensor_noise"}
+    sensor_wander = wander(clean, clean.residual())
+    assert sensor_wander is not None
+    meas_power = mean_squares(raw, raw.residual())[Tap.MEAS]
+    assert sensor_wander.power == pytest.approx(meas_power, rel=0.2)
+    assert (
+        wander(
+            *(lambda evidence: (evidence, evidence.residual()))(remove_disturbances([], "zn")[1])
+        )
+        is None
+    )
 
 
-def test_what_shakes_the_axis_counts_at_its_sensor_in_floors_of_the_sensor():
-    seen, _, _ = aside([], "zn")
-    shaken = Disturbance("vibration", Tap.REF, 100.0, "")
-    noisy = Disturbance("sensor_noise", Tap.MEAS, 5.0, "")
-    share = (seen.floor(Tap.REF) / seen.floor(Tap.MEAS)) ** 2
-    found = power_by_tap(seen, [shaken, noisy])
-    assert found == {Tap.REF: 100.0, Tap.MEAS: pytest.approx(5.0 + 100.0 * share)}
+def test_a_vibration_of_the_axis_counts_in_floors_of_its_sensor():
+    evidence, _, _ = remove_disturbances([], "zn")
+    vibration = Disturbance("vibration", Tap.REF, 100.0, "")
+    sensor_noise = Disturbance("sensor_noise", Tap.MEAS, 5.0, "")
+    share = (evidence.floor(Tap.REF) / evidence.floor(Tap.MEAS)) ** 2
+    power = power_by_tap(evidence, [vibration, sensor_noise])
+    assert power == {Tap.REF: 100.0, Tap.MEAS: pytest.approx(5.0 + 100.0 * share)}
 
 
-def _read_in_steps(*effects):
+def _simulate_coarse_reading(*effects):
     coarse = AxisEffect(axis="zn", id="sensor_quantization", parameters={"step": 5e-7})
     wave = 2.0 / np.pi * np.arcsin(np.sin(2.0 * np.pi * 0.25 * TIME_S))
     command = Record.from_signals(
         TIME_S, {("zn", Tap.CMD): (32.5 + 6.5 * wave) * 1e-6}, {"zn": "m"}
     )
     record = simulate(ROBOT, [coarse, *effects], command, np.random.default_rng(0))
-    seen, found = set_aside(Evidence.of(ROBOT, "zn", [record]))
-    assert "sensor_quantization" in {one.effect for one in found}
-    assert seen.observations[0].cell[Tap.MEAS] == pytest.approx(5e-7, rel=0.01)
-    return seen
+    evidence, disturbances = set_aside(Evidence.of(ROBOT, "zn", [record]))
+    assert "sensor_quantization" in {disturbance.effect for disturbance in disturbances}
+    assert evidence.observations[0].cell[Tap.MEAS] == pytest.approx(5e-7, rel=0.01)
+    return evidence
 
 
-def test_what_lies_within_the_steps_of_a_coarse_reading_is_no_gap():
-    even = _read_in_steps()
-    assert 0.1 < mean_squares(even, even.residual())[Tap.MEAS] < 1.3
+def test_deviations_within_the_steps_of_a_coarse_reading_are_not_a_gap():
+    evidence = _simulate_coarse_reading()
+    assert 0.1 < mean_squares(evidence, evidence.residual())[Tap.MEAS] < 1.3
 
 
-def test_what_lies_beyond_the_steps_of_a_coarse_reading_is_a_gap():
-    bent = AxisEffect(axis="zn", id="gain_error", parameters={"error": 0.01})
-    seen = _read_in_steps(bent)
-    # The triangle of 6.5 µm reaches 65 nm beyond an edge, in that share of the rows of a step:
-    # ∫ d³ / (3 step) over its even spread, to 1 % of 6.5 µm, is d³ / (12 step).
+def test_deviations_beyond_the_steps_of_a_coarse_reading_are_a_gap():
+    gain_error = AxisEffect(axis="zn", id="gain_error", parameters={"error": 0.01})
+    evidence = _simulate_coarse_reading(gain_error)
+    # The triangle of 6.5 µm exceeds the edge of a step by up to d = 65 nm, evenly distributed:
+    # ∫ d³ / (3 step) up to 1 % of 6.5 µm is d³ / (12 step).
     expected = 6.5e-8**3 / (12.0 * 5e-7)
-    left = mean_squares(seen, seen.residual())[Tap.MEAS] * seen.floor(Tap.MEAS) ** 2
-    assert left == pytest.approx(expected, rel=0.35)
-    assert mean_squares(seen, seen.residual([bent]))[Tap.MEAS] < 1.3
+    power = mean_squares(evidence, evidence.residual())[Tap.MEAS] * evidence.floor(Tap.MEAS) ** 2
+    assert power == pytest.approx(expected, rel=0.35)
+    assert mean_squares(evidence, evidence.residual([gain_error]))[Tap.MEAS] < 1.3
 
 
-def test_spikes_at_rest_prove_those_in_lively_motion():
-    lively = Record.from_signals(
+def test_spikes_at_rest_confirm_those_in_fast_motion():
+    fast_commands = Record.from_signals(
         TIME_S,
         {("zn", Tap.CMD): (32.5 + 8.0 * np.sign(np.sin(2 * np.pi * 40.0 * TIME_S))) * 1e-6},
         {"zn": "m"},
     )
-    held = np.full(len(TIME_S), 32.5e-6)
-    calm = Record.from_signals(TIME_S, {("zn", Tap.CMD): held}, {"zn": "m"})
+    constant = np.full(len(TIME_S), 32.5e-6)
+    rest_commands = Record.from_signals(TIME_S, {("zn", Tap.CMD): constant}, {"zn": "m"})
     rng = np.random.default_rng(0)
 
-    def spiked(record, rows):
-        seen = simulate(ROBOT, [], record, rng)
-        reading = seen.signal("zn", Tap.MEAS).copy()
+    def simulate_spikes(record, rows):
+        simulated_record = simulate(ROBOT, [], record, rng)
+        reading = simulated_record.signal("zn", Tap.MEAS).copy()
         reading[rows] += 4e-6
-        signals = {("zn", Tap.CMD): seen.signal("zn", Tap.CMD), ("zn", Tap.MEAS): reading}
-        return Record.from_signals(seen.time_s, signals, {"zn": "m"}, dict(seen.metadata))
+        signals = {
+            ("zn", Tap.CMD): simulated_record.signal("zn", Tap.CMD),
+            ("zn", Tap.MEAS): reading,
+        }
+        return Record.from_signals(
+            simulated_record.time_s, signals, {"zn": "m"}, dict(simulated_record.metadata)
+        )
 
     rows = np.arange(200, 5800, 700)
-    alone, _ = set_aside(Evidence.of(ROBOT, "zn", [spiked(lively, rows)]))
-    both, _ = set_aside(Evidence.of(ROBOT, "zn", [spiked(lively, rows), spiked(calm, rows)]))
-    assert Tap.MEAS not in alone.observations[0].kept or alone.observations[0].kept[Tap.MEAS].all()
+    fast_only, _ = set_aside(Evidence.of(ROBOT, "zn", [simulate_spikes(fast_commands, rows)]))
+    both, _ = set_aside(
+        Evidence.of(
+            ROBOT,
+            "zn",
+            [simulate_spikes(fast_commands, rows), simulate_spikes(rest_commands, rows)],
+        )
+    )
+    assert (
+        Tap.MEAS not in fast_only.observations[0].kept
+        or fast_only.observations[0].kept[Tap.MEAS].all()
+    )
     assert not both.observations[0].kept[Tap.MEAS][rows].any()

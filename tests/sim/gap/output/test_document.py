@@ -1,48 +1,52 @@
-"""A diagnosis as JSON: what the contract asks for, and what is read back or refused."""
+"""A diagnosis as JSON: the keys and values of the format."""
 
 import json
 from dataclasses import replace
 
 import pytest
 
-from rotemina.app.files import json_text
-from rotemina.sim.gap.diagnosis import (
-    FittedParameter,
-    Offset,
-    Remainder,
-    Suspected,
-    Verdict,
+from rotemina.app.settings import format_json
+from rotemina.sim.gap.output import (
+    ExperimentFiles,
+    as_json,
+    compute_shares,
+    read_document,
 )
-from rotemina.sim.gap.output.document import ExperimentFiles, as_json, shares
-from rotemina.sim.gap.output.document_reader import read_document
-from rotemina.sim.records.record import Tap
+from rotemina.sim.gap.result import (
+    FittedParameter,
+    GapRemainder,
+    GapVerdict,
+    ModelOffset,
+    SuspectedEffect,
+)
+from rotemina.sim.records import Tap
 
 NAMES = ExperimentFiles("out_experiment_1.csv", {"creep": "c.csv", "hysteresis": "h.csv"})
 
 
 @pytest.fixture(autouse=True)
-def in_tmp(tmp_path, monkeypatch):
+def run_in_temporary_folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
 
 
-def test_every_key_of_the_contract_is_there(made_diagnosis):
-    form = json.loads(json_text(as_json(made_diagnosis, [NAMES])))
-    assert form["format"] == "rotemina-diagnosis 1"
-    assert form["verdict"] == "unknown"
-    assert form["axes"] == {"y": "unknown", "thx": "explained", "zn": "none"}
-    first = form["where"][0]
+def test_every_key_of_the_format_is_written(made_diagnosis):
+    document = json.loads(format_json(as_json(made_diagnosis, [NAMES])))
+    assert document["format"] == "rotemina-diagnosis 1"
+    assert document["verdict"] == "unknown"
+    assert document["axes"] == {"y": "unknown", "thx": "explained", "zn": "none"}
+    first = document["where"][0]
     assert (first["axis"], first["tap"], first["stage"]) == ("thx", "ref", "actuator")
     assert first["gap_rms"] == pytest.approx(1.0e-7 * 201.0**0.5)
     assert first["noise_floor"] == 1.0e-7
     assert first["worst_band_hz"] == [0.5, 4.0]
     assert first["worst_regime"] == "reversal"
-    assert [(one["axis"], one["tap"]) for one in form["where"]] == [
+    assert [(location["axis"], location["tap"]) for location in document["where"]] == [
         ("thx", "ref"),
         ("thx", "meas"),
         ("y", "meas"),
     ]
-    loop = form["causes"][0]
-    contract = {
+    cause = document["causes"][0]
+    expected = {
         "axis": "thx",
         "effect": "hysteresis",
         "stage": "actuator",
@@ -57,10 +61,10 @@ def test_every_key_of_the_contract_is_there(made_diagnosis):
         "parameters": {"width": 1.2e-4, "shape": 4.0},
         "units": {"width": "rad", "shape": ""},
     }
-    assert {key: loop[key] for key in contract} == contract
-    assert loop["parameter_intervals"] == {"width": [1.1e-4, 1.3e-4], "shape": None}
-    assert loop["at_bound"] == {"width": "high"}
-    assert form["shrinkage"][0] == {
+    assert {key: cause[key] for key in expected} == expected
+    assert cause["parameter_intervals"] == {"width": [1.1e-4, 1.3e-4], "shape": None}
+    assert cause["at_bound"] == {"width": "high"}
+    assert document["shrinkage"][0] == {
         "axis": "thx",
         "tap": "meas",
         "raw": 3.3e-05,
@@ -72,7 +76,7 @@ def test_every_key_of_the_contract_is_there(made_diagnosis):
         "closed_interval": [0.96, 0.98],
         "steps": [{"effect": "hysteresis", "rms": 7.8e-07, "shapley": 0.96, "axis": "thx"}],
     }
-    assert form["next_experiments"] == [
+    assert document["next_experiments"] == [
         {
             "axis": "thx",
             "splits": ["hysteresis", "creep"],
@@ -84,77 +88,81 @@ def test_every_key_of_the_contract_is_there(made_diagnosis):
     ]
 
 
-def test_candidates_are_in_si_at_the_last_tap_and_what_is_not_finite_is_null(made_diagnosis):
+def test_candidates_are_in_si_at_the_last_tap_and_infinite_values_are_null(made_diagnosis):
     thx = made_diagnosis.axes["thx"]
-    lost = replace(thx.ranking[1], held_out_interval=(25.0, float("inf")))
-    wide = replace(thx, ranking=(thx.ranking[0], lost))
-    form = as_json(replace(made_diagnosis, axes={**made_diagnosis.axes, "thx": wide}))
-    first, second = form["candidates"]["thx"]
+    unbounded = replace(thx.ranking[1], held_out_interval=(25.0, float("inf")))
+    changed_thx = replace(thx, ranking=(thx.ranking[0], unbounded))
+    document = as_json(replace(made_diagnosis, axes={**made_diagnosis.axes, "thx": changed_thx}))
+    first, second = document["candidates"]["thx"]
     assert first["held_out_rms"] == pytest.approx(1.2 * 4.0e-7)
     assert second["held_out_interval"] == [pytest.approx(25.0 * 4.0e-7), None]
-    assert form["candidates"]["zn"] == []
-    strange = form["causes"][1]
-    assert (strange["effect"], strange["gap_after"], strange["stage"]) == ("unknown", None, None)
-    assert form["next_experiments"][0]["commands"] is None
-    json.dumps(form, allow_nan=False)
+    assert document["candidates"]["zn"] == []
+    unknown_cause = document["causes"][1]
+    assert (unknown_cause["effect"], unknown_cause["gap_after"], unknown_cause["stage"]) == (
+        "unknown",
+        None,
+        None,
+    )
+    assert document["next_experiments"][0]["commands"] is None
+    json.dumps(document, allow_nan=False)
 
 
 def test_shares_sum_to_one_and_lie_in_their_intervals(made_diagnosis):
-    found = shares(made_diagnosis.places)
-    assert sum(share for share, _ in found) == pytest.approx(1.0)
-    for share, (low, high) in found:
+    shares = compute_shares(made_diagnosis.places)
+    assert sum(share for share, _ in shares) == pytest.approx(1.0)
+    for share, (low, high) in shares:
         assert 0.0 <= low < share < high <= 1.0
-    only = {"thx": replace(made_diagnosis.axes["thx"], places=made_diagnosis.places[:1])}
-    [(share, interval)] = shares(replace(made_diagnosis, axes=only).places)
+    single_axis = {"thx": replace(made_diagnosis.axes["thx"], places=made_diagnosis.places[:1])}
+    [(share, interval)] = compute_shares(replace(made_diagnosis, axes=single_axis).places)
     assert (share, interval) == (1.0, (1.0, 1.0))
 
 
 def test_units_of_a_coupling_name_both_axes(made_diagnosis):
     thx = made_diagnosis.axes["thx"]
-    leak = FittedParameter("k", 12.0, "rad/…")
-    pace = FittedParameter("frequency", 80.0, "Hz")
+    gain = FittedParameter("k", 12.0, "rad/…")
+    frequency = FittedParameter("frequency", 80.0, "Hz")
     coupled = replace(
-        thx.causes[0], effect="cross_coupling", from_axis="zn", parameters=(leak, pace)
+        thx.causes[0], effect="cross_coupling", from_axis="zn", parameters=(gain, frequency)
     )
     axes = {"thx": replace(thx, causes=(coupled,))}
     [cause] = as_json(replace(made_diagnosis, axes=axes))["causes"]
     assert cause["units"] == {"k": "rad/m", "frequency": "Hz"}
 
 
-def test_a_gap_that_is_no_matter_has_no_place(made_diagnosis):
-    small = replace(made_diagnosis.axes["thx"], verdict=Verdict.NONE, causes=())
-    form = as_json(replace(made_diagnosis, axes={"thx": small}))
-    assert (form["verdict"], form["where"], form["causes"]) == ("none", [], [])
+def test_an_insignificant_gap_is_not_listed(made_diagnosis):
+    healthy_thx = replace(made_diagnosis.axes["thx"], verdict=GapVerdict.NONE, causes=())
+    document = as_json(replace(made_diagnosis, axes={"thx": healthy_thx}))
+    assert (document["verdict"], document["where"], document["causes"]) == ("none", [], [])
 
 
-def test_causes_come_in_the_order_of_what_they_close(made_diagnosis):
+def test_causes_are_sorted_by_the_gap_that_they_close(made_diagnosis):
     thx = made_diagnosis.axes["thx"]
-    small = replace(thx.causes[0], effect="creep", gap_before=7e-7)
-    axes = {"thx": replace(thx, causes=(small, *thx.causes))}
+    small_cause = replace(thx.causes[0], effect="creep", gap_before=7e-7)
+    axes = {"thx": replace(thx, causes=(small_cause, *thx.causes))}
     causes = as_json(replace(made_diagnosis, axes=axes))["causes"]
     assert [cause["effect"] for cause in causes] == ["hysteresis", "creep"]
 
 
-def test_the_graded_answer_is_written_and_offsets_read_back(made_diagnosis, tmp_path):
+def test_partial_results_are_written_and_offsets_are_read_back(made_diagnosis, tmp_path):
     diagnosis = made_diagnosis
     name = next(iter(diagnosis.axes))
-    graded = replace(
+    partly_explained = replace(
         diagnosis.axes[name],
-        verdict=Verdict.PARTLY,
-        remainder=Remainder(1e-7, 0.2, (("speed", 0.4),)),
-        suspected=(Suspected("creep", None, 0.4, in_model=False),),
-        offsets={Tap.REF: None, Tap.MEAS: Offset(1e-6, 2e-8)},
+        verdict=GapVerdict.PARTLY,
+        remainder=GapRemainder(1e-7, 0.2, (("speed", 0.4),)),
+        suspected=(SuspectedEffect("creep", None, 0.4, in_model=False),),
+        offsets={Tap.REF: None, Tap.MEAS: ModelOffset(1e-6, 2e-8)},
     )
-    whole = as_json(replace(diagnosis, axes={**diagnosis.axes, name: graded}))
-    assert whole["axes"][name] == "partly"
-    assert whole["remainder"][name] == {
+    document = as_json(replace(diagnosis, axes={**diagnosis.axes, name: partly_explained}))
+    assert document["axes"][name] == "partly"
+    assert document["remainder"][name] == {
         "rms": 1e-7,
         "share": 0.2,
         "depends_on": [{"what": "speed", "share": 0.4}],
     }
-    assert whole["suspected"][0]["effect"] == "creep"
-    assert whole["offset"][name] == {"ref": None, "meas": {"value": 1e-6, "deviation": 2e-8}}
-    assert all(cause["in_model"] is True and cause["derived"] == {} for cause in whole["causes"])
+    assert document["suspected"][0]["effect"] == "creep"
+    assert document["offset"][name] == {"ref": None, "meas": {"value": 1e-6, "deviation": 2e-8}}
+    assert all(cause["in_model"] is True and cause["derived"] == {} for cause in document["causes"])
     path = tmp_path / "graded.json"
-    path.write_text(json.dumps(whole), encoding="utf-8")
-    assert read_document(path).offsets == {name: {Tap.MEAS: Offset(1e-6, 2e-8)}}
+    path.write_text(json.dumps(document), encoding="utf-8")
+    assert read_document(path).offsets == {name: {Tap.MEAS: ModelOffset(1e-6, 2e-8)}}

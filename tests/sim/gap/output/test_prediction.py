@@ -1,4 +1,4 @@
-"""What the corrected model answers to new commands."""
+"""Response of the corrected model to new commands."""
 
 from dataclasses import replace
 
@@ -6,17 +6,15 @@ import numpy as np
 import pytest
 
 from rotemina.sim.errors import InputError
-from rotemina.sim.gap.diagnosis import Offset
-from rotemina.sim.gap.output.prediction import predict
-from rotemina.sim.records.reading import read_record
-from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.records.writing import write_record
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.robot.model import AxisEffect
-from rotemina.sim.simulation.simulation import simulate
+from rotemina.sim.gap.output import predict
+from rotemina.sim.gap.result import ModelOffset
+from rotemina.sim.records import Record, Tap, read_record, write_record
+from rotemina.sim.robot import AxisEffect
+from rotemina.sim.robot_files import load_robot
+from rotemina.sim.simulation import simulate
 
 ROBOT = load_robot("rotemina")
-WORN = replace(
+WORN_ROBOT = replace(
     ROBOT,
     effects=(
         AxisEffect(axis="thx", id="hysteresis", parameters={"width": 1.1e-4}),
@@ -33,24 +31,26 @@ def make_commands(axes=("thx", "x"), rows=1500, **metadata):
     return Record.from_signals(time_s, signals, {a: ROBOT.unit(a) for a in axes}, metadata)
 
 
-def test_every_modelled_tap_is_there_as_the_machine_without_noise_would_show_it():
+def test_every_modelled_tap_is_predicted_without_noise():
     commands = make_commands()
-    found = predict(WORN, commands)
+    prediction = predict(WORN_ROBOT, commands)
     names = ["thx.cmd", "thx.u", "thx.ref", "thx.meas", "x.cmd", "x.ref", "x.meas"]
-    assert [str(column) for column in found.columns] == names
-    assert np.array_equal(found.values, simulate(WORN, None, commands).values)
-    assert not np.array_equal(found.values, simulate(ROBOT, None, commands).values)
+    assert [str(column) for column in prediction.columns] == names
+    assert np.array_equal(prediction.values, simulate(WORN_ROBOT, None, commands).values)
+    assert not np.array_equal(prediction.values, simulate(ROBOT, None, commands).values)
 
 
-def test_a_measured_record_is_predicted_from_its_commands_alone():
+def test_a_measured_record_is_predicted_only_from_its_commands():
     commands = make_commands()
-    measured = simulate(WORN, None, commands, np.random.default_rng(4))
-    assert np.array_equal(predict(WORN, measured).values, predict(WORN, commands).values)
+    measured = simulate(WORN_ROBOT, None, commands, np.random.default_rng(4))
+    assert np.array_equal(
+        predict(WORN_ROBOT, measured).values, predict(WORN_ROBOT, commands).values
+    )
 
 
-def test_a_prediction_says_what_it_is_and_reads_back(tmp_path):
+def test_a_prediction_describes_itself_and_can_be_read_back(tmp_path):
     commands = make_commands(note="n", **{"simulated seed": "3", "predicted effect 9": "old"})
-    record = predict(replace(WORN, name="two\nlines"), commands)
+    record = predict(replace(WORN_ROBOT, name="two\nlines"), commands)
     write_record(record, tmp_path / "p.csv")
     read_back = read_record(tmp_path / "p.csv", robot=ROBOT)
     assert np.array_equal(read_back.values, record.values)
@@ -72,38 +72,41 @@ def test_a_periodic_file_begins_in_its_steady_state():
         {"zn": "m"},
         {"history": "periodic", "period_samples": "200"},
     )
-    found = predict(ROBOT, commands)
-    meas = found.signal("zn", Tap.MEAS)
+    prediction = predict(ROBOT, commands)
+    meas = prediction.signal("zn", Tap.MEAS)
     assert meas[:200] == pytest.approx(meas[800:], abs=1e-12)
-    assert found.history == "periodic"
+    assert prediction.history == "periodic"
 
 
-def test_an_unknown_history_begins_where_it_was_measured_or_else_at_rest():
+def test_a_record_of_unknown_history_starts_at_its_measurement_or_at_rest():
     commands = make_commands(("zn",), history="unknown")
-    bare = predict(ROBOT, commands)
-    assert bare.history == "rest"
-    assert np.array_equal(bare.values, predict(ROBOT, make_commands(("zn",))).values)
-    moved = {
+    from_rest = predict(ROBOT, commands)
+    assert from_rest.history == "rest"
+    assert np.array_equal(from_rest.values, predict(ROBOT, make_commands(("zn",))).values)
+    measured_signals = {
         ("zn", Tap.CMD): commands.signal("zn", Tap.CMD),
         ("zn", Tap.REF): commands.signal("zn", Tap.CMD) + 1e-5,
     }
-    started = predict(
-        ROBOT, Record.from_signals(commands.time_s, moved, {"zn": "m"}, commands.metadata)
+    from_measurement = predict(
+        ROBOT,
+        Record.from_signals(commands.time_s, measured_signals, {"zn": "m"}, commands.metadata),
     )
-    assert started.history == "unknown"
-    assert started.signal("zn", Tap.REF)[0] == pytest.approx(bare.signal("zn", Tap.REF)[0] + 1e-5)
+    assert from_measurement.history == "unknown"
+    assert from_measurement.signal("zn", Tap.REF)[0] == pytest.approx(
+        from_rest.signal("zn", Tap.REF)[0] + 1e-5
+    )
 
 
-def test_a_force_axis_runs_by_its_voltage_or_under_its_controller():
+def test_a_force_axis_needs_its_voltage_or_a_controller():
     emps = load_robot("emps")
     time_s = np.arange(500) / 1000.0
     command = 0.1 + 0.01 * np.sin(3.0 * time_s) ** 2
-    closed = Record.from_signals(
+    closed_loop = Record.from_signals(
         time_s, {("q", Tap.CMD): command}, {"q": "m"}, {"mode": "closed_loop"}
     )
-    found = predict(emps, closed)
-    assert found.closed_loop
-    assert found.signal("q", Tap.U).any()
+    prediction = predict(emps, closed_loop)
+    assert prediction.closed_loop
+    assert prediction.signal("q", Tap.U).any()
     open_loop = Record.from_signals(time_s, {("q", Tap.CMD): command}, {"q": "m"})
     with pytest.raises(InputError, match=r"needs a q\.u column"):
         predict(emps, open_loop)
@@ -112,60 +115,65 @@ def test_a_force_axis_runs_by_its_voltage_or_under_its_controller():
 @pytest.mark.parametrize(
     ("axis", "unit", "message"),
     [
-        ("w", "m", "axis 'w' of the commands: the diagnosed robot 'RoTeMiNa' has x, y"),
+        ("w", "m", "is no axis of the diagnosed robot 'RoTeMiNa', which has x, y"),
         ("thx", "m", "axis 'thx' of the commands is in units of m, but"),
     ],
 )
 def test_commands_of_another_robot_are_refused(axis, unit, message):
     commands = Record.from_signals(np.arange(3.0), {(axis, Tap.CMD): np.zeros(3)}, {axis: unit})
-    with pytest.raises(InputError) as caught:
+    with pytest.raises(InputError) as error_info:
         predict(ROBOT, commands)
-    assert message in str(caught.value)
+    assert message in str(error_info.value)
 
 
-def test_memory_of_the_motion_before_is_carried_over():
-    """What comes out is the second half of one run, and no run from rest."""
-    whole = make_commands(rows=3000)
+def test_the_memory_of_the_previous_motion_is_carried_over():
+    """The prediction is the second half of one run, not a run from rest."""
+    full_commands = make_commands(rows=3000)
     first, second = (
         Record.from_signals(
-            whole.time_s[part] - whole.time_s[part][0],
-            {(axis, Tap.CMD): whole.signal(axis, Tap.CMD)[part] for axis in whole.axes},
-            whole.units,
+            full_commands.time_s[part] - full_commands.time_s[part][0],
+            {
+                (axis, Tap.CMD): full_commands.signal(axis, Tap.CMD)[part]
+                for axis in full_commands.axes
+            },
+            full_commands.units,
         )
         for part in (slice(0, 1700), slice(1700, 3000))
     )
-    expected = predict(WORN, whole)
-    carried = predict(WORN, second, after=first)
-    assert np.array_equal(carried.time_s, second.time_s)
+    expected = predict(WORN_ROBOT, full_commands)
+    continued = predict(WORN_ROBOT, second, after=first)
+    assert np.array_equal(continued.time_s, second.time_s)
     for axis in ("thx", "x"):
-        own = expected.signal(axis, Tap.MEAS)[1700:]
-        assert carried.signal(axis, Tap.MEAS) == pytest.approx(own, abs=1e-12)
-    fresh = predict(WORN, second)
-    assert np.abs(fresh.signal("thx", Tap.MEAS) - carried.signal("thx", Tap.MEAS)).max() > 1e-6
+        expected_reading = expected.signal(axis, Tap.MEAS)[1700:]
+        assert continued.signal(axis, Tap.MEAS) == pytest.approx(expected_reading, abs=1e-12)
+    from_rest = predict(WORN_ROBOT, second)
+    assert (
+        np.abs(from_rest.signal("thx", Tap.MEAS) - continued.signal("thx", Tap.MEAS)).max() > 1e-6
+    )
 
 
 def test_a_pause_holds_the_last_command():
-    """What creeps goes on meanwhile."""
-    creeping = replace(ROBOT, effects=(AxisEffect(axis="thx", id="creep"),))
+    """Creep continues during the pause."""
+    creeping_robot = replace(ROBOT, effects=(AxisEffect(axis="thx", id="creep"),))
     commands = make_commands(axes=("thx",))
-    at_once = predict(creeping, commands, after=commands)
-    later = predict(creeping, commands, after=commands, pause_s=20.0)
+    at_once = predict(creeping_robot, commands, after=commands)
+    later = predict(creeping_robot, commands, after=commands, pause_s=20.0)
     change = later.signal("thx", Tap.MEAS) - at_once.signal("thx", Tap.MEAS)
     assert np.abs(change).max() > 1e-7
 
 
-def test_the_motion_before_must_hold_the_axes_and_a_pause_is_no_less_than_nothing():
+def test_the_previous_motion_must_contain_the_axes_and_a_pause_must_not_be_negative():
     commands = make_commands()
-    with pytest.raises(InputError, match="'x' of the commands: the motion before has thx"):
-        predict(WORN, commands, after=make_commands(axes=("thx",)))
+    with pytest.raises(InputError, match="not in the previous motion, which has thx"):
+        predict(WORN_ROBOT, commands, after=make_commands(axes=("thx",)))
     with pytest.raises(InputError, match="pause = -1 s: must be 0 s or more"):
-        predict(WORN, commands, after=commands, pause_s=-1.0)
+        predict(WORN_ROBOT, commands, after=commands, pause_s=-1.0)
 
 
-def test_a_constant_that_records_agree_on_is_predicted():
+def test_an_offset_on_which_records_agree_is_predicted():
     commands = make_commands()
-    moved = predict(WORN, commands, {"thx": {Tap.MEAS: Offset(2e-6, 1e-7)}})
-    plain = predict(WORN, commands)
-    added = moved.signal("thx", Tap.MEAS) - plain.signal("thx", Tap.MEAS)
-    assert added == pytest.approx(2e-6)
-    assert np.array_equal(moved.signal("thx", Tap.REF), plain.signal("thx", Tap.REF))
+    with_offset = predict(WORN_ROBOT, commands, {"thx": {Tap.MEAS: ModelOffset(2e-6, 1e-7)}})
+    plain = predict(WORN_ROBOT, commands)
+    change = with_offset.signal("thx", Tap.MEAS) - plain.signal("thx", Tap.MEAS)
+    assert change == pytest.approx(2e-6)
+    assert np.array_equal(with_offset.signal("thx", Tap.REF), plain.signal("thx", Tap.REF))

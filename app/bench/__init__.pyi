@@ -1,0 +1,3 @@
+from .bench_run import (
+    run_bench as run_bench,
+)

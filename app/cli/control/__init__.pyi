@@ -1,0 +1,3 @@
+from .compensate import (
+    load_named_inverse as load_named_inverse,
+)

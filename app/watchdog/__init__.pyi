@@ -1,0 +1,3 @@
+from .heartbeat_sender import (
+    HeartbeatSender as HeartbeatSender,
+)

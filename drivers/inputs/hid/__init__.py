@@ -1,4 +1,0 @@
-"""HID joysticks and gamepads.
-
-Devices on USB and Bluetooth that have a HID descriptor.
-"""

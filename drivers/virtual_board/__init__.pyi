@@ -1,0 +1,7 @@
+from .boards import (
+    VirtualBoards as VirtualBoards,
+)
+from .fault_injection import (
+    RandomFaults as RandomFaults,
+    inject_fault as inject_fault,
+)

@@ -1,0 +1,3 @@
+from .case import (
+    draw_second_case as draw_second_case,
+)

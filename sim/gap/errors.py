@@ -1,7 +1,0 @@
-"""Errors of the diagnosis."""
-
-from rotemina.sim.errors import InputError
-
-
-class GapError(InputError):
-    """Records and a robot that cannot be diagnosed together."""

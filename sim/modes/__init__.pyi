@@ -1,0 +1,3 @@
+from .vibration import (
+    compute_damped_modes as compute_damped_modes,
+)

@@ -1,0 +1,1 @@
+"""Distance: a plugin (panel) for RoTeMiNa."""
