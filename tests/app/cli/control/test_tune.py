@@ -49,7 +49,7 @@ def test_json_can_be_printed(capsys):
 
 
 def test_file_names_effects_and_second_objective(capsys):
-    robot = Path(__file__).parents[3] / "resources/robots/rotemina.toml"
+    robot = Path(__file__).parents[4] / "resources/robots/rotemina.toml"
     Path("worn.toml").write_text(robot.read_text("utf-8") + EFFECTS, "utf-8")
     assert run_tune(capsys, "--effects", "worn.toml", "--against", "settling")[0] == 0
     provenance = load_tuning("zn.toml").provenance
@@ -134,7 +134,7 @@ def test_bad_input_is_refused_before_the_search(capsys, options, message):
 
 
 def test_no_input_is_overwritten_through_a_link(capsys):
-    robot = Path(__file__).parents[3] / "resources/robots/rotemina.toml"
+    robot = Path(__file__).parents[4] / "resources/robots/rotemina.toml"
     for name in ("own.toml", "worn.toml"):
         Path(name).write_text(robot.read_text("utf-8") + EFFECTS, "utf-8")
         Path("link.toml").unlink(missing_ok=True)

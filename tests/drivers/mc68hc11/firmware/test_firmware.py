@@ -10,7 +10,7 @@ import pytest
 from rotemina.drivers.contract import BudgetError
 from rotemina.drivers.mc68hc11.firmware import chip_load, cycles
 
-PAGE = (Path(__file__).parents[3] / "docs" / "protocol.md").read_text("utf-8")
+PAGE = (Path(__file__).parents[4] / "docs" / "protocol.md").read_text("utf-8")
 
 
 @pytest.fixture(scope="module")

@@ -8,7 +8,7 @@ import pytest
 from rotemina.app.cli.main import main
 from rotemina.sim.excitation import EXCITATION_KINDS
 
-PAGE = (Path(__file__).parents[3] / "docs" / "excitations.md").read_text("utf-8")
+PAGE = (Path(__file__).parents[4] / "docs" / "excitations.md").read_text("utf-8")
 COMMANDS = re.findall(r"^ +(?:\$ )?rotemina (excite .+)$", PAGE, re.MULTILINE)
 
 

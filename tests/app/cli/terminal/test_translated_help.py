@@ -9,7 +9,7 @@ import pytest
 from rotemina.app.cli.main import build_parser, main
 from rotemina.app.cli.terminal import language, translate_argparse, translate_parser
 
-TRANSLATION_FILE = Path(__file__).parents[3] / "resources" / "languages" / "de" / "help.ts"
+TRANSLATION_FILE = Path(__file__).parents[4] / "resources" / "languages" / "de" / "help.ts"
 PLACEHOLDER = re.compile(r"%\(\w+\)\w|%[srdg%]")
 IDS = re.compile(r"[a-z-]+(, [a-z-]+)*")  # names that the user types
 # Messages of argparse itself, in addition to the texts of the parsers.

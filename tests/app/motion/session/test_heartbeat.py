@@ -1,7 +1,7 @@
 """A motion that an operator began continues only while the window responds."""
 
 import pytest
-from tests.app.motion.test_session import make_swing
+from tests.app.motion.session.test_session import make_swing
 
 from rotemina.app.motion.session import BEAT_PERIOD_S
 from rotemina.app.motion.session.heartbeat import MAX_SILENCE_S

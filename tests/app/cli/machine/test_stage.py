@@ -40,7 +40,7 @@ def read_command(driver):
 
 def test_driver_homes_moves_stops_and_sees_a_fault_over_the_port(tmp_path):
     port, robot_file = tmp_path / "stage", tmp_path / "small.toml"
-    text = (Path(__file__).parents[3] / "resources" / "robots" / "xyz.toml").read_text("utf-8")
+    text = (Path(__file__).parents[4] / "resources" / "robots" / "xyz.toml").read_text("utf-8")
     robot_file.write_text(text.replace("0.050]", "0.004]").replace("0.030]", "0.004]"), "utf-8")
     with subprocess.Popen(
         [

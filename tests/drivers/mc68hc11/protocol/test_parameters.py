@@ -18,7 +18,7 @@ from rotemina.sim.errors import InputError
 from rotemina.sim.robot_files import load_robot
 
 ROBOTS = {name: load_robot(name) for name in ("rotemina", "picma", "fsm")}
-PAGE = (Path(__file__).parents[3] / "docs" / "protocol.md").read_text("utf-8")
+PAGE = (Path(__file__).parents[4] / "docs" / "protocol.md").read_text("utf-8")
 
 
 @pytest.mark.parametrize("robot", ROBOTS.values(), ids=list(ROBOTS))
