@@ -28,6 +28,8 @@ class MessageError(Exception):
         # An error that is also an OSError may have two arguments: a number and a text.
         if len(arguments) == 1 and arguments[0] and type(arguments[0]) is str:
             arguments = (Message(self.context, arguments[0], tuple(fields.items())),)
+        elif fields:
+            raise TypeError(f"{type(self).__name__} has fields without a template: {list(fields)}")
         super().__init__(*arguments)
 
     def __str__(self) -> str:

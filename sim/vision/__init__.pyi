@@ -36,17 +36,17 @@ from .pipette import (
 from .registration import (
     register_images as register_images,
 )
-from .tip import (
+from .tip_fit import (
+    TipDepth as TipDepth,
+    TipFit as TipFit,
+    fit_tip as fit_tip,
+)
+from .tip_search import (
     find_likeliest_place as find_likeliest_place,
     find_tip as find_tip,
     find_tip_in_any_direction as find_tip_in_any_direction,
     fit_from_depths as fit_from_depths,
     is_plausible as is_plausible,
-)
-from .tip_fit import (
-    TipDepth as TipDepth,
-    TipFit as TipFit,
-    fit_tip as fit_tip,
 )
 from .tracking import (
     TipTrack as TipTrack,

@@ -81,7 +81,8 @@ def register_images(reference: Image, image: Image) -> ImageRegistration:
     """Return the shift of ``image`` relative to ``reference``, both (rows, columns).
 
     The whole scene must move together. If only a part of it moves, register parts
-    (:mod:`rotemina.sim.vision.background_drift`) or find the tip (:mod:`rotemina.sim.vision.tip`).
+    (:mod:`rotemina.sim.vision.background_drift`) or find the tip
+    (:mod:`rotemina.sim.vision.tip_search`).
 
     Raises
     ------

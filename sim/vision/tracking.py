@@ -17,7 +17,8 @@ from rotemina.sim.messages import format_fixed, message
 from rotemina.sim.vision.body_fit import fit_body
 from rotemina.sim.vision.image import Image, divide_by_background
 from rotemina.sim.vision.pipette import Pipette
-from rotemina.sim.vision.tip import (
+from rotemina.sim.vision.tip_fit import TipDepth, TipFit, fit_tip
+from rotemina.sim.vision.tip_search import (
     MAX_DEVIATION_PX,
     MIN_USED_RATIO,
     find_likeliest_place,
@@ -25,7 +26,6 @@ from rotemina.sim.vision.tip import (
     fit_from_depths,
     is_plausible,
 )
-from rotemina.sim.vision.tip_fit import TipDepth, TipFit, fit_tip
 
 # Distance from the expected position within which the tip is searched.
 SEARCH_REACH_PX = 20.0

@@ -1,8 +1,8 @@
 """Playback of trajectories under an operator's control, and the comparison of the played run.
 
-``playback`` plays, pauses and steps on a real device; ``player`` plays faster than real time on a
-simulated one. ``compared_run`` compares the record with the model. Window, command line and panels
-use it.
+``playback`` plays, pauses and steps on a real device; ``offline_playback`` plays faster than real
+time on a simulated one. ``compared_run`` compares the record with the model. Window, command line
+and panels use it.
 """
 
 import lazy_loader

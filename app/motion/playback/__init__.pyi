@@ -4,14 +4,14 @@ from .compared_run import (
     compare_with_model as compare_with_model,
     find_worst_axis as find_worst_axis,
 )
+from .offline_playback import (
+    play_offline as play_offline,
+)
 from .playback import (
     PAUSE_REASON as PAUSE_REASON,
     Playback as Playback,
     PlaybackPhase as PlaybackPhase,
     PlaybackState as PlaybackState,
-)
-from .player import (
-    play_offline as play_offline,
 )
 from .resuming import (
     PlaybackResumption as PlaybackResumption,

@@ -55,3 +55,8 @@ def test_an_error_that_its_former_module_does_not_raise_is_imported_with_a_warni
 )
 def test_an_error_can_be_imported_from_the_module_that_raises_it(module, name):
     assert issubclass(getattr(importlib.import_module(module), name), Exception)
+
+
+def test_fields_without_a_template_are_refused():
+    with pytest.raises(TypeError, match="InputError has fields without a template: \\['axis'\\]"):
+        InputError(message("engine", "a message that is complete"), axis="x")
