@@ -16,20 +16,24 @@ _WIDE = 0.5  # of the axis' range: a sine that goes so far bends what is not str
 
 
 def is_poor(evidence: Evidence) -> bool:
-    """Tell whether an axis was only ever held, stepped once, or moved a little by one same sine."""
-    commands = [o.record.signal(evidence.axis, Tap.CMD) for o in evidence.observations]
-    low, high = min(c.min() for c in commands), max(c.max() for c in commands)
+    """Tell whether an axis was only ever held, stepped once, or moved a little by one same sine.
+
+    A record in which the axis rests, because another axis is moved, says nothing about its motion.
+    """
+    commands = [
+        (o.record.time_s, o.record.signal(evidence.axis, Tap.CMD)) for o in evidence.observations
+    ]
+    low, high = min(c.min() for _, c in commands), max(c.max() for _, c in commands)
     if high == low:
         return True
-    levels = np.unique(np.rint((np.concatenate(commands) - low) / (_STILL * (high - low))))
+    still = _STILL * (high - low)
+    levels = np.unique(np.rint((np.concatenate([c for _, c in commands]) - low) / still))
     if len(levels) <= _LEVELS:
         return True
     if high - low > _WIDE * evidence.robot.axes[evidence.axis].span:
         return False
-    sines = [
-        _sine(o.record.time_s, c) for o, c in zip(evidence.observations, commands, strict=True)
-    ]
-    if any(sine is None for sine in sines):
+    sines = [_sine(time_s, c) for time_s, c in commands if np.ptp(c) > still]
+    if not sines or any(sine is None for sine in sines):
         return False
     rates, sizes = (np.array(values) for values in zip(*(s for s in sines if s), strict=True))
     return bool(np.ptp(rates) < 0.1 * rates.max() and np.ptp(sizes) < 0.1 * sizes.max())
