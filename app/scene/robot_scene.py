@@ -7,7 +7,7 @@ from enum import StrEnum
 import numpy as np
 
 from rotemina.app.scene import robot_parts
-from rotemina.app.scene.frames import LINK_PATHS, compute_link_frames, exaggerate_nano_motion
+from rotemina.app.scene.link_frames import LINK_PATHS, compute_link_frames, exaggerate_nano_motion
 from rotemina.app.scene.scale_notes import ReadingAge, SceneTexts, make_note
 from rotemina.app.scene.scene import SceneCommand, SceneCommandStore, set_property, set_transform
 from rotemina.app.scene.solids import SceneSolid, SolidAppearance, set_object

@@ -20,7 +20,7 @@ from rotemina.app.workbench.penetration_records import PenetrationRecorder
 from rotemina.app.workbench.played_records import PlaybackRecords, make_save_subject
 from rotemina.app.workbench.progress_line import WorkProgress
 from rotemina.app.workbench.record_library import RecordLibrary
-from rotemina.app.workbench.replaying import ReplayControl, find_mismatch, open_recording
+from rotemina.app.workbench.recording_replay import ReplayControl, find_mismatch, open_recording
 from rotemina.sim.records import Record, read_record, write_record
 
 

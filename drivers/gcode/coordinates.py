@@ -6,7 +6,7 @@ at the switch. In FluidNC the configuration states the position of the switch. T
 axis' range is the low end of its travel.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from math import floor, pi, sqrt
 from typing import Self
@@ -14,23 +14,21 @@ from typing import Self
 from rotemina.drivers.contract import ReadingBounds
 from rotemina.drivers.gcode.controller_settings import ControllerSettings
 from rotemina.sim.errors import InputError
-from rotemina.sim.messages import format_fixed, join_messages, message
-from rotemina.sim.robot import Robot, StepperAxis
+from rotemina.sim.messages import format_fixed
+from rotemina.sim.robot import Robot
 
 # From m to mm, and from rad to degrees.
-_SCALE_BY_UNIT = {"m": 1000.0, "rad": 180.0 / pi}
+SCALE_BY_UNIT = {"m": 1000.0, "rad": 180.0 / pi}
 # Reports have three decimals.
 _REPORT_STEP = 1e-3
 # Numbers of the settings of the first axis. The settings of the other axes follow.
-_FIRST_STEPS_SETTING, _FIRST_RATE_SETTING, _FIRST_ACCELERATION_SETTING, _FIRST_TRAVEL_SETTING = (
+FIRST_STEPS_SETTING, FIRST_RATE_SETTING, FIRST_ACCELERATION_SETTING, FIRST_TRAVEL_SETTING = (
     100,
     110,
     120,
     130,
 )
-_S_PER_MINUTE = 60.0
-# Relative rounding error of settings, which have three decimals.
-_SETTING_ROUNDING_RATIO = 1e-6
+S_PER_MINUTE = 60.0
 # One step allows for the rounding of a report, and one for the rounding of a target.
 _TOLERANCE_STEPS = 2.0
 
@@ -82,7 +80,7 @@ class StageAxis:
             If a setting is missing.
         """
         axis = robot.axes[name]
-        scale = _SCALE_BY_UNIT[robot.unit(name) or "m"]
+        scale = SCALE_BY_UNIT[robot.unit(name) or "m"]
 
         def read_setting(first_setting: int) -> float:
             setting = settings.find_number(first_setting + number)
@@ -96,8 +94,8 @@ class StageAxis:
                 )
             return setting
 
-        travel = read_setting(_FIRST_TRAVEL_SETTING)
-        speed = read_setting(_FIRST_RATE_SETTING) / _S_PER_MINUTE / scale
+        travel = read_setting(FIRST_TRAVEL_SETTING)
+        speed = read_setting(FIRST_RATE_SETTING) / S_PER_MINUTE / scale
         return cls(
             name,
             letter,
@@ -105,9 +103,9 @@ class StageAxis:
             scale,
             *axis.range,
             travel / scale,
-            max(_REPORT_STEP, 1.0 / read_setting(_FIRST_STEPS_SETTING)) / scale,
+            max(_REPORT_STEP, 1.0 / read_setting(FIRST_STEPS_SETTING)) / scale,
             min(speed, axis.max_speed or speed),
-            read_setting(_FIRST_ACCELERATION_SETTING) / scale,
+            read_setting(FIRST_ACCELERATION_SETTING) / scale,
             settings.find_declared_low_end(letter, number, travel),
         )
 
@@ -143,7 +141,7 @@ class StageAxis:
             and self.low - self.tolerance <= position <= self.high + self.tolerance
         ):
             return relocated
-        unit = "mm" if self.scale == _SCALE_BY_UNIT["m"] else "deg"
+        unit = "mm" if self.scale == SCALE_BY_UNIT["m"] else "deg"
         raise InputError(
             "axis {name}: after homing the controller counts {count} {unit}, which is not "
             "within its range: the robot file has {low} to {high} {unit}, the controller "
@@ -155,7 +153,7 @@ class StageAxis:
             low=format_fixed(self.low * self.scale, 3),
             high=format_fixed(self.high * self.scale, 3),
             travel=format_fixed(travel, 3),
-            setting=_FIRST_TRAVEL_SETTING + self.number,
+            setting=FIRST_TRAVEL_SETTING + self.number,
         )
 
     def to_controller(self, value: float) -> float:
@@ -169,94 +167,6 @@ class StageAxis:
     def from_controller(self, number: float) -> float:
         """Convert a position in a report to m or rad."""
         return self.low + (number - self.origin) / self.scale
-
-
-def check_agreement(robot: Robot, axes: Sequence[StageAxis], settings: ControllerSettings) -> None:
-    """Raise if a controller's travel, speed or acceleration does not match the robot file.
-
-    Raises
-    ------
-    InputError
-        If a value differs. The message lists the differences and the settings to send.
-    """
-    differences = [
-        difference for axis in axes for difference in _find_differences(robot, axis, settings)
-    ]
-    if differences:
-        raise InputError(
-            "the controller's settings do not agree with the robot file: {differences}. Send "
-            "them to the controller, or correct the file",
-            differences=join_messages(differences, ", "),
-        )
-
-
-def _find_differences(robot: Robot, axis: StageAxis, settings: ControllerSettings) -> list[str]:
-    robot_axis = robot.axes[axis.name]
-    per_minute = _S_PER_MINUTE * axis.scale
-    # Each setting has the value in the file, and whether it must be equal. Travel and speed may be
-    # greater. Acceleration must be equal: a greater one may lose steps, and a smaller one makes
-    # the stopping distance longer.
-    required = {
-        _FIRST_TRAVEL_SETTING: (robot_axis.span * axis.scale, False),
-        _FIRST_RATE_SETTING: ((robot_axis.max_speed or 0.0) * per_minute, False),
-        _FIRST_ACCELERATION_SETTING: ((robot_axis.max_acceleration or 0.0) * axis.scale, True),
-    }
-    unit = "mm" if axis.scale == _SCALE_BY_UNIT["m"] else "deg"
-    units = {
-        _FIRST_TRAVEL_SETTING: unit,
-        _FIRST_RATE_SETTING: f"{unit}/min",
-        _FIRST_ACCELERATION_SETTING: f"{unit}/s²",
-    }
-    differences: list[str] = []
-    for first_setting, (value, must_equal) in required.items():
-        actual = settings.find_number(first_setting + axis.number) or 0.0
-        is_too_small = value - actual > _SETTING_ROUNDING_RATIO * value
-        is_too_large = (
-            must_equal and value > 0.0 and actual - value > _SETTING_ROUNDING_RATIO * value
-        )
-        if is_too_small or is_too_large:
-            differences.append(
-                message(
-                    "engine",
-                    "axis {name}: ${setting} = {present}, the file has {value} {unit} "
-                    "(${setting}={value})",
-                ).fill(
-                    name=axis.name,
-                    setting=first_setting + axis.number,
-                    present=format_fixed(actual, 3),
-                    value=format_fixed(value, 3),
-                    unit=units[first_setting],
-                )
-            )
-    return differences
-
-
-def check_stage(robot: Robot, letters: str) -> None:
-    """Raise if a controller with these axis letters cannot move the robot.
-
-    Raises
-    ------
-    InputError
-        If there are too few letters, or an axis is not moved by a stepping motor.
-    """
-    if len(robot.axes) > len(letters):
-        raise InputError(
-            "robot {name} has {count} axes; the letters {letters} name {letter_count}",
-            name=repr(robot.name),
-            count=len(robot.axes),
-            letters=repr(letters),
-            letter_count=len(letters),
-        )
-    for name, axis in robot.axes.items():
-        if not isinstance(axis, StepperAxis):
-            raise InputError(
-                "robot {robot}: axis {axis} is moved by a {kind}, but a G-code "
-                "controller moves stepping motors; choose a robot file with such axes "
-                "only, such as xyz",
-                robot=repr(robot.name),
-                axis=name,
-                kind=axis.kind,
-            )
 
 
 def compute_feed(distances: Mapping[StageAxis, float], seconds: float) -> float:

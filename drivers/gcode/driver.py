@@ -24,9 +24,10 @@ from rotemina.drivers.contract import (
 )
 from rotemina.drivers.gcode.controller_settings import ControllerSettings
 from rotemina.drivers.gcode.controller_state import GrblController
-from rotemina.drivers.gcode.coordinates import StageAxis, check_agreement, check_stage
+from rotemina.drivers.gcode.coordinates import StageAxis
 from rotemina.drivers.gcode.dialogue import MIN_STAMP_ERROR_S, GrblDialogue
 from rotemina.drivers.gcode.opening import ControllerHandshake, ControllerIdentity
+from rotemina.drivers.gcode.settings_check import check_agreement, check_stage
 from rotemina.drivers.serial_lines import (
     BytePort,
     OpenPort,

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 from math import pi
 
 from rotemina.drivers.gcode.blocks import MotionQueue
-from rotemina.drivers.gcode.coordinates import check_stage
 from rotemina.drivers.gcode.grbl_reports import VIRTUAL_NOTE
 from rotemina.drivers.gcode.parser import LineError, LineTarget, parse_jog, parse_motion
+from rotemina.drivers.gcode.settings_check import check_stage
 from rotemina.sim.robot import Robot
 
 TICK_S = 1e-3

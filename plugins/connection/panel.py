@@ -12,7 +12,7 @@ from rotemina.app.panel import (
 from rotemina.app.widgets.layout import make_column, make_scroll_area
 from rotemina.app.workbench import Workbench
 from rotemina.plugins.connection.driver_choice import DeviceSection
-from rotemina.plugins.connection.homing_section import HomingSection
+from rotemina.plugins.connection.homing_and_undo_section import HomingSection
 from rotemina.plugins.connection.line_quality import LineQualitySection, StopLatencySection
 from rotemina.plugins.connection.parameter_differences import ParameterDifferencesSection
 from rotemina.plugins.connection.service_voltage import ServiceVoltageSection

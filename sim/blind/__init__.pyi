@@ -3,6 +3,9 @@ from .case import (
     BlindCase as BlindCase,
     draw_case as draw_case,
 )
+from .confidence_intervals import (
+    IntervalEstimate as IntervalEstimate,
+)
 from .figures_table import (
     FIGURE_ROWS as FIGURE_ROWS,
     REMAINDER_GROUP_TITLES as REMAINDER_GROUP_TITLES,
@@ -18,9 +21,6 @@ from .files import (
 from .force import (
     ForceCase as ForceCase,
     draw_force_case as draw_force_case,
-)
-from .intervals import (
-    IntervalEstimate as IntervalEstimate,
 )
 from .machine import (
     BlindMachine as BlindMachine,

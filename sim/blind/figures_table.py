@@ -6,7 +6,7 @@ from typing import BinaryIO
 
 import numpy as np
 
-from rotemina.sim.blind.intervals import IntervalEstimate
+from rotemina.sim.blind.confidence_intervals import IntervalEstimate
 from rotemina.sim.blind.scoring import CaseOutcome
 
 # Columns: description, required level ("" if nothing is required) and number format of each figure.

@@ -8,7 +8,11 @@ from typing import Any
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.blind.intervals import IntervalEstimate, estimate_by_bootstrap, estimate_share
+from rotemina.sim.blind.confidence_intervals import (
+    IntervalEstimate,
+    estimate_by_bootstrap,
+    estimate_share,
+)
 
 # Gaps of at least this size count as large.
 LARGE_GAP_FLOORS = 5.0

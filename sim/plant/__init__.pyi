@@ -38,7 +38,7 @@ from .plant_arrays import (
 from .random_draws import (
     RandomStreams as RandomStreams,
 )
-from .response import (
+from .record_response import (
     ModelResponse as ModelResponse,
     check_axes as check_axes,
     make_run as make_run,

@@ -16,14 +16,12 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.language import translate
 from rotemina.app.shell.notices import find_header_bottom
-from rotemina.app.shell.window.fuzzy_match import score_match
 from rotemina.app.shell.window.palette_entries import PaletteEntry
+from rotemina.app.shell.window.palette_search import find_entries
 from rotemina.app.widgets.controls import format_shortcut
 
 _WIDTH_PX, _HEIGHT_PX = 560, 380
 _LIST_KEYS = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageDown)
-# Factor on the score of commands that cannot run now, so that they come after similar matches.
-_UNAVAILABLE_FACTOR = 0.7
 
 
 class CommandPalette(QDialog):
@@ -102,27 +100,7 @@ class CommandPalette(QDialog):
         return super().eventFilter(watched, event)
 
     def _show_matches(self, search_text: str) -> None:
-        matches = []
-        for number, entry in enumerate(self._entries):
-            entry_score = score_match(search_text, entry.text)
-            if entry_score is not None:
-                weighted_score = (
-                    entry_score if entry.objection is None else _UNAVAILABLE_FACTOR * entry_score
-                )
-                is_exact = search_text.strip().casefold() == entry.title.casefold()
-                is_panel_match = (
-                    entry.is_panel and score_match(search_text, entry.title) is not None
-                )
-                rank = (
-                    not is_panel_match,
-                    not is_exact,
-                    -weighted_score,
-                    entry.objection is not None,
-                    number,
-                )
-                matches.append((rank, entry))
-        matches.sort(key=lambda match: match[0])
-        self._shown = tuple(entry for _, entry in matches)
+        self._shown = find_entries(search_text, self._entries)
         self.list.clear()
         for entry in self._shown:
             self.list.addItem(_make_item(entry))

@@ -23,8 +23,8 @@ from rotemina.sim.gap.fit import (
     floor_beyond,
     shown_as,
 )
-from rotemina.sim.gap.noise.coarseness import coarse_step, stands_on
 from rotemina.sim.gap.noise.lost_step_jumps import jumps as jumps_in
+from rotemina.sim.gap.noise.reading_increment import coarse_step, stands_on
 from rotemina.sim.gap.noise.spectral_noise import common_level, noise_level, slow_level
 from rotemina.sim.gap.noise.spikes import excursions
 from rotemina.sim.gap.noise.vibration_lines import tone_signals, tones

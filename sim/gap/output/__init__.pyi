@@ -14,7 +14,7 @@ from .document import (
 from .document_reader import (
     read_document as read_document,
 )
-from .heat_map import (
+from .gap_by_band_and_regime import (
     GapHeatmap as GapHeatmap,
     make_heatmap as make_heatmap,
 )

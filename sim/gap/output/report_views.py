@@ -8,7 +8,7 @@ from markupsafe import Markup
 
 from rotemina.sim.errors import IdentificationError
 from rotemina.sim.gap.output.charts import draw_ranking, draw_waterfall
-from rotemina.sim.gap.output.heat_map import GapHeatmap, make_heatmap
+from rotemina.sim.gap.output.gap_by_band_and_regime import GapHeatmap, make_heatmap
 from rotemina.sim.gap.output.overlays import (
     POINTS_PER_BUCKET,
     draw_frequency_response,

@@ -14,7 +14,7 @@ from rotemina.app.scene import (
     SceneColours,
     SceneViewpoint,
 )
-from rotemina.app.scene.frames import LINK_PATHS, compute_link_frames, exaggerate_nano_motion
+from rotemina.app.scene.link_frames import LINK_PATHS, compute_link_frames, exaggerate_nano_motion
 from rotemina.app.scene.robot_parts import make_moving_parts
 from rotemina.sim.errors import ChainError
 from rotemina.sim.kinematics import KeepOutZone, KinematicChain, compute_tip_position

@@ -5,7 +5,7 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 
 from rotemina.app.errors import RecordingError, RequestRefusedError
-from rotemina.app.workbench.replaying import find_mismatch, open_recording
+from rotemina.app.workbench.recording_replay import find_mismatch, open_recording
 from rotemina.drivers.contract import DeviceState
 from rotemina.sim.robot_files import load_robot
 

@@ -16,8 +16,8 @@ from rotemina.sim.blind import (
     seal_label,
     split_by_remainder,
 )
+from rotemina.sim.blind.confidence_intervals import estimate_by_bootstrap, estimate_share
 from rotemina.sim.blind.figures_table import format_markdown_table
-from rotemina.sim.blind.intervals import estimate_by_bootstrap, estimate_share
 from rotemina.sim.blind.scoring import compute_calibration_error, make_calibration_table
 from rotemina.sim.errors import SealError
 

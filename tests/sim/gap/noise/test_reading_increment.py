@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rotemina.sim.gap.noise.coarseness import coarse_step, stands_on
+from rotemina.sim.gap.noise.reading_increment import coarse_step, stands_on
 
 RATE_HZ = 1000.0
 TIME_S = np.arange(8000) / RATE_HZ

@@ -1,8 +1,40 @@
-"""Scoring of how well a few typed letters match a text. Does not use Qt."""
+"""Search of the command palette: which entries match a few typed letters, and in what order."""
+
+from collections.abc import Sequence
+
+from rotemina.app.shell.window.palette_entries import PaletteEntry
 
 _WORD_START_SCORE, _CONSECUTIVE_SCORE, _OTHER_SCORE = 8, 10, 1
 # Subtracted for each letter that is skipped, so that the shorter text wins.
 _SKIPPED_LETTER_PENALTY = 0.02
+# Factor on the score of commands that cannot run now, so that they come after similar matches.
+_UNAVAILABLE_FACTOR = 0.7
+
+
+def find_entries(search_text: str, entries: Sequence[PaletteEntry]) -> tuple[PaletteEntry, ...]:
+    """Return the entries that match, best first.
+
+    Panels with a matching title come first, then entries whose title is the typed text, then the
+    others by score.
+    """
+    matches = []
+    for number, entry in enumerate(entries):
+        score = score_match(search_text, entry.text)
+        if score is None:
+            continue
+        weighted_score = score if entry.objection is None else _UNAVAILABLE_FACTOR * score
+        is_exact = search_text.strip().casefold() == entry.title.casefold()
+        is_panel_match = entry.is_panel and score_match(search_text, entry.title) is not None
+        rank = (
+            not is_panel_match,
+            not is_exact,
+            -weighted_score,
+            entry.objection is not None,
+            number,
+        )
+        matches.append((rank, entry))
+    matches.sort(key=lambda match: match[0])
+    return tuple(entry for _, entry in matches)
 
 
 def score_match(typed: str, text: str) -> float | None:

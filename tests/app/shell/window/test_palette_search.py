@@ -3,7 +3,7 @@
 import pytest
 from hypothesis import given, strategies as st
 
-from rotemina.app.shell.window.fuzzy_match import score_match
+from rotemina.app.shell.window.palette_search import score_match
 
 TEXTS = [
     "Motion: Stop and lock",

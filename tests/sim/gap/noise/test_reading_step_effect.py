@@ -5,7 +5,7 @@ import pytest
 
 from rotemina.sim.gap.fit import Evidence
 from rotemina.sim.gap.noise import steps_of
-from rotemina.sim.gap.noise.coarse_reading import grid_width
+from rotemina.sim.gap.noise.reading_step_effect import grid_width
 from rotemina.sim.gap.pipeline import diagnose
 from rotemina.sim.records import Record, Tap
 from rotemina.sim.robot import AxisEffect
