@@ -113,7 +113,19 @@ def run(options: argparse.Namespace) -> int:
             "rotemina: suggested experiments are written next to a JSON file; name one by --json",
             file=sys.stderr,
         )
-    return 0
+    return _report_failures(diagnosis)
+
+
+def _report_failures(diagnosis: Diagnosis) -> int:
+    """Print which axes could not be examined, and return the exit status."""
+    for step in diagnosis.failed:
+        if not step.effects:
+            print(
+                f"rotemina: axis {step.axis}: the program failed to examine it ({step.reason}); "
+                "the answer is not complete. Send the records and this text to the maintainer",
+                file=sys.stderr,
+            )
+    return 0 if diagnosis.is_complete else 1
 
 
 def _print_cautions(

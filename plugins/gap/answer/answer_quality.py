@@ -33,6 +33,7 @@ VERDICT_TONES = {
     GapVerdict.PARTLY: AnswerTone.PARTLY,
     GapVerdict.UNKNOWN: AnswerTone.UNSURE,
     GapVerdict.INSUFFICIENT: AnswerTone.UNSURE,
+    GapVerdict.FAILED: AnswerTone.UNSURE,
 }
 
 

@@ -32,6 +32,7 @@ _VERDICT_SYMBOLS = {
     GapVerdict.PARTLY: ("◐", "accent"),
     GapVerdict.UNKNOWN: ("?", "warning"),
     GapVerdict.INSUFFICIENT: ("?", "warning"),
+    GapVerdict.FAILED: ("✗", "danger_text"),
 }
 
 

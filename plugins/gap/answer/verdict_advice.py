@@ -58,6 +58,10 @@ _MEANING_AND_ADVICE = {
             " model."
         ),
     ),
+    GapVerdict.FAILED: (
+        mark("The program failed to examine this axis. This says nothing about the machine."),
+        mark("Save a support bundle with these records, and send it to the maintainer."),
+    ),
     GapVerdict.INSUFFICIENT: (
         mark(
             "These motions cannot distinguish the effects: they are too short, too "

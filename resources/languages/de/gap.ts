@@ -570,6 +570,10 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
         <translation>Erklärt: die Effekte unten erklären die Abweichung</translation>
     </message>
     <message>
+        <source>Not examined, because the program failed</source>
+        <translation>Nicht untersucht, weil das Programm versagt hat</translation>
+    </message>
+    <message>
         <source>No gap of its own</source>
         <translation>Keine eigene Abweichung</translation>
     </message>
@@ -712,6 +716,10 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     <message>
         <source>It is coupled to axis {axis}, whose gap is larger and not explained.</source>
         <translation>Sie ist mit Achse {axis} gekoppelt, deren Abweichung größer und nicht erklärt ist.</translation>
+    </message>
+    <message>
+        <source>The program failed to examine this axis, which says nothing about the machine: {error}.</source>
+        <translation>Das Programm konnte diese Achse nicht untersuchen; das sagt nichts über die Maschine: {error}.</translation>
     </message>
     <message>
         <source>{group} ({percent})</source>
@@ -926,6 +934,10 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     <message>
         <source>No gap of its own on {axes}.</source>
         <translation>Keine eigene Abweichung: {axes}.</translation>
+    </message>
+    <message>
+        <source>{axis}: not examined, because the program failed.</source>
+        <translation>{axis}: nicht untersucht, weil das Programm versagt hat.</translation>
     </message>
     <message>
         <source>{axis}: a gap that no known effect explains.</source>
@@ -1456,6 +1468,10 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
         <translation>die Abweichung ist erklärt</translation>
     </message>
     <message>
+        <source>the examination failed; the machine may have any gap</source>
+        <translation>die Untersuchung ist fehlgeschlagen; über die Maschine sagt das nichts</translation>
+    </message>
+    <message>
         <source>no gap of its own</source>
         <translation>keine eigene Abweichung</translation>
     </message>
@@ -1466,6 +1482,10 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     <message>
         <source>insufficient excitation</source>
         <translation>unzureichende Anregung</translation>
+    </message>
+    <message>
+        <source>not examined, because the program failed</source>
+        <translation>nicht untersucht, weil das Programm versagt hat</translation>
     </message>
     <message>
         <source>where the gap lies</source>
@@ -1946,6 +1966,14 @@ Starten drücken; Kennwerte und Verwechslungsmatrix erscheinen, wenn alle Fälle
         <translation>Die Seite Wo zeigt, wovon sie abhängt. Kabel, Klemmen und Sensor prüfen; noch einmal langsamer und schneller aufzeichnen. Den Bericht für die Pflege des Modells behalten.</translation>
     </message>
     <message>
+        <source>The program failed to examine this axis. This says nothing about the machine.</source>
+        <translation>Das Programm konnte diese Achse nicht untersuchen. Das sagt nichts über die Maschine.</translation>
+    </message>
+    <message>
+        <source>Save a support bundle with these records, and send it to the maintainer.</source>
+        <translation>Speichern Sie ein Support-Paket mit diesen Aufzeichnungen, und senden Sie es an den Betreuer des Programms.</translation>
+    </message>
+    <message>
         <source>These motions cannot distinguish the effects: they are too short, too small or too similar.</source>
         <translation>Diese Bewegungen können die Effekte nicht unterscheiden: sie sind zu kurz, zu klein oder zu ähnlich.</translation>
     </message>
@@ -2052,10 +2080,6 @@ Starten drücken; Kennwerte und Verwechslungsmatrix erscheinen, wenn alle Fälle
     <message>
         <source>Its gap comes from the causes on other axes.</source>
         <translation>Ihre Abweichung kommt von den Ursachen an anderen Achsen.</translation>
-    </message>
-    <message>
-        <source>The computation failed, so no cause can be found: {error}.</source>
-        <translation>Die Berechnung ist fehlgeschlagen, daher lässt sich keine Ursache finden: {error}.</translation>
     </message>
     <message>
         <source>; no test here distinguishes {any} from one of them</source>

@@ -76,17 +76,23 @@ def _unheard() -> None:
     """Do nothing."""
 
 
+def _ignore_failure(_effects: Sequence[AxisEffect], _error: Exception) -> None:
+    """Do nothing."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Evidence:
     """All records of one axis of a robot; the robot's effects are part of the model.
 
     ``heartbeat`` is called before every simulation; its exceptions end the running work.
+    ``note_failure`` is called with the effects of a candidate whose computation failed.
     """
 
     robot: Robot
     axis: str
     observations: tuple[Observation, ...]
     heartbeat: Callable[[], None] = _unheard
+    note_failure: Callable[[Sequence[AxisEffect], Exception], None] = _ignore_failure
     _runs: dict[tuple[int, tuple[str, ...]], RunCommands] = field(default_factory=dict)
     _own: dict[tuple[int, Tap], FloatArray] = field(default_factory=dict)
 
@@ -127,11 +133,13 @@ class Evidence:
 
     def with_model(self, robot: Robot) -> "Evidence":
         """Return the same evidence with another model of the machine."""
-        return Evidence(robot, self.axis, self.observations, self.heartbeat)
+        return Evidence(robot, self.axis, self.observations, self.heartbeat, self.note_failure)
 
     def with_observations(self, observations: Sequence[Observation]) -> "Evidence":
         """Return evidence of other observations of the same axis."""
-        return Evidence(self.robot, self.axis, tuple(observations), self.heartbeat)
+        return Evidence(
+            self.robot, self.axis, tuple(observations), self.heartbeat, self.note_failure
+        )
 
     def has(self, tap: Tap) -> bool:
         """Tell whether any record holds a tap."""

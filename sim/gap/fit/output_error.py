@@ -221,6 +221,7 @@ def lost(evidence: Evidence, effects: Sequence[AxisEffect], error: Exception) ->
         " + ".join(one.id for one in effects),
         error,
     )
+    evidence.note_failure(effects, error)
     return _unfitted(effects, np.full(_rows(evidence), LOST))
 
 

@@ -59,6 +59,11 @@ def as_json(diagnosis: Diagnosis, files: Sequence[ExperimentFiles] = ()) -> Json
     return {
         "format": FORMAT,
         "verdict": str(diagnosis.verdict),
+        "complete": diagnosis.is_complete,
+        "failed": [
+            {"axis": step.axis, "effects": list(step.effects), "reason": step.reason}
+            for step in diagnosis.failed
+        ],
         "axes": {name: str(axis.verdict) for name, axis in axes.items()},
         "where": _make_where_json(
             diagnosis.places if diagnosis.verdict is not GapVerdict.NONE else ()

@@ -27,6 +27,7 @@ ROBOT_VERDICTS = {
     GapVerdict.PARTLY: marked("gap", "Partly explained: the cause of the rest is unknown"),
     GapVerdict.UNKNOWN: marked("gap", "Unknown: no effect of the catalogue explains the gap"),
     GapVerdict.INSUFFICIENT: marked("gap", "Undecided: the records lack excitation"),
+    GapVerdict.FAILED: marked("gap", "Not examined, because the program failed"),
 }
 AXIS_VERDICTS = {
     **ROBOT_VERDICTS,

@@ -41,6 +41,7 @@ _ROBOT_VERDICTS = {
     ),
     GapVerdict.UNKNOWN: message("gap", "no known effect explains the gap"),
     GapVerdict.INSUFFICIENT: message("gap", "undecided: the records lack excitation"),
+    GapVerdict.FAILED: message("gap", "the examination failed; the machine may have any gap"),
 }
 _AXIS_VERDICTS = {
     GapVerdict.NONE: message("gap", "no gap of its own"),
@@ -48,6 +49,7 @@ _AXIS_VERDICTS = {
     GapVerdict.PARTLY: message("gap", "partly explained"),
     GapVerdict.UNKNOWN: message("gap", "unknown effect"),
     GapVerdict.INSUFFICIENT: message("gap", "insufficient excitation"),
+    GapVerdict.FAILED: message("gap", "not examined, because the program failed"),
 }
 
 

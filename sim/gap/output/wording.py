@@ -94,6 +94,9 @@ def _write_finding(axis_diagnosis: AxisDiagnosis) -> Message:
             "gap", "{axis}: the records do not move the axis enough for a diagnosis."
         )
         return template.fill(axis=axis)
+    if axis_diagnosis.verdict is GapVerdict.FAILED:
+        template = message("gap", "{axis}: not examined, because the program failed.")
+        return template.fill(axis=axis)
     if not causes:
         return message("gap", "{axis}: a gap that no known effect explains.").fill(axis=axis)
     if len(causes) == 1 and not causes[0].ambiguous_with:

@@ -31,6 +31,7 @@ from rotemina.sim.gap.result import (
     Account,
     AxisDiagnosis,
     Diagnosis,
+    FailedStep,
     GapVerdict,
     Listener,
     ModelOffset,
@@ -39,6 +40,7 @@ from rotemina.sim.gap.result import (
 )
 from rotemina.sim.messages import (
     AxisName,
+    Message,
     join_messages,
     message,
 )
@@ -111,7 +113,7 @@ def diagnose(
         for examination in run.examinations.values()
         for experiment in suggest_experiments(robot, examination)
     ]
-    return Diagnosis(robot, completed, tuple(suggestions), seed)
+    return Diagnosis(robot, completed, tuple(suggestions), seed, tuple(run.failed))
 
 
 def _sort_by_content(records: Sequence[Record]) -> list[Record]:
@@ -135,7 +137,7 @@ class _DiagnosisRun:
     jobs: int
     listener: Listener
     examinations: dict[str, AxisExamination] = field(default_factory=dict)
-    failures: dict[str, str] = field(default_factory=dict)
+    failed: list[FailedStep] = field(default_factory=list)
 
     def diagnose_axes(self) -> dict[str, AxisDiagnosis]:
         """Return the result for each measured axis, in the order of the robot."""
@@ -199,7 +201,7 @@ class _DiagnosisRun:
         ]
         evidence = evidence.with_model(_with_effects(self.robot, effects_on_other_axes))
         account = Account(name, self.listener, begin_progress, share)
-        evidence = replace(evidence, heartbeat=account.heartbeat)
+        evidence = replace(evidence, heartbeat=account.heartbeat, note_failure=account.note_failure)
         original_power = float(np.mean(self._gather_bare_evidence(name).residual() ** 2))
         present_power = float(np.mean(evidence.residual() ** 2))
         # The causes on axes that were examined earlier already explain the gap of this axis.
@@ -210,9 +212,11 @@ class _DiagnosisRun:
         try:
             new_examination = examine(evidence, account, jobs=self.jobs)
         except NUMERICAL as error:
-            _LOG.warning("axis %s: its examination failed: %s", name, error)
-            self.failures[name] = str(error)
+            _LOG.exception("axis %s: its examination failed", name)
+            account.note_failure((), error)
             return
+        finally:
+            self.failed += account.failed
         # If other axes explain most of the gap, an unexplained remainder is ignored.
         is_mostly_explained = effects_on_other_axes and present_power - 1.0 < MIN_SHARE_TO_NAME * (
             original_power - 1.0
@@ -226,10 +230,11 @@ class _DiagnosisRun:
     def _conclude(self, name: str, places: tuple[LocatedGap, ...], has_gap: bool) -> AxisDiagnosis:
         if name in self.examinations:
             return draw_conclusions(self.examinations[name], places, self.rng)
-        if name in self.failures:
-            template = message("gap", "The computation failed, so no cause can be found: {error}.")
-            texts = (template.fill(error=self.failures[name]),)
-            return AxisDiagnosis(name, GapVerdict.UNKNOWN, places, remarks=texts)
+        for step in self.failed:
+            if step.axis == name and not step.effects:
+                return AxisDiagnosis(
+                    name, GapVerdict.FAILED, places, remarks=(_describe_failure(step),)
+                )
         text = message("gap", "Its gap comes from the causes on other axes.")
         return AxisDiagnosis(name, GapVerdict.NONE, places, remarks=(text,) if has_gap else ())
 
@@ -264,6 +269,14 @@ class _DiagnosisRun:
         self, stage: str, axis: str | None, candidate: str | None, share: float
     ) -> None:
         self.listener(Progress(stage, axis, candidate, share))
+
+
+def _describe_failure(step: FailedStep) -> Message:
+    template = message(
+        "gap",
+        "The program failed to examine this axis, which says nothing about the machine: {error}.",
+    )
+    return template.fill(error=step.reason)
 
 
 def _find_largest_excess(axis: AxisDiagnosis) -> float:

@@ -4,6 +4,7 @@ from .diagnosis import (
     AxisDiagnosis as AxisDiagnosis,
     DerivedFigure as DerivedFigure,
     Diagnosis as Diagnosis,
+    FailedStep as FailedStep,
     FittedParameter as FittedParameter,
     GapCause as GapCause,
     GapRemainder as GapRemainder,

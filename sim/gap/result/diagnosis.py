@@ -21,7 +21,8 @@ Interval = tuple[float, float]
 class GapVerdict(StrEnum):
     """The verdict on an axis or a robot; the members are ordered from certain to uncertain.
 
-    ``PARTLY`` means that the causes are certain but do not explain the whole gap.
+    ``PARTLY`` means that the causes are certain but do not explain the whole gap. ``FAILED`` says
+    nothing about the machine: the program could not examine the axis.
     """
 
     NONE = "none"
@@ -29,6 +30,7 @@ class GapVerdict(StrEnum):
     PARTLY = "partly"
     INSUFFICIENT = "insufficient_excitation"
     UNKNOWN = "unknown"
+    FAILED = "failed"
 
 
 # With these verdicts, the causes enter the corrected model.
@@ -265,23 +267,50 @@ class SuggestedExperiment:
     tap: Tap = Tap.MEAS
 
 
+@dataclass(frozen=True, slots=True, order=True)
+class FailedStep:
+    """A computation that failed, and without which the diagnosis went on.
+
+    Attributes
+    ----------
+    axis : str
+    effects : tuple of str
+        Ids of the effects that were tried together; empty if the whole examination of the axis
+        failed.
+    reason : str
+    """
+
+    axis: str
+    effects: tuple[str, ...]
+    reason: str
+
+
 @dataclass(frozen=True, slots=True)
 class Diagnosis:
     """The complete result of a diagnosis.
 
-    ``robot`` is the examined model, without the effects that the diagnosis adds.
+    ``robot`` is the examined model, without the effects that the diagnosis adds. ``failed`` lists
+    the candidates and axes whose computation failed.
     """
 
     robot: Robot
     axes: Mapping[str, AxisDiagnosis]
     experiments: tuple[SuggestedExperiment, ...] = field(default=())
     seed: int = 0
+    failed: tuple[FailedStep, ...] = ()
 
     @property
     def verdict(self) -> GapVerdict:
-        """Verdict on the robot, which is that of its least certain axis."""
+        """Verdict on the robot: that of its least certain axis among those that were examined."""
         order = list(GapVerdict)
-        return max((axis.verdict for axis in self.axes.values()), key=order.index, default=order[0])
+        verdicts = [axis.verdict for axis in self.axes.values()]
+        examined = [verdict for verdict in verdicts if verdict is not GapVerdict.FAILED]
+        return max(examined or verdicts, key=order.index, default=order[0])
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether every axis with a gap was examined."""
+        return all(axis.verdict is not GapVerdict.FAILED for axis in self.axes.values())
 
     @property
     def places(self) -> tuple[LocatedGap, ...]:

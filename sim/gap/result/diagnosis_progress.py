@@ -3,6 +3,8 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
+from rotemina.sim.errors import describe_exception
+from rotemina.sim.gap.result.diagnosis import FailedStep
 from rotemina.sim.gap.result.ranking import Grade, Ranking, Standings
 from rotemina.sim.robot import AxisEffect
 
@@ -54,6 +56,7 @@ class Account:
         self._begin, self._share = begin, share
         self._standings = Standings(axis)
         self._latest = Progress("screening", axis, None, begin)
+        self._failed: set[FailedStep] = set()
 
     def heartbeat(self) -> None:
         """Tell the last step again, from any thread, so that a listener can end the work."""
@@ -64,6 +67,16 @@ class Account:
         done = max(self._latest.share, self._begin + self._share * _STEPS[stage])
         self._latest = Progress(stage, self._axis, candidate, done, self._latest.ranking)
         self.heartbeat()
+
+    @property
+    def failed(self) -> tuple[FailedStep, ...]:
+        """The candidates whose computation failed, in an order that depends only on the input."""
+        return tuple(sorted(self._failed))
+
+    def note_failure(self, effects: Sequence[AxisEffect], error: Exception) -> None:
+        """Note that the computation with these effects failed; call it from any thread."""
+        names = tuple(effect.id for effect in effects)
+        self._failed.add(FailedStep(self._axis, names, describe_exception(error)))
 
     def begin(self, whole: float) -> None:
         """Let candidates be tried, from now on, on a gap of this mean square over the floor."""
