@@ -1,8 +1,9 @@
 """Benchmark of the diagnosis: it compares the diagnosed causes of machines with the known ones.
 
 A machine is a folder of records with its known causes. ``bench_run`` diagnoses each machine in a
-separate process, and ``result`` lists the requirements that a diagnosis does not meet. Only the
-command ``rotemina gap bench`` uses this folder.
+separate process, and ``result`` lists the requirements that a diagnosis does not meet.
+``diagnosis_program`` runs a diagnosis, and ``engine_comparison`` compares the answers of two
+versions; the blind test uses these, too.
 """
 
 import lazy_loader

@@ -1,16 +1,22 @@
 """Run of ``rotemina gap bench``, which diagnoses each machine in a separate process."""
 
 import json
-import subprocess
 import sys
-import time
 from argparse import Namespace
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+from rotemina.app.bench.diagnosis_program import OWN_PROGRAM, run_program
+from rotemina.app.bench.engine_comparison import (
+    EngineAnswers,
+    describe_answer,
+    format_difference,
+    format_summary,
+)
 from rotemina.app.bench.machine import BenchMachine, find_machines
 from rotemina.app.bench.residual import compute_model_residual
 from rotemina.app.bench.result import BenchResult, NamedCause
@@ -23,20 +29,29 @@ from rotemina.sim.records import Tap, read_record
 from rotemina.sim.robot_files import load_robot
 
 BENCH_FORMAT = "rotemina-bench 1"
-_PROGRAM = (sys.executable, "-m", "rotemina.app.cli.main")
 
 
 def run_bench(options: Namespace) -> None:
     """Diagnose all machines, print a line for each, and write the requested files."""
     bench_machines = find_machines(options.folders)
-    results = []
-    for machine in bench_machines:
-        results.append(diagnose_machine(machine, options.jobs, options.longest))
+    results: list[BenchResult] = []
+    comparisons: list[EngineAnswers] = []
+    for number, machine in enumerate(bench_machines):
+        if options.against is None:
+            results.append(diagnose_machine(machine, options.jobs, options.longest))
+        else:
+            result, answers = _compare_engines(machine, options, own_first=number % 2 == 0)
+            results.append(result)
+            comparisons.append(answers)
         if options.json != "-":
             print(format_line(results[-1]), flush=True)
-    text = format_json(
-        {"format": BENCH_FORMAT, "machines": [result.as_json() for result in results]}
-    )
+            if comparisons:
+                print(f"  {format_difference(comparisons[-1])}".replace("\n", "\n  "), flush=True)
+    document = {"format": BENCH_FORMAT, "machines": [result.as_json() for result in results]}
+    if comparisons:
+        document["against"] = [answers.as_json() for answers in comparisons]
+        print(format_summary(comparisons), file=sys.stderr if options.json == "-" else sys.stdout)
+    text = format_json(document)
     # All files are replaced together, or none.
     with ExitStack() as files:
         if options.report is not None:
@@ -49,11 +64,36 @@ def run_bench(options: Namespace) -> None:
         print(text)
 
 
+def _compare_engines(
+    machine: BenchMachine, options: Namespace, *, own_first: bool
+) -> tuple[BenchResult, EngineAnswers]:
+    """Diagnose a machine with this program and with the other one.
+
+    The order alternates from machine to machine, so that a computer that gets slower with time
+    favours neither.
+    """
+    programs = {"own": OWN_PROGRAM, "other": options.against}
+    results = {
+        name: diagnose_machine(machine, options.jobs, options.longest, programs[name])
+        for name in (("own", "other") if own_first else ("other", "own"))
+    }
+    own, other = results["own"], results["other"]
+    known = machine.truth.causes if machine.truth is not None else ()
+    return own, EngineAnswers(
+        machine.name,
+        own.answer,
+        other.answer,
+        own.processor_s,
+        other.processor_s,
+        ", ".join(f"{{{' '.join(effects)}}}" for effects in known),
+    )
+
+
 def diagnose_machine(
     machine: BenchMachine,
     jobs: int | None = None,
     timeout_s: float = 1800.0,
-    program: Sequence[str] = _PROGRAM,
+    program: Sequence[str] = OWN_PROGRAM,
 ) -> BenchResult:
     """Diagnose a machine from its train records, and test the corrected model.
 
@@ -64,39 +104,22 @@ def diagnose_machine(
         return BenchResult(machine, title, not_run="inverse mode")
     with TemporaryDirectory(prefix="rotemina-") as folder:
         document_path = Path(folder) / "answer.json"
-        start_s = time.monotonic()
-        fault = _run_diagnosis(machine, document_path, jobs, timeout_s, program)
-        seconds = time.monotonic() - start_s
-        if fault is not None:
-            return BenchResult(machine, title, seconds=seconds, not_run=fault)
-        return _evaluate_diagnosis(machine, title, document_path, seconds)
+        command = [*program, "gap", "diagnose", *map(str, machine.train)]
+        command += ["--robot", str(machine.robot), "--json", str(document_path)]
+        command += [] if jobs is None else ["--jobs", str(jobs)]
+        run = run_program(command, timeout_s=timeout_s)
+        result = (
+            BenchResult(machine, title, not_run=run.fault)
+            if run.fault is not None
+            else _evaluate_diagnosis(machine, title, document_path)
+        )
+        return replace(result, seconds=run.seconds, processor_s=run.processor_s)
 
 
-def _run_diagnosis(
-    machine: BenchMachine,
-    document_path: Path,
-    jobs: int | None,
-    timeout_s: float,
-    program: Sequence[str],
-) -> str | None:
-    """Run the diagnosis; return the reason if it fails, otherwise None."""
-    command = [*program, "gap", "diagnose", *map(str, machine.train), "--robot", str(machine.robot)]
-    command += ["--json", str(document_path)] + ([] if jobs is None else ["--jobs", str(jobs)])
-    try:
-        process = subprocess.run(command, capture_output=True, timeout=timeout_s, check=False)
-    except subprocess.TimeoutExpired:
-        return f"it took longer than {timeout_s:g} s"
-    if process.returncode == 0:
-        return None
-    error_lines = process.stderr.decode("utf-8", "replace").strip().splitlines() or [""]
-    return error_lines[-1].removeprefix("rotemina: ") or f"exit status {process.returncode}"
-
-
-def _evaluate_diagnosis(
-    machine: BenchMachine, title: str, document_path: Path, seconds: float
-) -> BenchResult:
+def _evaluate_diagnosis(machine: BenchMachine, title: str, document_path: Path) -> BenchResult:
     document = read_document(document_path)
-    causes = tuple(_read_causes(json.loads(document_path.read_bytes())))
+    table = json.loads(document_path.read_bytes())
+    causes, answer = tuple(_read_causes(table)), describe_answer(table)
     verdict = str(document.verdict)
     tap = machine.truth.tap if machine.truth is not None else Tap.MEAS
     records = [read_record(path, robot=document.robot) for path in machine.test]
@@ -108,12 +131,12 @@ def _evaluate_diagnosis(
         )
     unit = "V" if tap is Tap.U else next(iter(units), "m")
     if not records:
-        return BenchResult(machine, title, verdict, causes, seconds=seconds, unit=unit)
+        return BenchResult(machine, title, verdict, causes, unit=unit, answer=answer)
     before, after = (
         compute_model_residual(robot, records, tap)
         for robot in (document.robot, document.corrected)
     )
-    return BenchResult(machine, title, verdict, causes, before, after, seconds, unit)
+    return BenchResult(machine, title, verdict, causes, before, after, unit=unit, answer=answer)
 
 
 def _read_causes(document: dict[str, Any]) -> Iterator[NamedCause]:

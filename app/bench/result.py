@@ -37,7 +37,8 @@ class BenchResult:
     """The diagnosis of a machine; ``not_run`` is the reason if there is none.
 
     ``residual_before`` and ``residual_after`` are the residuals of the original and the corrected
-    model on the test records.
+    model on the test records. ``answer`` is the diagnosis in one line, and ``processor_s`` the time
+    that processors worked on it.
     """
 
     machine: BenchMachine
@@ -49,6 +50,8 @@ class BenchResult:
     seconds: float = 0.0
     unit: str = ""
     not_run: str = ""
+    answer: str = "not run"
+    processor_s: float = 0.0
 
     @property
     def is_relative(self) -> bool:
@@ -160,6 +163,7 @@ class BenchResult:
             "to_beat": self.to_beat,
             "closed": self.closed_share,
             "seconds": round(self.seconds, 1),
+            "processor_s": round(self.processor_s, 1),
             "not_reached": self.unmet_requirements,
         }
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from rotemina.app.bench import EngineAnswers, describe_answer
 from rotemina.app.blind.cases import CaseSource, SealedCase
 from rotemina.app.blind.closure import HeldOutGap, compute_closure, compute_held_out_gaps
 from rotemina.app.blind.diagnosis_process import BlindAnswer
@@ -76,19 +77,26 @@ class ResumableBlindRun:
         ]
 
     def run_case(
-        self, name: str, diagnose: AskDiagnosis, ask_naive_methods: AskNaiveMethods | None = None
+        self,
+        name: str,
+        diagnose: AskDiagnosis,
+        ask_naive_methods: AskNaiveMethods | None = None,
+        diagnose_otherwise: AskDiagnosis | None = None,
     ) -> None:
         """Seal the label of a case, run the diagnosis, hash its answer, then open the label.
 
         Labels that share a file stay sealed until :meth:`open_labels`. ``ask_naive_methods``
         returns the answers of the naive methods to the case, by their names.
+        ``diagnose_otherwise`` is another version of the diagnosis, for comparison.
         """
         salt = secrets.token_hex(16)
         with self._cases.open_case(name, salt) as case:
             commitment = {"case": name, "sha256": case.seal.digest}
             write_text(self._folder / "commitments" / f"{name}.json", format_json(commitment))
             answer = diagnose(case)
-            gaps = _compute_gaps(case, answer)
+            entry = _make_answer_entry(case, answer)
+            other = None if diagnose_otherwise is None else diagnose_otherwise(case)
+            against = None if other is None else _make_answer_entry(case, other)
             others = {} if ask_naive_methods is None else ask_naive_methods(case)
         result = {
             "format": RESULT_FORMAT,
@@ -96,11 +104,11 @@ class ResumableBlindRun:
             "commitment": case.seal.digest,
             "salt": salt,
             "answer_sha256": answer.sha256,
-            "answer": _keep_scored_keys(answer.document),
-            "seconds": round(answer.seconds, 3),
+            **entry,
             "others": dict(others),
-            "held_out": {axis: list(gap) for axis, gap in gaps.items()},
         }
+        if against is not None:
+            result["against"] = against
         if not self._cases.has_one_label_file:
             result["label"] = dict(self._cases.open_label(name, salt, case.seal))
         write_text(self._make_result_path(name), format_json(result))
@@ -123,6 +131,29 @@ class ResumableBlindRun:
             replace(_make_outcome(result), answer=result["others"][method], closure=None)
             for _, result in self._read_results()
             if "label" in result and method in result["others"]
+        ]
+
+    def read_outcomes_of_other_version(self) -> list[CaseOutcome]:
+        """Return the outcomes of the other version, for the cases that it has answered."""
+        return [
+            _make_outcome({**result, **result["against"]})
+            for _, result in self._read_results()
+            if "label" in result and "against" in result
+        ]
+
+    def compare_versions(self) -> list[EngineAnswers]:
+        """Return the answers of both versions to the cases that both have answered."""
+        return [
+            EngineAnswers(
+                result["case"],
+                describe_answer(result["answer"]),
+                describe_answer(result["against"]["answer"]),
+                result["processor_s"],
+                result["against"]["processor_s"],
+                _describe_label(result["label"]),
+            )
+            for _, result in self._read_results()
+            if "label" in result and "against" in result
         ]
 
     def _read_results(self) -> Iterator[tuple[Path, dict[str, Any]]]:
@@ -166,6 +197,21 @@ def _compute_gaps(case: SealedCase, answer: BlindAnswer) -> dict[str, HeldOutGap
     if case.measured is None or answer.predicted is None:
         return {}
     return compute_held_out_gaps(load_robot(case.robot), case.measured, answer.predicted)
+
+
+def _make_answer_entry(case: SealedCase, answer: BlindAnswer) -> dict[str, Any]:
+    gaps = _compute_gaps(case, answer)
+    return {
+        "answer": _keep_scored_keys(answer.document),
+        "seconds": round(answer.seconds, 3),
+        "processor_s": round(answer.processor_s, 3),
+        "held_out": {axis: list(gap) for axis, gap in gaps.items()},
+    }
+
+
+def _describe_label(label: Mapping[str, Any]) -> str:
+    effects = [f"{effect['effect']} on {effect['axis']}" for effect in label["effects"]]
+    return ", ".join(effects) or str(label["verdict"])
 
 
 def _keep_scored_keys(document: Mapping[str, Any]) -> dict[str, Any]:

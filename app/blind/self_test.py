@@ -11,6 +11,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from rotemina.app.bench import format_difference, format_summary
 from rotemina.app.blind.cases import CaseSource, FolderCaseSource, GeneratedCaseSource, check_robot
 from rotemina.app.blind.classifier import load_or_train_classifier
 from rotemina.app.blind.diagnosis_process import diagnose_case
@@ -57,8 +58,11 @@ def run_self_test(options: Namespace) -> None:
     diagnose = partial(diagnose_case, jobs=options.jobs)
     pending = [] if options.score else blind_run.list_pending(options.shard)
     naive_methods = _make_naive_methods(options, folder) if options.naive and pending else None
+    diagnose_otherwise = (
+        None if options.against is None else partial(diagnose, program=options.against)
+    )
     for number, name in enumerate(pending, start=1):
-        blind_run.run_case(name, diagnose, naive_methods)
+        blind_run.run_case(name, diagnose, naive_methods, diagnose_otherwise)
         print(f"{name}: done ({number} of {len(pending)})", file=sys.stderr)
     # Labels that share a file have stayed sealed until here.
     blind_run.open_labels()
@@ -77,6 +81,20 @@ def run_self_test(options: Namespace) -> None:
         {title: answered for title, answered in naive_outcomes.items() if answered},
         additional_runs,
     )
+    if options.against is not None:
+        _print_comparison(blind_run, options.json == "-")
+
+
+def _print_comparison(blind_run: ResumableBlindRun, is_stdout_used: bool) -> None:
+    """Print where the answers of two versions differ, and the figures of the other one."""
+    output = sys.stderr if is_stdout_used else sys.stdout
+    comparisons = blind_run.compare_versions()
+    figures = score(blind_run.read_outcomes_of_other_version())
+    print(f"\nOther version\n{format_plain_table(figures)}", file=output)
+    for answers in comparisons:
+        if answers.differs:
+            print(format_difference(answers), file=output)
+    print(format_summary(comparisons), file=output)
 
 
 def _check_seed(options: Namespace) -> None:

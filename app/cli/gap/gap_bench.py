@@ -3,6 +3,8 @@
 import argparse
 from pathlib import Path
 
+from rotemina.app import bench
+
 
 def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """Add the subcommand."""
@@ -34,7 +36,20 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         metavar="S",
         help="time limit for each machine, s (default: 1800)",
     )
+    add_other_program(parser)
     parser.set_defaults(run=run)
+
+
+def add_other_program(parser: argparse.ArgumentParser) -> None:
+    """Add the option that names another version of the diagnosis."""
+    parser.add_argument(
+        "--against",
+        type=bench.parse_program,
+        metavar="COMMAND",
+        help="diagnose each case with this command as well, such as"
+        " '/other/.venv/bin/rotemina'; print where the two answers differ, and the processor time"
+        " of both",
+    )
 
 
 def _parse_seconds(text: str) -> float:
@@ -49,8 +64,5 @@ def _parse_seconds(text: str) -> float:
 
 def run(options: argparse.Namespace) -> int:
     """Diagnose the machines one after the other."""
-    # The import is slow, and other subcommands do not need it.
-    from rotemina.app.bench import run_bench
-
-    run_bench(options)
+    bench.run_bench(options)
     return 0

@@ -4,6 +4,7 @@ import argparse
 from pathlib import Path
 
 from rotemina.app import blind
+from rotemina.app.cli.gap.gap_bench import add_other_program
 from rotemina.app.cli.terminal import add_robot
 
 
@@ -75,6 +76,7 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         action="store_true",
         help="let three naive methods answer the same cases, for comparison (takes longer)",
     )
+    add_other_program(parser)
     add_robot(parser)
     parser.set_defaults(run=run)
 

@@ -444,6 +444,10 @@
         <translation>eine Trajektorie oder Aufzeichnung</translation>
     </message>
     <message>
+        <source>diagnose each case with this command as well, such as &apos;/other/.venv/bin/rotemina&apos;; print where the two answers differ, and the processor time of both</source>
+        <translation>jeden Fall auch mit diesem Befehl diagnostizieren, etwa &apos;/other/.venv/bin/rotemina&apos;; ausgeben, wo sich die Antworten unterscheiden und wie viel Prozessorzeit beide brauchen</translation>
+    </message>
+    <message>
         <source>file for the record (default: COMMANDS-predicted.csv in this folder)</source>
         <translation>Datei für die Aufzeichnung (Vorgabe: COMMANDS-predicted.csv in diesem Ordner)</translation>
     </message>
