@@ -31,7 +31,7 @@ from rotemina.app.motion.teleoperation import ModeScales
 from rotemina.app.records import make_timeline_events
 from rotemina.app.settings import UserSettings
 from rotemina.drivers.cameras.sequence import ImageSequenceSource
-from rotemina.drivers.contract import CameraLostError, DeviceSamples
+from rotemina.drivers.contract import CameraLostError, DeviceSamples, VirtualClock
 from rotemina.drivers.inputs import InputIdentity
 from rotemina.drivers.inputs.script import InputScript
 from rotemina.plugins.gap.blind.blind_figures import BlindResult
@@ -231,7 +231,9 @@ def read_unfinished(path):
 
 
 def read_sequence(path):
-    source = ImageSequenceSource()
+    clock = VirtualClock()
+    # A picture that cannot be read is tried again for a second.
+    source = ImageSequenceSource(clock=clock, wait=lambda _seconds: clock.advance(1.0))
     camera = source.camera(source.parse_address(str(path)))
     try:
         camera.open()
