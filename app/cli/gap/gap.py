@@ -1,14 +1,14 @@
 """``rotemina gap``: diagnose the gap between model and machine, and use the result.
 
-``diagnose`` finds causes, ``predict`` simulates the corrected model, ``twin`` writes it as a robot
-file, ``blind`` tests the diagnosis with generated cases, and ``bench`` with machines whose causes
-are known.
+``check`` says which effects records can show, ``diagnose`` finds causes, ``predict`` simulates
+the corrected model, ``twin`` writes it as a robot file, ``blind`` tests the diagnosis with
+generated cases, and ``bench`` with machines whose causes are known.
 """
 
 import argparse
 from pathlib import Path
 
-from rotemina.app.cli.gap import gap_bench, gap_blind, gap_diagnose
+from rotemina.app.cli.gap import gap_bench, gap_blind, gap_check, gap_diagnose
 from rotemina.app.cli.terminal import (
     add_columns,
     check_output_files,
@@ -32,6 +32,7 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     )
     parser.set_defaults(run=_require_subcommand)
     verbs = parser.add_subparsers(title="subcommands", metavar="")
+    gap_check.add_parser(verbs)
     gap_diagnose.add_parser(verbs)
     _add_predict(verbs)
     _add_twin(verbs)
@@ -41,7 +42,7 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
 
 def _require_subcommand(_options: argparse.Namespace) -> int:
     raise CommandError(
-        "gap: name a subcommand: diagnose, predict, twin, blind or bench (see --help)"
+        "gap: name a subcommand: check, diagnose, predict, twin, blind or bench (see --help)"
     )
 
 

@@ -124,10 +124,6 @@
         <translation>--{option}: {text} enthält zwei Werte für eine Achse</translation>
     </message>
     <message>
-        <source>gap: name a subcommand: diagnose, predict, twin, blind or bench (see --help)</source>
-        <translation>gap: einen Unterbefehl angeben: diagnose, predict, twin, blind oder bench (siehe --help)</translation>
-    </message>
-    <message>
         <source>diagnose the records of that machine</source>
         <translation>die Aufzeichnungen jener Maschine diagnostizieren</translation>
     </message>
@@ -211,6 +207,10 @@
     <message>
         <source>--max-speed {part}: must be a speed above 0, such as 10mm/s</source>
         <translation>--max-speed {part}: muss eine Geschwindigkeit über 0 sein, etwa 10mm/s</translation>
+    </message>
+    <message>
+        <source>gap: name a subcommand: check, diagnose, predict, twin, blind or bench (see --help)</source>
+        <translation>gap: einen Unterbefehl angeben: check, diagnose, predict, twin, blind oder bench (siehe --help)</translation>
     </message>
     <message>
         <source>the robot file states no speed limit (max_speed) of {axes}; give the greatest speed that the machine may move at, such as --max-speed {example}</source>
@@ -611,6 +611,33 @@ und prüfen mit `rotemina plugin check {name}` und `pytest {place}`.</translatio
     <message>
         <source>simulated {seconds} s</source>
         <translation>{seconds} s simuliert</translation>
+    </message>
+    <message>
+        <source>{axis}: these records can show, at the typical size (in noise floors, rms): {effects}</source>
+        <translation>{axis}: Diese Aufzeichnungen können in typischer Größe zeigen (Effektivwert in Rauschgrenzen): {effects}</translation>
+    </message>
+    <message>
+        <source>{axis}: too small here: {effects}; play this: {motion}</source>
+        <translation>{axis}: hier zu klein: {effects}; spielen Sie dies: {motion}</translation>
+    </message>
+    <message>
+        <source>{axis}: too small here and in every safe motion: {effects}</source>
+        <translation>{axis}: hier und in jeder sicheren Bewegung zu klein: {effects}</translation>
+    </message>
+    <message>
+        <source>{axis}: shown by any motion, if they are there: {effects}</source>
+        <translation>{axis}: zeigen sich, falls vorhanden, in jeder Bewegung: {effects}</translation>
+    </message>
+    <message>
+        <source>{effect} ({floors})</source>
+        <translation>{effect} ({floors})</translation>
+    </message>
+</context>
+<context>
+    <name>gap</name>
+    <message>
+        <source>the records contain no axis of the robot</source>
+        <translation>die Aufzeichnungen enthalten keine Achse des Roboters</translation>
     </message>
 </context>
 </TS>

@@ -448,6 +448,18 @@
         <translation>jeden Fall auch mit diesem Befehl diagnostizieren, etwa &apos;/other/.venv/bin/rotemina&apos;; ausgeben, wo sich die Antworten unterscheiden und wie viel Prozessorzeit beide brauchen</translation>
     </message>
     <message>
+        <source>Say which effects a diagnosis of these records could find at their typical size, which it could not, and which motion would show them. It takes seconds; whether an effect is there is found by &apos;gap diagnose&apos;.</source>
+        <translation>Angeben, welche Effekte eine Diagnose dieser Aufzeichnungen in typischer Größe finden könnte, welche nicht, und welche Bewegung sie zeigen würde. Das dauert Sekunden; ob ein Effekt vorhanden ist, findet &apos;gap diagnose&apos; heraus.</translation>
+    </message>
+    <message>
+        <source>write the result as JSON (&apos;-&apos; prints it)</source>
+        <translation>das Ergebnis als JSON schreiben (&apos;-&apos; gibt es aus)</translation>
+    </message>
+    <message>
+        <source>say which effects records can show, and which motion would show the others</source>
+        <translation>angeben, welche Effekte Aufzeichnungen zeigen können und welche Bewegung die übrigen zeigen würde</translation>
+    </message>
+    <message>
         <source>file for the record (default: COMMANDS-predicted.csv in this folder)</source>
         <translation>Datei für die Aufzeichnung (Vorgabe: COMMANDS-predicted.csv in diesem Ordner)</translation>
     </message>

@@ -143,7 +143,7 @@ def _make_rich_experiment(axis: str, test: SafeTest) -> SuggestedExperiment:
             "gap",
             "The records move {axis} too little to distinguish effects. Play this: "
             "{test}; it covers many amplitudes and speeds.",
-        ).fill(axis=AxisName(axis), test=_describe_test(test, axis)),
+        ).fill(axis=AxisName(axis), test=describe_test(test, axis)),
         time_s=tuple(record.time_s.tolist()),
         commands={name: tuple(record.signal(name, Tap.CMD).tolist()) for name in record.axes},
         predictions={},
@@ -381,7 +381,7 @@ def _explain_choice(
     others = message("gap", "; no test here distinguishes {any} from one of them")
     return template.fill(
         effects=_list_rivals(rivals),
-        test=_describe_test(choice.test, axis),
+        test=describe_test(choice.test, axis),
         closest=closest if len(rivals) > 2 else "",
         n=format_rounded(choice.separation, 2),
         doubt=doubt if is_doubtful else "",
@@ -399,7 +399,8 @@ def _list_rivals(rivals: Sequence[Rival], *, one_of_them: bool = False) -> Field
     )
 
 
-def _describe_test(test: SafeTest, axis: str) -> Message:
+def describe_test(test: SafeTest, axis: str) -> Message:
+    """Return the name of a test with its size, centre and duration, as used in a sentence."""
     record = test.record
     moving_axis = next(
         (
