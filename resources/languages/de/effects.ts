@@ -292,6 +292,14 @@
         <translation>Thermische Drift</translation>
     </message>
     <message>
+        <source>two bodies</source>
+        <translation>zwei Körper</translation>
+    </message>
+    <message>
+        <source>A₂, that of the slower body</source>
+        <translation>A₂, die des trägeren Körpers</translation>
+    </message>
+    <message>
         <source>Vibration</source>
         <translation>Schwingung</translation>
     </message>

@@ -8,12 +8,17 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from math import isfinite
 
-from rotemina.sim.effects import AttachedEffect, Effect, ReadingFunction, load_effect
-from rotemina.sim.errors import EffectError
-from rotemina.sim.gap.fit import Evidence, catalogue
+import numpy as np
+
+from rotemina.sim.effects import AttachedEffect, Effect, EffectTrait, ReadingFunction, load_effect
+from rotemina.sim.errors import EffectError, PlantError
+from rotemina.sim.gap.fit import NUMERICAL, Evidence, Signals, catalogue
 from rotemina.sim.plant import Plant
 from rotemina.sim.records import Tap
 from rotemina.sim.robot import AxisEffect
+
+# Change over a record, in noise floors, below which an effect does not act at all.
+_MIN_CHANGE_FLOORS = 1e-6
 
 
 def candidates(evidence: Evidence) -> tuple[AxisEffect, ...]:
@@ -26,7 +31,40 @@ def candidates(evidence: Evidence) -> tuple[AxisEffect, ...]:
     for effect in catalogue():
         if effect.identification.fitted:
             found += _formulations(evidence, effect, sources if effect.coupled else [None])
-    return tuple(found)
+    if _has_motion(evidence):
+        return tuple(found)
+    unchanged = evidence.response()
+    return tuple(one for one in found if _is_excited(evidence, one, unchanged))
+
+
+def _has_motion(evidence: Evidence) -> bool:
+    return any(
+        np.ptp(observation.record.signal(evidence.axis, Tap.CMD)) > 0.0
+        for observation in evidence.observations
+    )
+
+
+def _is_excited(evidence: Evidence, candidate: AxisEffect, unchanged: Sequence[Signals]) -> bool:
+    """Tell whether an axis that is held shows an effect that starts at rest.
+
+    Time excites drift and vibration, and other axes excite a coupling. Without either, a mode would
+    ring only from a start that is fitted to the record, and could take the shape of any remainder.
+    """
+    formulation = AttachedEffect.of(evidence.robot, candidate).formulation
+    if EffectTrait.LOCKED_TO_TIME in formulation.traits:
+        return True
+    try:
+        changed = evidence.response([candidate])
+    except (EffectError, PlantError, *NUMERICAL):
+        return False
+    return any(
+        np.ptp(signal - before[tap]) > _MIN_CHANGE_FLOORS * observation.floor[tap]
+        for observation, after, before in zip(
+            evidence.observations, changed, unchanged, strict=True
+        )
+        for tap, signal in after.items()
+        if tap in observation.floor
+    )
 
 
 def scouts(evidence: Evidence, own: Sequence[AxisEffect]) -> list[AxisEffect]:

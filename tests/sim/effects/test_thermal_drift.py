@@ -33,6 +33,17 @@ def test_drift_is_an_exponential_from_the_start_of_the_run(first_s):
     np.testing.assert_allclose(simulate_drift(np.full(5000, 5e-4), first_s), expected, atol=1e-15)
 
 
+def test_two_bodies_add_their_exponentials_so_that_the_drift_can_come_back():
+    time_s = np.arange(5000) / 500.0
+    values = {"amplitude": 1e-5, "time_constant": 0.5}
+    values |= {"amplitude_2": -8e-6, "time_constant_2": 4.0}
+    effect = AxisEffect(axis="thx", id="thermal_drift", formulation="two_bodies", parameters=values)
+    drift = simulate_drift(np.full(5000, 5e-4), effect=effect)
+    expected = 1e-5 * (1 - np.exp(-time_s / 0.5)) - 8e-6 * (1 - np.exp(-time_s / 4.0))
+    np.testing.assert_allclose(drift, expected, atol=1e-15)
+    assert drift[-1] < 0.7 * drift.max()
+
+
 def test_drift_does_not_depend_on_the_command():
     still = simulate_drift(np.full(2000, 5e-4))
     moving = simulate_drift(5e-4 + 3e-4 * np.sin(np.arange(2000) / 30.0))
