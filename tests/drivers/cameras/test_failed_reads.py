@@ -24,27 +24,26 @@ def grab_until_lost(camera):
         camera.grab(SHORT_TIMEOUT_S)
 
 
-@pytest.mark.parametrize("fault", Fault)
-def test_one_bad_picture_is_skipped_and_counted(bench, camera, fault):
+def test_one_bad_picture_is_skipped_and_counted(bench, camera):
     first_frame = camera.grab(LONG_TIMEOUT_S)
-    bench.tap.faults = [fault]
-    later_frames = [camera.grab(LONG_TIMEOUT_S) for _ in range(3)]
-    assert [frame.lost - first_frame.lost for frame in later_frames] == [1, 1, 1]
-    assert [frame.number - first_frame.number for frame in later_frames] == [2, 3, 4]
-    assert {frame.pixels.shape for frame in later_frames} == {first_frame.pixels.shape}
-    assert {frame.pixels.dtype for frame in later_frames} == {first_frame.pixels.dtype}
+    for count, fault in enumerate(Fault, 1):
+        bench.tap.faults = [fault]
+        frame = camera.grab(LONG_TIMEOUT_S)
+        assert frame.lost - first_frame.lost == count, fault
+        assert frame.number - first_frame.number == 2 * count, fault
+        assert frame.pixels.shape == first_frame.pixels.shape
+        assert frame.pixels.dtype == first_frame.pixels.dtype
 
 
-@pytest.mark.parametrize("fault", [Fault.FAILS, Fault.RAISES, Fault.EMPTY])
-def test_the_first_reads_may_fail(bench, fault):
-    bench.tap.faults = [fault, fault]
+def test_the_first_reads_may_fail(bench):
+    bench.tap.faults = [Fault.FAILS, Fault.RAISES, Fault.EMPTY]
     bench.camera.open()
     frame = bench.camera.grab(LONG_TIMEOUT_S)
-    assert (frame.lost, frame.number) == (2, 2)
+    assert (frame.lost, frame.number) == (3, 3)
     bench.camera.close()
 
 
-@pytest.mark.parametrize("fault", Fault)
+@pytest.mark.parametrize("fault", [Fault.FAILS, Fault.RAISES, Fault.OTHER_SHAPE])
 def test_a_second_without_good_pictures_loses_the_camera(bench, camera, clock, fault, caplog):
     camera.grab(LONG_TIMEOUT_S)
     bench.tap.forever = fault
@@ -56,10 +55,9 @@ def test_a_second_without_good_pictures_loses_the_camera(bench, camera, clock, f
     assert (RAW_TEXT in caplog.text) == (fault is Fault.RAISES)
 
 
-@pytest.mark.parametrize("fault", [Fault.FAILS, Fault.RAISES, Fault.EMPTY])
-def test_bad_pictures_for_less_than_a_second_do_not_lose_the_camera(bench, camera, clock, fault):
+def test_bad_pictures_for_less_than_a_second_do_not_lose_the_camera(bench, camera, clock):
     camera.grab(LONG_TIMEOUT_S)
-    for _ in range(3):
+    for fault in (Fault.FAILS, Fault.RAISES, Fault.EMPTY):
         bench.tap.forever, until_s = fault, clock() + 0.8
         while clock() < until_s:
             assert camera.grab(SHORT_TIMEOUT_S) is None
@@ -67,7 +65,7 @@ def test_bad_pictures_for_less_than_a_second_do_not_lose_the_camera(bench, camer
         assert camera.grab(LONG_TIMEOUT_S) is not None
 
 
-@pytest.mark.parametrize("fault", [Fault.FAILS, Fault.RAISES, Fault.EMPTY])
+@pytest.mark.parametrize("fault", [Fault.FAILS, Fault.EMPTY])
 def test_a_camera_without_any_good_picture_is_lost(bench, clock, fault):
     bench.tap.forever = fault
     began_s = clock()

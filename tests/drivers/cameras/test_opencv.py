@@ -58,7 +58,6 @@ def test_a_slow_reader_gets_every_picture_of_a_video(source, write_video, tmp_pa
     [
         ("notes.txt", b"no film\n" * 300, "a text file, not a video"),
         ("broken.avi", b"RIFF garbage" * 100, "not a video"),
-        ("empty.mp4", b"", "not a video"),
     ],
 )
 def test_a_file_that_is_no_video_is_refused(source, tmp_path, capfd, name, content, reason):
@@ -73,14 +72,6 @@ def test_a_single_picture_is_refused(source, tmp_path):
     path = tmp_path / "one.png"
     cv2.imwrite(str(path), np.zeros((8, 8), np.uint8))
     with pytest.raises(CameraRefusedError, match="image sequence") as refusal:
-        open_video(source, path)
-    assert isinstance(dict(refusal.value.args[0].fields)["reason"], Message)
-
-
-def test_a_refusal_of_a_text_file_can_be_translated(source, tmp_path):
-    path = tmp_path / "notes.txt"
-    path.write_bytes(b"no film\n" * 300)
-    with pytest.raises(CameraRefusedError) as refusal:
         open_video(source, path)
     assert isinstance(dict(refusal.value.args[0].fields)["reason"], Message)
 
@@ -120,35 +111,17 @@ def test_a_change_of_resolution_loses_the_camera(device, capture):
         device.grab(1.0)
 
 
-def test_colours_are_converted_from_bgr_to_rgb(tmp_path, clock):
-    class RedCapture:
-        def __call__(self, *_):
-            return self
+def test_colours_are_converted_from_bgr_to_rgb(device, capture):
+    capture.tap.buffers = [np.full(capture.shape, (0, 0, 255), np.uint8)]
+    assert device.grab(1.0).pixels[0, 0].tolist() == [255, 0, 0]
 
-        def isOpened(self):  # noqa: N802 (OpenCV's name)
-            return True
 
-        def getBackendName(self):  # noqa: N802 (OpenCV's name)
-            return "DSHOW"
-
-        def set(self, *_):
-            return True
-
-        def get(self, _):
-            return -1.0
-
-        def read(self):
-            return True, np.full((4, 4, 3), (0, 0, 255), np.uint8)  # BGR
-
-        def release(self):
-            pass
-
-    source = OpenCvSource(clock=clock, wait=clock.advance, capture=RedCapture())
+def test_a_device_that_reports_no_exposure_and_no_gain_has_none(clock, capture):
+    capture.get, capture.getBackendName = lambda _: -1.0, lambda: "DSHOW"
+    source = OpenCvSource(clock=clock, wait=clock.advance, capture=capture)
     camera = source.camera(source.parse_address("0"))
     camera.open()
-    assert camera.grab(1.0).pixels[0, 0].tolist() == [255, 0, 0]
-    assert camera.description.exposure_s is None
-    assert camera.description.gain is None
+    assert (camera.description.exposure_s, camera.description.gain) == (None, None)
 
 
 def test_v4l_cameras_are_listed_in_order_without_their_metadata_nodes(tmp_path):

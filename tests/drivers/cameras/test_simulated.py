@@ -208,9 +208,3 @@ def test_the_same_seed_gives_the_same_frames(clock):
     )
     np.testing.assert_array_equal(first, same_seed)
     assert (first != other_seed).mean() > 0.9
-
-
-def test_the_mounting_of_the_camera_is_part_of_the_scene(clock):
-    bench = Bench(clock, mounting={"rotation_rad": 0.3, "mirrored": True})
-    assert bench.camera.scene.optics.rotation_rad == 0.3
-    assert bench.camera.scene.optics.mirrored
