@@ -1,7 +1,5 @@
 """A host for the virtual boards with its own clock, which sends frames and reads replies."""
 
-from types import SimpleNamespace
-
 import pytest
 
 from rotemina.drivers.mc68hc11.protocol import (
@@ -9,28 +7,13 @@ from rotemina.drivers.mc68hc11.protocol import (
     FrameRefused,
     SerialFrame,
     Telemetry,
-    board_messages,
     encode_frame,
     host_messages,
+    unpack_message,
 )
 from rotemina.drivers.virtual_board import VirtualBoards
 from rotemina.sim.robot_files import load_robot
 
-_REPORTS = {
-    kind.TYPE: kind
-    for kind in (
-        board_messages.FrameDone,
-        board_messages.FrameRefused,
-        board_messages.BoardIdentity,
-        board_messages.AxisDescription,
-        board_messages.Telemetry,
-        board_messages.CaptureSamples,
-        board_messages.ParameterValue,
-        board_messages.BoardRates,
-        board_messages.BoardKind,
-        board_messages.OperatorInputs,
-    )
-}
 _STEP_S = 1e-3
 
 
@@ -66,7 +49,7 @@ class Host:
             self.time_s = min(self.time_s + _STEP_S, end_s)
             for decoder, port in zip(self._decoders, self.boards.host_ports, strict=True):
                 for frame in decoder.feed(port.advance(self.time_s)):
-                    message = _REPORTS[frame.type].unpack(frame.payload)
+                    message = unpack_message(frame.type, frame.payload)
                     self.received.append((frame.address, message, self.time_s))
         return [message for _, message, _ in self.received[first:]]
 
@@ -118,8 +101,3 @@ def host(robot):
 @pytest.fixture
 def make_host(robot):
     return lambda **settings: Host(settings.pop("robot", robot), **settings)
-
-
-@pytest.fixture(scope="session")
-def robots_with_one_board():
-    return SimpleNamespace(fsm=load_robot("fsm"), emps=load_robot("emps"))
