@@ -41,6 +41,8 @@ WORN = (
 NOISY = replace(load_robot("rotemina"), effects=WORN)
 AXIS = NOISY.axes["zn"]
 QUIET = replace(NOISY, axes={**NOISY.axes, "zn": replace(AXIS, sensor=None)})
+
+
 MODEL = InverseModel(
     axis="zn",
     unit="m",
@@ -61,13 +63,15 @@ MODEL = InverseModel(
 class LoopBench:
     """A simulator with a manual clock, which is read every 20 ms."""
 
-    def __init__(self, robot=NOISY, **settings):
+    def __init__(self, robot=NOISY, *, is_closed=True, **settings):
         self.clock = VirtualClock(3.0)
         self.driver = Simulator(robot, settings, clock=self.clock)
         self.driver.open()
         self.loop = AxisRegulation(robot, "zn", GAINS, RATE_HZ)
         self.samples = []
         self.run(0.1)
+        if is_closed:
+            self.close_loop()
 
     def run(self, time_s):
         """Run, and return time, command, voltage and reading (n,) of nano Z."""
@@ -99,7 +103,6 @@ def make_trajectory(path, interval_s=1e-3):
 def run_two_moves(sample_rate_hz):
     """Close the loop, and change the target during a move. Return the traces (n,) of `run`."""
     machine = LoopBench(QUIET, sample_rate_hz=sample_rate_hz)
-    machine.close_loop()
     first = machine.run(0.02)
     machine.driver.move_to({"zn": 47e-6})
     machine.clock.advance(0.002)
@@ -126,7 +129,7 @@ def test_a_slower_sample_rate_runs_the_same_loop():
 
 
 def test_nothing_jumps_when_a_loop_is_closed_or_opened():
-    machine = LoopBench()
+    machine = LoopBench(is_closed=False)
     machine.driver.move_to({"zn": 45e-6})
     _, _, output_before, reading_before = machine.run(0.5)
     machine.close_loop()
@@ -150,7 +153,6 @@ def test_nothing_jumps_when_a_loop_is_closed_or_opened():
 
 def test_a_stop_during_a_move_brakes_the_axis_in_its_loop():
     machine = LoopBench()
-    machine.close_loop()
     machine.driver.move_to({"zn": 60e-6})
     machine.clock.advance(0.003)
     machine.driver.stop()
@@ -166,7 +168,6 @@ def test_a_stop_during_a_move_brakes_the_axis_in_its_loop():
 
 def test_a_stop_during_a_trajectory_brakes_from_the_present_speed():
     machine = LoopBench()
-    machine.close_loop()
     path = 32e-6 + 20e-6 * np.sin(2 * np.pi * 5.0 * 1e-3 * np.arange(2000))
     machine.driver.play(make_trajectory(path))
     machine.run(0.8)
@@ -180,7 +181,6 @@ def test_a_stop_during_a_trajectory_brakes_from_the_present_speed():
 
 def test_outputs_stay_in_range_and_limited_loops_are_reported():
     machine = LoopBench()
-    machine.close_loop()
     machine.driver.move_to({"zn": 60e-6})
     machine.run(0.4)
     # Because of hysteresis, this target needs an output below the range.
@@ -201,7 +201,6 @@ def test_outputs_stay_in_range_and_limited_loops_are_reported():
 
 def test_rows_of_a_trajectory_are_followed_and_numbered():
     machine = LoopBench()
-    machine.close_loop()
     path = 32e-6 + 20e-6 * np.sin(2 * np.pi * 10.0 * 1e-3 * np.arange(400))
     machine.driver.play(make_trajectory(path))
     machine.run(1.2)
@@ -219,7 +218,7 @@ def test_rows_of_a_trajectory_are_followed_and_numbered():
 
 
 def test_a_profile_keeps_its_duration_and_an_earlier_one_is_dropped():
-    machine = LoopBench()
+    machine = LoopBench(is_closed=False)
     profile = MotionProfile("zn", (ProfileSegment(0.1, 0.0, 6e-6, -4e-6),))
     machine.driver.upload(profile)
     machine.close_loop()
@@ -234,7 +233,7 @@ def test_a_profile_keeps_its_duration_and_an_earlier_one_is_dropped():
 
 
 def test_the_change_between_inverse_and_loop_is_smooth():
-    machine = LoopBench()
+    machine = LoopBench(is_closed=False)
     machine.driver.compensate("zn", MODEL)
     output_before = machine.run(0.02)[2][-1]
     machine.close_loop()
@@ -257,7 +256,6 @@ def test_the_change_between_inverse_and_loop_is_smooth():
 
 def test_a_new_connection_opens_the_loop_and_keeps_its_output():
     machine = LoopBench()
-    machine.close_loop()
     machine.driver.move_to({"zn": 50e-6})
     held_output = machine.run(0.3)[2][-1]
     machine.driver.close()
@@ -276,9 +274,9 @@ def test_a_loop_that_may_not_be_closed_is_refused_with_the_reason():
     AxisRegulation(NOISY, "zn", aggressive_gains, RATE_HZ, spread=0.0)
     with pytest.raises(UnstableError, match=r"Ms = .* \(with gain or resonance off by 5 %"):
         AxisRegulation(NOISY, "zn", aggressive_gains, RATE_HZ)
-    machine = LoopBench()
+    machine = LoopBench(is_closed=False)
     with pytest.raises(LimitError, match="at 5000 Hz: the simulated machine samples at 3000 Hz"):
-        LoopBench(NOISY, sample_rate_hz=3000.0).close_loop()
+        LoopBench(sample_rate_hz=3000.0)
     with pytest.raises(LimitError, match="the loop is for axis zn, not for thx"):
         machine.driver.regulate("thx", machine.loop)
     machine.driver.move_to({"zn": 40e-6})
@@ -294,7 +292,6 @@ def test_a_loop_that_may_not_be_closed_is_refused_with_the_reason():
 @pytest.mark.parametrize("with_delay", [False, True])
 def test_a_loop_without_response_is_opened_and_keeps_its_output(with_delay, monkeypatch):
     machine = LoopBench()
-    machine.close_loop()
     output_before = machine.run(0.1)[2][-1]
     delay = (AxisEffect(axis="zn", id="delay", parameters={"delay": 1e-3}),) if with_delay else ()
     machine.driver.set_effects((*WORN, *delay))
@@ -315,7 +312,6 @@ def test_a_loop_without_response_is_opened_and_keeps_its_output(with_delay, monk
 
 def test_a_delay_set_during_operation_is_simulated():
     machine = LoopBench()
-    machine.close_loop()
     delay = AxisEffect(axis="zn", id="delay", parameters={"delay": 3e-4})
     machine.driver.set_effects((*WORN, delay))
     machine.driver.move_to({"zn": 45e-6})
@@ -326,7 +322,6 @@ def test_a_delay_set_during_operation_is_simulated():
 
 def test_the_loop_of_a_stopped_axis_changes_its_output_within_a_bound():
     machine = LoopBench(QUIET)
-    machine.close_loop()
     machine.driver.stop()
     machine.run(0.1)
     (controller,) = machine.driver._open_device._loops._controllers.values()
@@ -341,7 +336,6 @@ def test_the_loop_of_a_stopped_axis_ignores_readings_out_of_bounds(monkeypatch):
     # Without this check, such a loop is not opened.
     monkeypatch.setattr(regulated_plant, "_check_response", lambda *_: None)
     machine = LoopBench(QUIET)
-    machine.close_loop()
     machine.driver.stop()
     machine.run(0.1)
     device = machine.driver._open_device
@@ -360,7 +354,6 @@ def test_the_loop_of_a_stopped_axis_ignores_readings_out_of_bounds(monkeypatch):
 
 def test_a_stopped_axis_can_move_to_any_target_again():
     machine = LoopBench(QUIET)
-    machine.close_loop()
     # The targets are farther apart than the bound for the output of a stopped axis.
     for target in (5e-6, 55e-6):
         machine.driver.stop()
@@ -370,7 +363,7 @@ def test_a_stopped_axis_can_move_to_any_target_again():
 
 
 def test_preparing_an_inverse_does_not_block_a_stop(monkeypatch):
-    machine, lock_states = LoopBench(QUIET), []
+    machine, lock_states = LoopBench(QUIET, is_closed=False), []
 
     def find_rest_and_record_lock(*arguments):
         lock_states.append(machine.driver.gate._lock.locked())

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings, strategies as st
+from hypothesis import given, strategies as st
 
 from rotemina.drivers.simulator import SetpointGenerator, setpoint_generator
 from rotemina.sim.robot_files import load_robot
@@ -34,7 +34,6 @@ def check_bounds(commands, start, tick_s):
 
 
 @given(start=positions, targets=target_lists, tick_s=ticks)
-@settings(max_examples=300, deadline=None)
 def test_bounds_hold_for_any_targets(start, targets, tick_s):
     generator = SetpointGenerator(LIMITS, tick_s, np.array([start]))
     portions = []
@@ -50,7 +49,6 @@ def test_bounds_hold_for_any_targets(start, targets, tick_s):
 
 
 @given(start=positions, target=positions, tick_s=ticks)
-@settings(max_examples=200, deadline=None)
 def test_a_move_from_rest_goes_straight_to_its_target(start, target, tick_s):
     generator = SetpointGenerator(LIMITS, tick_s, np.array([start]))
     generator.retarget({0: target})
@@ -62,7 +60,6 @@ def test_a_move_from_rest_goes_straight_to_its_target(start, target, tick_s):
 
 
 @given(target=positions, tick_s=ticks, tick_count=st.integers(0, 3000))
-@settings(max_examples=200, deadline=None)
 def test_a_stop_takes_at_most_the_braking_distance(target, tick_s, tick_count):
     generator = SetpointGenerator(LIMITS, tick_s, np.array([0.5]))
     generator.retarget({0: target})
