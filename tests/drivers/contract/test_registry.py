@@ -14,15 +14,6 @@ class OldSimulator(Simulator):
     api_version = 0
 
 
-@pytest.fixture
-def install_plugins(monkeypatch):
-    def install(**values):
-        points = [EntryPoint(name, value, registry.DRIVER_GROUP) for name, value in values.items()]
-        monkeypatch.setattr(registry, "entry_points", lambda group: points)
-
-    return install
-
-
 @pytest.mark.parametrize(
     ("value", "reason"),
     [

@@ -28,18 +28,9 @@ def test_a_classic_joystick(descriptors):
     assert decoder.axes == ("X", "Y", "Hat right", "Hat towards", "Rz", "Slider")
     assert decoder.buttons == tuple(f"Button {number}" for number in range(1, 13))
     # x 1023, y 0, hat 2 (right), twist 255, buttons 1 and 8, throttle 0, button 12
-    report = (1023 | 0 << 10 | 2 << 20 | 255 << 24 | 0x81 << 32 | 0 << 40 | 8 << 48).to_bytes(
-        7, "little"
-    )
-    axes, pressed = decode_report(decoder, report)
-    assert axes == {
-        "X": 1.0,
-        "Y": -1.0,
-        "Hat right": 1.0,
-        "Hat towards": 0.0,
-        "Rz": 1.0,
-        "Slider": -1.0,
-    }
+    report = 1023 | 0 << 10 | 2 << 20 | 255 << 24 | 0x81 << 32 | 0 << 40 | 8 << 48
+    axes, pressed = decode_report(decoder, report.to_bytes(7, "little"))
+    assert tuple(axes.values()) == (1.0, -1.0, 1.0, 0.0, 1.0, -1.0)
     assert pressed == {"Button 1", "Button 8", "Button 12"}
 
 
@@ -102,21 +93,12 @@ def test_a_list_of_buttons_and_odd_encodings(descriptors):
     assert decoder.ignored == IgnoredCounts(unknown=1)
 
 
-@pytest.mark.parametrize(
-    ("value", "direction"),
-    [
-        *zip(
-            range(8),
-            [(0, -1), (1, -1), (1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1)],
-            strict=True,
-        ),
-        (8, (0, 0)),
-        (15, (0, 0)),
-    ],
-)
-def test_a_hat_points_in_eight_directions_or_none(descriptors, value, direction):
-    axes, _ = make_decoder(descriptors["joystick"]).decode((value << 20).to_bytes(7, "little"))
-    assert axes[2:4] == direction
+def test_a_hat_points_in_eight_directions_or_none(descriptors):
+    decoder = make_decoder(descriptors["joystick"])
+    directions = [(0, -1), (1, -1), (1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1)]
+    for value, direction in enumerate([*directions, *[(0, 0)] * 8]):
+        axes, _ = decoder.decode((value << 20).to_bytes(7, "little"))
+        assert axes[2:4] == direction
 
 
 def test_a_device_with_short_reports_has_the_controls_in_them(descriptors):
@@ -181,15 +163,10 @@ def test_a_value_beyond_its_range_is_unknown_except_by_one_count():
 
 
 def test_an_analog_button_is_pressed_from_half_its_range():
-    decoder = make_decoder(
-        bytes.fromhex("05 01 09 05 A1 01 05 09 09 01 15 00 26 FF 00 75 08 95 01 81 02 C0")
-    )
-    assert [decoder.decode(bytes([value]))[1] for value in (0, 127, 128, 255)] == [
-        (False,),
-        (False,),
-        (True,),
-        (True,),
-    ]
+    descriptor = "05 01 09 05 A1 01 05 09 09 01 15 00 26 FF 00 75 08 95 01 81 02 C0"
+    decoder = make_decoder(bytes.fromhex(descriptor))
+    states = [decoder.decode(bytes([value]))[1] for value in (0, 127, 128, 255)]
+    assert states == [(False,), (False,), (True,), (True,)]
 
 
 def test_the_last_usage_applies_to_all_remaining_fields():
@@ -235,23 +212,20 @@ def test_a_usage_may_precede_its_page_or_contain_one():
     assert make_decoder(descriptor).axes == ("X", "Throttle")
 
 
-@pytest.mark.parametrize(
-    ("descriptor", "reason"),
-    [
-        ("05 01 09 06 A1 01 09 30 15 00 25 7F 75 08 95 01 81 02 C0", "no axis and no button"),
-        ("", "no axis and no button"),
-        ("05 01 09 04 A1 01 26 FF", "truncated: the item at byte 6 of 8"),
-        ("05 01 09 04 B4", "byte 4: Pop without a Push"),
-        ("05 01 C0", "byte 2: a collection ends that has not begun"),
-        ("85 00", "report number 0: must be 1 to 255"),
-        ("09 30 75 08 97 FF FF FF FF 81 02", "4294967295 more fields of 8 bits"),
-        ("09 30 77 FF FF FF FF 95 01 81 02", "1 more fields of 4294967295 bits"),
-        ("09 30 75 01 96 FF 0F 81 02 95 02 81 02", "byte 11: 2 more fields of 1 bits"),
-    ],
-)
-def test_an_unusable_descriptor_is_refused_with_the_reason(descriptor, reason):
-    with pytest.raises(DescriptorError, match=reason):
-        make_decoder(bytes.fromhex(descriptor))
+def test_an_unusable_descriptor_is_refused_with_the_reason():
+    for descriptor, reason in {
+        "05 01 09 06 A1 01 09 30 15 00 25 7F 75 08 95 01 81 02 C0": "no axis and no button",
+        "": "no axis and no button",
+        "05 01 09 04 A1 01 26 FF": "truncated: the item at byte 6 of 8",
+        "05 01 09 04 B4": "byte 4: Pop without a Push",
+        "05 01 C0": "byte 2: a collection ends that has not begun",
+        "85 00": "report number 0: must be 1 to 255",
+        "09 30 75 08 97 FF FF FF FF 81 02": "4294967295 more fields of 8 bits",
+        "09 30 77 FF FF FF FF 95 01 81 02": "1 more fields of 4294967295 bits",
+        "09 30 75 01 96 FF 0F 81 02 95 02 81 02": "byte 11: 2 more fields of 1 bits",
+    }.items():
+        with pytest.raises(DescriptorError, match=reason):
+            make_decoder(bytes.fromhex(descriptor))
 
 
 def test_a_long_item_is_skipped():

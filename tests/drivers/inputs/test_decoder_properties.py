@@ -103,25 +103,6 @@ def test_a_report_is_decoded_to_its_values(items):
     assert decoder.decode(encode_report(items)) == (tuple(axes), tuple(buttons))
 
 
-@given(st.lists(st.lists(input_items(), min_size=1, max_size=3), min_size=2, max_size=4))
-def test_reports_are_distinguished_by_their_numbers(reports):
-    for report in reports:
-        report.append(InputItem("buttons", 1, 0, 1, [1]))  # so that no report is empty
-    descriptor = JOYSTICK
-    for number, items in enumerate(reports, 1):
-        descriptor += encode_item(NUMBER, number) + b"".join(
-            item.encode_declaration() for item in items
-        )
-    decoder = HidDecoder(ReportDescriptor.parse(descriptor + END))
-    for number, items in enumerate(reports, 1):
-        axes, buttons = decoder.decode(bytes([number]) + encode_report(items))
-        expected_axes = [value for item in items for value in item.axes()]
-        # An axis that is in several reports exists once, so this report's axes come first.
-        assert list(axes[: len(expected_axes)]) == expected_axes
-        assert sum(buttons) >= sum(any(item.buttons()) for item in items)
-    assert decoder.ignored.unknown == decoder.ignored.short == decoder.ignored.long == 0
-
-
 def decode_reports(descriptor, reports):
     """Decode any bytes with any descriptor, and check the number and range of the results."""
     try:

@@ -105,26 +105,23 @@ def test_rumble_calls_are_recorded(source, clock):
             device.rumble(strength)
 
 
-@pytest.mark.parametrize(
-    ("text", "reason"),
-    [
-        ("", "line 1: column 'time_s' is missing"),
-        ("axis x\n1\n", "line 1: column 'time_s' is missing"),
-        ("time_s,x\n0,1\n", "line 1: unknown column 'x'"),
-        ("time_s,axis x,axis x\n", "line 1: column 'axis x' appears twice"),
-        ("time_s,axis x\n0,1\n1\n", "line 3: 1 values: must be 2"),
-        ("time_s,axis x\n0,1\n1,far\n", "line 3, column 'axis x': 'far' is not a number"),
-        ("time_s,button a\n0,0.5\n", "line 2, column 'button a': 0.5: must be 0 or 1"),
-        ("time_s,plugged\n0,2\n", "line 2, column 'plugged': 2: must be 0 or 1"),
-        ("time_s,axis x\n0,1\n0,1\n", "moment 2: time 0 s: must be later .* \\(0 s\\)"),
-        ("time_s,axis x\nnan,1\n", "moment 1: time nan s"),
-        ("time_s,axis x\n0,1.5\n", "moment 1: x at 1.5: must be -1 to 1"),
-        ("time_s,axis x\n0,nan\n", "moment 1: x at nan: must be -1 to 1"),
-    ],
-)
-def test_a_bad_file_is_refused_with_the_place_of_the_error(write_script, text, reason):
-    with pytest.raises(ScriptError, match=f"script.csv.*{reason}"):
-        InputScript.load(write_script(text))
+def test_a_bad_file_is_refused_with_the_place_of_the_error(write_script):
+    for text, reason in {
+        "": "line 1: column 'time_s' is missing",
+        "axis x\n1\n": "line 1: column 'time_s' is missing",
+        "time_s,x\n0,1\n": "line 1: unknown column 'x'",
+        "time_s,axis x,axis x\n": "line 1: column 'axis x' appears twice",
+        "time_s,axis x\n0,1\n1\n": "line 3: 1 values: must be 2",
+        "time_s,axis x\n0,1\n1,far\n": "line 3, column 'axis x': 'far' is not a number",
+        "time_s,button a\n0,0.5\n": "line 2, column 'button a': 0.5: must be 0 or 1",
+        "time_s,plugged\n0,2\n": "line 2, column 'plugged': 2: must be 0 or 1",
+        "time_s,axis x\n0,1\n0,1\n": "moment 2: time 0 s: must be later .* \\(0 s\\)",
+        "time_s,axis x\nnan,1\n": "moment 1: time nan s",
+        "time_s,axis x\n0,1.5\n": "moment 1: x at 1.5: must be -1 to 1",
+        "time_s,axis x\n0,nan\n": "moment 1: x at nan: must be -1 to 1",
+    }.items():
+        with pytest.raises(ScriptError, match=f"script.csv.*{reason}"):
+            InputScript.load(write_script(text))
 
 
 def test_a_missing_or_binary_file_is_refused(write_script, tmp_path):
