@@ -4,7 +4,6 @@ import threading
 
 import pytest
 
-from rotemina.drivers.conformance import DriverBench as ConformanceBench
 from rotemina.drivers.contract import ConnectionLostError, DeviceSamples, DeviceState, VirtualClock
 from rotemina.drivers.gcode import EmulatedStage
 from rotemina.drivers.gcode.driver import GcodeStage
@@ -76,14 +75,14 @@ class Bench:
         self.line = line or {}
         self.settings = {"port": "memory", **(settings or {})}
         self.ports = []
-        self.driver = self.make({})
+        self.driver = self.make({}, self._open_port)
 
-    def make(self, settings):
+    def make(self, settings, open_port):
         return GcodeStage(
             self.robot,
             {**self.settings, **settings},
             clock=self.clock,
-            open_port=self._open_port,
+            open_port=open_port,
             pause=self.clock.advance,
         )
 
@@ -129,39 +128,52 @@ class Bench:
             portions.append(self.driver.read())
         return DeviceSamples.join(portions, len(self.driver.axes))
 
-    def wait_for_rest(self, limit_s=60.0):
+    def wait_for_rest(self, limit_s=60.0, round_s=0.01):
         busy = (DeviceState.MOVING, DeviceState.HOMING)
-        portions = [self.run(0.05)]
+        portions = [self.run(0.05, round_s)]
         for _ in range(round(limit_s / 0.05)):
             if self.driver.status().state not in busy:
                 return DeviceSamples.join(portions, len(self.driver.axes))
-            portions.append(self.run(0.05))
+            portions.append(self.run(0.05, round_s))
         raise AssertionError(f"still {self.driver.status()} after {limit_s} s")
+
+    def home(self):
+        self.driver.home(self.driver.homing_axes)
+        self.wait_for_rest(round_s=0.05)
+        assert self.driver.status().position_known
 
     def open_and_home(self):
         self.driver.open()
-        self.driver.home(self.driver.homing_axes)
-        self.wait_for_rest()
-        assert self.driver.status().position_known
+        self.home()
         return self.driver
+
+    def advance_stage(self, seconds=0.0):
+        """Let time pass for the stage alone, without the driver."""
+        self.clock.advance(seconds)
+        return self.stage.advance(self.clock() - self.began_s)
+
+    def send_to_stage(self, data):
+        """Send bytes to the stage as another program would."""
+        self.stage.receive(data, self.clock() - self.began_s)
 
     def read_position(self):
         return self.run(0.1).command[-1]
-
-    def make_conformance_bench(self):
-        return ConformanceBench(
-            make=self.make,
-            advance=self.clock.advance,
-            cut_link=lambda: self.set_cut(True),
-            restore_link=lambda: self.set_cut(False),
-            misreport=lambda: self.alter_once(lambda data: data.replace(b".", b"", 1)),
-            delay_line=self.delay,
-            cause_fault=lambda _: self.stage.hit_limit(),
-            was_device_contacted=lambda: bool(self.ports),
-        )
 
 
 @pytest.fixture
 def make_bench():
     """Return the class of benches."""
     return Bench
+
+
+@pytest.fixture
+def bench():
+    """Return a bench whose driver is open and homed."""
+    bench = Bench()
+    bench.open_and_home()
+    return bench
+
+
+@pytest.fixture
+def driver(bench):
+    return bench.driver

@@ -34,36 +34,30 @@ def unlocked_host(host):
     return host
 
 
-@pytest.mark.parametrize(
-    ("request_bytes", "reply"),
-    [
-        (b"?", "<Alarm|MPos:0.000,0.000,0.000|FS:0,0>\r\n"),
-        (b"G0 X-1\n", "error:9\r\n"),
-        (b"$J=X-1 F100\n", "error:9\r\n"),
-        (b"$I\n", "[VER:1.1h.20190830:]\r\n[OPT:VH,15,128]\r\n[MACHINE:virtual]\r\nok\r\n"),
-    ],
-)
-def test_a_locked_controller_reports_but_moves_nothing(host, request_bytes, reply):
-    assert host.exchange(request_bytes) == reply
+def test_a_locked_controller_reports_but_moves_nothing(host):
+    replies = {
+        b"?": "<Alarm|MPos:0.000,0.000,0.000|FS:0,0>\r\n",
+        b"G0 X-1\n": "error:9\r\n",
+        b"$J=X-1 F100\n": "error:9\r\n",
+        b"$I\n": "[VER:1.1h.20190830:]\r\n[OPT:VH,15,128]\r\n[MACHINE:virtual]\r\nok\r\n",
+    }
+    assert {line: host.exchange(line) for line in replies} == replies
 
 
-@pytest.mark.parametrize(
-    ("request_bytes", "reply"),
-    [
-        (b"$J=X-1\n", "error:22\r\n"),
-        (b"$J=F100\n", "error:26\r\n"),
-        (b"$J=X1 F100\n", "error:15\r\n"),
-        (b"$J=M3 F100\n", "error:16\r\n"),
-        (b"G2 X-1\n", "error:20\r\n"),
-        (b"M3\n", "error:20\r\n"),
-        (b"G1 X-1\n", "error:22\r\n"),
-        (b"X-\n", "error:2\r\n"),
-        (b"$nonsense\n", "error:3\r\n"),
-        (b"\n", "ok\r\n"),
-    ],
-)
-def test_an_invalid_line_is_rejected_with_its_error_number(unlocked_host, request_bytes, reply):
-    assert unlocked_host.exchange(request_bytes) == reply
+def test_an_invalid_line_is_rejected_with_its_error_number(unlocked_host):
+    replies = {
+        b"$J=X-1\n": "error:22\r\n",
+        b"$J=F100\n": "error:26\r\n",
+        b"$J=X1 F100\n": "error:15\r\n",
+        b"$J=M3 F100\n": "error:16\r\n",
+        b"G2 X-1\n": "error:20\r\n",
+        b"M3\n": "error:20\r\n",
+        b"G1 X-1\n": "error:22\r\n",
+        b"X-\n": "error:2\r\n",
+        b"$nonsense\n": "error:3\r\n",
+        b"\n": "ok\r\n",
+    }
+    assert {line: unlocked_host.exchange(line) for line in replies} == replies
 
 
 def test_a_held_program_continues_after_a_resume(unlocked_host):

@@ -54,10 +54,9 @@ class HundredOriginStage(UpwardStage):
 
 
 @pytest.mark.parametrize(
-    ("stage", "home_position"),
-    [(UpwardStage, 1.0), (ZeroOriginStage, 0.0), (HundredOriginStage, 0.0)],
+    ("stage", "home_position", "soft_limits"),
+    [(UpwardStage, 1.0, 0.0), (ZeroOriginStage, 0.0, 1.0), (HundredOriginStage, 0.0, 1.0)],
 )
-@pytest.mark.parametrize("soft_limits", [0.0, 1.0])
 def test_a_controller_that_counts_upward_reaches_its_target(
     make_bench, stage, home_position, soft_limits
 ):

@@ -45,7 +45,7 @@ def targets_are_in_range(bench, first_byte):
 
 
 @pytest.mark.parametrize("damage", DAMAGE_FUNCTIONS, ids=lambda damage: damage.__name__)
-def test_a_damaged_report_before_a_move_is_not_its_start(make_bench, damage):
+def test_damaged_reports_before_and_during_a_move_are_discarded(make_bench, damage):
     bench = make_bench()
     # Without soft limits, only the driver protects the stage.
     bench.stage.settings[20] = 0.0
@@ -53,33 +53,21 @@ def test_a_damaged_report_before_a_move_is_not_its_start(make_bench, damage):
     bench.alter_once(damage)
     bench.run(0.03)
     first_byte = len(bench.port.written)
-    rejected = driver.link_quality().rejected
-    driver.move_to({"x": 0.04})
-    bench.wait_for_rest()
-    assert rejected == 1
-    assert targets_are_in_range(bench, first_byte)
-    assert bench.stage.true_positions[0] == pytest.approx(40.0, abs=1e-3)
-    assert driver.status().fault is None
-
-
-@pytest.mark.parametrize("damage", DAMAGE_FUNCTIONS, ids=lambda damage: damage.__name__)
-def test_a_damaged_report_during_a_move_is_discarded_and_the_move_continues(make_bench, damage):
-    bench = make_bench()
-    driver = bench.open_and_home()
+    assert driver.link_quality().rejected == 1
     driver.move_to({"x": 0.03, "y": 0.02})
     for _ in range(5):
+        bench.run(0.1)
         bench.alter_once(damage)
-        bench.run(0.2)
+        bench.run(0.1)
     samples = bench.wait_for_rest()
-    assert driver.link_quality().rejected == 5
+    assert driver.link_quality().rejected == 6
+    assert targets_are_in_range(bench, first_byte)
     assert samples.measured[:, 0].max() <= 0.030001
     assert bench.stage.true_positions[:2] == pytest.approx([30.0, 20.0], abs=1e-3)
     assert driver.status().fault is None
 
 
-def test_no_move_starts_before_a_plausible_report(make_bench):
-    bench = make_bench()
-    driver = bench.open_and_home()
+def test_no_move_starts_before_a_plausible_report(bench, driver):
     bench.port.alter = lose_point
     bench.run(0.02)
     first_byte = len(bench.port.written)
@@ -91,9 +79,7 @@ def test_no_move_starts_before_a_plausible_report(make_bench):
     assert bench.stage.true_positions[0] == pytest.approx(40.0, abs=1e-3)
 
 
-def test_three_reports_of_another_position_make_the_position_unknown(make_bench):
-    bench = make_bench()
-    driver = bench.open_and_home()
+def test_three_reports_of_another_position_make_the_position_unknown(bench, driver):
     # Another program has set the count of the controller.
     bench.stage._blocks.set_position(0, -20.0)
     bench.run(0.2)
@@ -106,14 +92,10 @@ def test_three_reports_of_another_position_make_the_position_unknown(make_bench)
     bench.wait_for_rest()
     with pytest.raises(StateError, match="home first"):
         driver.move_to({"x": 0.01})
-    driver.home(driver.homing_axes)
-    bench.wait_for_rest()
-    assert driver.status().position_known
+    bench.home()
 
 
-def test_a_late_answer_to_an_abandoned_query_is_discarded(make_bench):
-    bench = make_bench()
-    driver = bench.open_and_home()
+def test_a_late_answer_to_an_abandoned_query_is_discarded(bench, driver):
     driver.move_to({"x": 0.04})
     bench.run(0.5)
     held_replies = []
@@ -132,27 +114,9 @@ def test_a_late_answer_to_an_abandoned_query_is_discarded(make_bench):
     assert bench.stage.true_positions[0] == pytest.approx(40.0, abs=1e-3)
 
 
-def test_after_a_pause_of_the_program_no_move_continues(make_bench):
-    bench = make_bench()
-    driver = bench.open_and_home()
-    driver.move_to({"x": 0.045})
+def test_a_pause_at_rest_changes_nothing(bench, driver):
     bench.run(0.5)
-    bench.clock.advance(20.0)
-    bench.run(0.1)
-    held_position = bench.stage.true_positions[0]
-    bench.wait_for_rest()
-    assert bench.stage.true_positions[0] == held_position < 20.0
-    assert driver.status().position_known
-    driver.move_to({"x": 0.02})
-    bench.wait_for_rest()
-    assert bench.stage.true_positions[0] == pytest.approx(20.0, abs=1e-3)
-
-
-def test_a_pause_at_rest_changes_nothing(make_bench):
-    bench = make_bench()
-    driver = bench.open_and_home()
-    bench.run(0.5)
-    bench.clock.advance(3600.0)
+    bench.clock.advance(60.0)
     bench.run(0.2)
     assert driver.status().position_known
     assert driver.status().fault is None
@@ -180,9 +144,7 @@ def test_the_first_move_ends_after_a_millimetre_if_the_reading_is_reversed(make_
     assert bench.stage.true_positions[0] <= 2.0 + 1e-3  # homed at 1 mm
 
 
-def test_an_axis_that_does_not_follow_its_first_move_is_a_fault(make_bench):
-    bench = make_bench()
-    driver = bench.open_and_home()
+def test_an_axis_that_does_not_follow_its_first_move_is_a_fault(bench, driver):
     bench.port.alter = lambda data: re.sub(rb"MPos:-[\d.]+", b"MPos:-49.000", data)
     driver.move_to({"x": 0.04})
     bench.run(3.0)
@@ -211,7 +173,7 @@ def test_a_stop_also_drops_a_line_that_waits_in_the_controller(make_bench):
     assert bench.stage.true_positions[0] < 1.1  # homed at 1 mm
 
 
-@pytest.mark.parametrize("delay_s", [0.025, 0.12, 0.3])
+@pytest.mark.parametrize("delay_s", [0.025, 0.3])
 def test_a_slow_line_works_and_its_samples_have_correct_times(make_bench, delay_s):
     bench = make_bench(line={"delay_s": delay_s})
     driver = bench.open_and_home()
@@ -246,9 +208,9 @@ def test_a_line_that_is_too_slow_is_refused_with_its_round_trip_time(make_bench)
         bench.driver.open()
 
 
-@pytest.mark.parametrize(
-    "line",
-    [
+def test_a_line_that_could_leave_a_range_is_never_sent(bench, driver):
+    first_byte = len(bench.port.written)
+    for line in (
         "$J=G53 G21 G90 X-50.1 F100",
         "$J=G53 G21 G90 X0.1 F100",
         "$J=G53 G21 X-10 F100",
@@ -259,14 +221,9 @@ def test_a_line_that_is_too_slow_is_refused_with_its_round_trip_time(make_bench)
         "G0 X-10",
         "$120=10",
         "$RST=*",
-    ],
-)
-def test_a_line_that_could_leave_a_range_is_never_sent(make_bench, line):
-    bench = make_bench()
-    driver = bench.open_and_home()
-    first_byte = len(bench.port.written)
-    with pytest.raises(LimitError, match="was not sent"):
-        driver._controller.dialogue.send_line(line)
+    ):
+        with pytest.raises(LimitError, match="was not sent"):
+            driver._controller.dialogue.send_line(line)
     assert bench.lines_sent(first_byte) == []
 
 

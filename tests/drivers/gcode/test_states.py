@@ -20,43 +20,40 @@ class OtherStateStage(EmulatedStage):
         self._state = state
 
 
-@pytest.mark.parametrize(
-    ("word", "moving", "may_move", "lost"),
-    [
-        ("Idle", False, True, False),
-        ("Run", True, True, False),
-        ("Run:2", True, True, False),
-        ("Jog", True, True, False),
-        ("Home", True, True, False),
-        ("Hold:0", False, False, False),
-        ("Hold:1", True, False, False),
-        ("Hold", True, False, False),
-        ("Door:0", False, False, False),
-        ("Door:1", False, False, False),
-        ("Door:2", True, False, False),
-        ("Door:3", True, False, False),
-        ("Door:4", True, False, False),
-        ("Door", True, False, False),
-        ("Alarm", False, False, True),
-        ("Alarm:9", False, False, True),
-        ("Check", False, False, False),
-        ("Sleep", False, False, True),
-        ("Tool", False, False, False),
-        ("Starting", False, False, True),
-        ("Parking", True, False, False),
-        ("", True, False, False),
-    ],
-)
-def test_each_word_says_whether_axes_move_and_whether_they_may_move(word, moving, may_move, lost):
-    status = parse_report(f"<{word}|MPos:0.000,0.000,0.000|FS:0,0>")
-    assert isinstance(status, StatusReport)
-    state = interpret_state(status)
-    assert (state.is_moving, state.fault is None, state.position_lost) == (moving, may_move, lost)
+# For each state word: whether axes move, whether they may move, and whether the position is lost.
+STATES = {
+    "Idle": (False, True, False),
+    "Run": (True, True, False),
+    "Run:2": (True, True, False),
+    "Jog": (True, True, False),
+    "Home": (True, True, False),
+    "Hold:0": (False, False, False),
+    "Hold:1": (True, False, False),
+    "Hold": (True, False, False),
+    "Door:0": (False, False, False),
+    "Door:1": (False, False, False),
+    "Door:2": (True, False, False),
+    "Door": (True, False, False),
+    "Alarm": (False, False, True),
+    "Alarm:9": (False, False, True),
+    "Check": (False, False, False),
+    "Sleep": (False, False, True),
+    "Tool": (False, False, False),
+    "Starting": (False, False, True),
+    "Parking": (True, False, False),
+    "": (True, False, False),
+}
 
 
-def test_a_door_that_opens_during_a_move_is_a_fault_and_keeps_the_position(make_bench):
-    bench = make_bench()
-    driver = bench.open_and_home()
+def test_each_word_says_whether_axes_move_and_whether_they_may_move():
+    for word, expected in STATES.items():
+        status = parse_report(f"<{word}|MPos:0.000,0.000,0.000|FS:0,0>")
+        assert isinstance(status, StatusReport)
+        state = interpret_state(status)
+        assert (state.is_moving, state.fault is None, state.position_lost) == expected, word
+
+
+def test_a_door_that_opens_during_a_move_is_a_fault_and_keeps_the_position(bench, driver):
     driver.move_to({"x": 0.04})
     bench.run(1.0)
     bench.stage.open_door()
@@ -85,9 +82,7 @@ def test_a_door_that_opens_during_a_move_is_a_fault_and_keeps_the_position(make_
     assert bench.stage.true_positions[0] == pytest.approx(20.0, abs=1e-3)
 
 
-def test_a_stop_while_the_door_is_open_does_not_reset_before_the_axes_rest(make_bench):
-    bench = make_bench()
-    driver = bench.open_and_home()
+def test_a_stop_while_the_door_is_open_does_not_reset_before_the_axes_rest(bench, driver):
     driver.move_to({"x": 0.04})
     bench.run(1.0)
     bench.stage.open_door()
@@ -97,31 +92,26 @@ def test_a_stop_while_the_door_is_open_does_not_reset_before_the_axes_rest(make_
     assert driver.status().position_known
 
 
-def test_a_sleeping_controller_has_lost_its_position(make_bench):
-    bench = make_bench()
-    driver = bench.open_and_home()
-    bench.stage.receive(b"$SLP\n", bench.clock() - bench.began_s)
+def test_a_sleeping_controller_has_lost_its_position(bench, driver):
+    bench.send_to_stage(b"$SLP\n")
     bench.run(0.3)
     status = driver.status()
     assert "sleeps" in status.fault
     assert status.unhomed == ("x", "y", "z")
     driver.clear_fault()
     bench.wait_for_rest()
-    driver.home(driver.homing_axes)
-    bench.wait_for_rest()
-    assert driver.status().position_known
+    bench.home()
 
 
-@pytest.mark.parametrize("word", ["Tool", "Check", "Parking"])
-def test_a_state_without_motion_is_reported_and_stops_a_move(make_bench, word):
+@pytest.mark.parametrize(("word", "fault"), [("Tool", "tool change"), ("Parking", "'Parking'")])
+def test_a_state_without_motion_is_reported_and_stops_a_move(make_bench, word, fault):
     bench = make_bench(stage=OtherStateStage)
     driver = bench.open_and_home()
     driver.move_to({"x": 0.045})
     bench.run(0.5)
     bench.stage.word = word
     bench.run(2.0)
-    fault = driver.status().fault
-    assert {"Tool": "tool change", "Check": "only checks", "Parking": "'Parking'"}[word] in fault
+    assert fault in driver.status().fault
     assert bench.stage.true_positions[0] < 20.0
     # The count does not change, so the controller may be reset.
     driver.clear_fault()
@@ -140,10 +130,8 @@ def test_an_unannounced_alarm_is_a_fault_that_requires_homing(make_bench):
     assert not status.position_known
 
 
-def test_a_pause_by_a_button_on_the_controller_is_a_fault(make_bench):
-    bench = make_bench()
-    driver = bench.open_and_home()
-    bench.stage.receive(b"!", bench.clock() - bench.began_s)
+def test_a_pause_by_a_button_on_the_controller_is_a_fault(bench, driver):
+    bench.send_to_stage(b"!")
     bench.run(0.2)
     assert "was paused (feed hold)" in driver.status().fault
     driver.clear_fault()
@@ -152,7 +140,7 @@ def test_a_pause_by_a_button_on_the_controller_is_a_fault(make_bench):
 
 
 @pytest.mark.parametrize("with_stop", [False, True])
-def test_closing_leaves_the_controller_idle_with_its_settings_unchanged(make_bench, with_stop):
+def test_closing_during_a_move_stops_it_and_leaves_an_idle_controller(make_bench, with_stop):
     bench = make_bench()
     settings_before = dict(bench.stage.settings)
     driver = bench.open_and_home()
@@ -161,14 +149,14 @@ def test_closing_leaves_the_controller_idle_with_its_settings_unchanged(make_ben
     if with_stop:
         driver.stop()
     driver.close()
+    position_mm = bench.stage.true_positions[0]
     assert bench.stage.state == "Idle"
     assert bench.stage.settings == settings_before
-    bench.stage.advance(bench.clock() - bench.began_s)
-    bench.stage.receive(b"$G\n", bench.clock() - bench.began_s)
-    bench.clock.advance(0.1)
-    reply = bench.stage.advance(bench.clock() - bench.began_s)
+    bench.advance_stage(2.0)
+    assert bench.stage.true_positions[0] == position_mm < 10.0
     # The next program gets an answer.
-    assert reply
+    bench.send_to_stage(b"$G\n")
+    assert bench.advance_stage(0.1)
 
 
 def test_closing_resets_a_homing_controller(make_bench):
@@ -178,14 +166,11 @@ def test_closing_resets_a_homing_controller(make_bench):
     bench.run(0.5)
     bench.driver.close()
     positions = list(bench.stage.true_positions)
-    bench.clock.advance(2.0)
-    bench.stage.advance(bench.clock() - bench.began_s)
+    bench.advance_stage(2.0)
     assert bench.stage.true_positions == positions
 
 
-def test_a_controller_locked_by_an_alarm_can_be_closed(make_bench):
-    bench = make_bench()
-    driver = bench.open_and_home()
+def test_a_controller_locked_by_an_alarm_can_be_closed(bench, driver):
     bench.stage.hit_limit()
     bench.run(0.2)
     began_s = bench.clock()
@@ -193,32 +178,39 @@ def test_a_controller_locked_by_an_alarm_can_be_closed(make_bench):
     assert bench.clock() == began_s
 
 
-@pytest.mark.parametrize(
-    ("describe", "numbers"),
-    [
-        (describe_error, {ControllerFirmware.GRBL: [*range(1, 18), *range(20, 39)]}),
+def test_every_documented_number_is_explained():
+    grbl, hal, fluid = (
+        ControllerFirmware.GRBL,
+        ControllerFirmware.GRBL_HAL,
+        ControllerFirmware.FLUID_NC,
+    )
+    for describe, firmware, numbers in (
+        (describe_error, grbl, [*range(1, 18), *range(20, 39)]),
+        (describe_error, hal, [*range(1, 59), *range(60, 67), *range(70, 93), 253]),
         (
             describe_error,
-            {ControllerFirmware.GRBL_HAL: [*range(1, 59), *range(60, 67), *range(70, 93), 253]},
+            fluid,
+            [
+                *range(1, 41),
+                *range(60, 71),
+                *range(80, 84),
+                90,
+                100,
+                101,
+                *range(110, 115),
+                120,
+                130,
+                *range(150, 153),
+                *range(160, 163),
+                *range(170, 182),
+            ],
         ),
-        (
-            describe_error,
-            {
-                ControllerFirmware.FLUID_NC: [
-                    *range(1, 41), *range(60, 71), *range(80, 84), 90, 100, 101, *range(110, 115),
-                    120, 130, *range(150, 153), *range(160, 163), *range(170, 182),
-                ]
-            },
-        ),
-        (describe_alarm, {ControllerFirmware.GRBL: range(1, 11)}),
-        (describe_alarm, {ControllerFirmware.GRBL_HAL: range(1, 23)}),
-        (describe_alarm, {ControllerFirmware.FLUID_NC: range(1, 19)}),
-    ],
-)  # fmt: skip
-def test_every_documented_number_is_explained(describe, numbers):
-    for firmware, known_numbers in numbers.items():
-        for number in known_numbers:
-            assert "does not document" not in describe(number, firmware), number
+        (describe_alarm, grbl, range(1, 11)),
+        (describe_alarm, hal, range(1, 23)),
+        (describe_alarm, fluid, range(1, 19)),
+    ):
+        for number in numbers:
+            assert "does not document" not in describe(number, firmware), (firmware, number)
         assert "does not document" in describe(999, firmware)
 
 
