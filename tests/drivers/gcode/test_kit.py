@@ -24,8 +24,8 @@ def test_the_stage_fulfils_the_contract(make_bench, make_blockable_lines, run_co
     skipped = run_conformance_suite(
         lambda: make_conformance_bench(make_bench(), make_blockable_lines)
     )
-    # The function that advances the clock reads it too, so the suite cannot detect when a stop
-    # acts. Such a controller moves and homes its axes, and has no further ability.
+    # The driver can act only when it is read. Such a controller moves and homes its axes, and has
+    # no further ability.
     assert skipped == {"stop-when-called"} | {
         check.name for check in CHECKS if check.needs not in (None, AxisHomer)
     }
