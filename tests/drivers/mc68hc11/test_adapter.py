@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from rotemina.drivers.contract import DeviceState
-from rotemina.sim.records import Record, Tap
 
 FRAME_S = 1e-3
 # The boards of both ports advance with each read, so the rounds are short.
@@ -57,20 +56,14 @@ def bench(request, robot, make_bench):
     bench.driver.close()
 
 
-def make_wave(rows):
-    time_s = np.arange(rows) * 0.005
-    command = 30e-6 + 1e-6 * np.sin(2 * np.pi * time_s)
-    return Record.from_signals(time_s, {("zn", Tap.CMD): command}, {"zn": "m"})
-
-
 def test_a_playback_keeps_its_rate_and_a_stop_takes_one_usb_frame_longer(bench):
-    bench.driver.play(make_wave(100))
+    bench.driver.play(bench.make_wave(100))
     samples = bench.run_until(DeviceState.IDLE, DeviceState.MOVING, DeviceState.FAULT)
     assert bench.driver.status().fault is None
     rows = samples.playback_row[samples.playback_row >= 0]
     np.testing.assert_array_equal(rows, np.arange(100))
     assert bench.driver.link_quality().repeated == 0
-    bench.driver.play(make_wave(1000))
+    bench.driver.play(bench.make_wave(1000))
     bench.run(0.1)
     bench.run(0.0237, round_s=ROUND_S)
     request_s, announced_s = bench.clock() - bench.begin_s, bench.driver.link_quality().stop_s

@@ -10,20 +10,11 @@ from rotemina.drivers.contract import (
     LimitError,
     StateError,
 )
-from rotemina.drivers.mc68hc11 import segment_player
 from rotemina.drivers.mc68hc11.protocol import PARAMETERS_PER_AXIS, BoardFault
 from rotemina.sim.records import Record, Tap
+from rotemina.sim.robot_files import load_robot
 
 IDLE, MOVING, PLAYING = DeviceState.IDLE, DeviceState.MOVING, DeviceState.PLAYING
-
-
-@pytest.fixture
-def bench(robot, make_bench):
-    bench = make_bench(robot)
-    bench.driver.open()
-    bench.run(0.05)
-    yield bench
-    bench.driver.close()
 
 
 def make_there_and_back(axis, start, distance, period_s, rows=81, unit="m"):
@@ -32,20 +23,9 @@ def make_there_and_back(axis, start, distance, period_s, rows=81, unit="m"):
     return Record.from_signals(time_s, {(axis, Tap.CMD): command}, {axis: unit})
 
 
-def test_an_opened_driver_is_idle_and_delivers_regular_samples(bench):
-    samples = bench.run(0.5)
-    assert bench.driver.status().state is IDLE
-    assert bench.driver.setpoint_period_s == 0.005
-    np.testing.assert_allclose(np.diff(samples.device_time_s), 0.005, atol=1e-9)
-    assert (samples.command == samples.command[0]).all()
-    assert np.isnan(samples.inputs).all()
-    assert bench.driver.link_quality().rejected == 0
-
-
-@pytest.mark.parametrize(("ports", "baud"), [(2, 125_000), (1, 125_000), (2, 9600), (1, 9600)])
-def test_a_move_reaches_its_target_on_every_line(robot, ports, baud, make_bench):
-    bench = make_bench(robot, ports=ports, baud=baud)
-    bench.driver.open()
+@pytest.mark.parametrize(("ports", "baud"), [(2, 125_000), (1, 9600)])
+def test_a_move_reaches_its_target_on_every_line(ports, baud, open_bench):
+    bench = open_bench(ports=ports, baud=baud)
     bench.driver.move_to({"x": 0.0280000001, "zn": 10e-6})
     assert bench.driver.status().state is MOVING
     samples = bench.run_until(IDLE)
@@ -61,25 +41,6 @@ def test_a_target_at_the_end_of_a_range_is_a_whole_step_inside_it(bench):
     assert bench.run_until(IDLE).command[-1, 3] == pytest.approx(58177 * 2e-8, abs=1e-15)
 
 
-def test_a_move_keeps_to_its_speed(bench):
-    initial_command = bench.driver.read().command
-    bench.driver.move_to({"x": 0.0285}, {"x": 0.002})
-    samples = bench.run_until(IDLE)
-    assert len(initial_command) == 0
-    speed = np.abs(np.diff(samples.command[:, 0])) / np.diff(samples.device_time_s)
-    assert speed.max() <= 0.002 * (1 + 1e-6)
-
-
-def test_velocity_ends_with_its_lease_and_without_a_fault(bench):
-    for _ in range(5):
-        bench.driver.move_velocity({"x": 0.005, "zn": 1e-5}, 0.15)
-        bench.run(0.05)
-    assert bench.driver.status().state is MOVING
-    samples = bench.run_until(IDLE)
-    assert samples.device_time_s[-1] - samples.device_time_s[0] < 0.25
-    assert bench.driver.status().fault is None
-
-
 def test_a_new_velocity_replaces_one_that_is_not_sent_yet(bench):
     for speed in (0.001, 0.002, 0.003, 0.004, 0.0):
         bench.driver.move_velocity({"x": speed}, 0.15)
@@ -91,7 +52,7 @@ def test_a_new_velocity_replaces_one_that_is_not_sent_yet(bench):
 
 @pytest.mark.parametrize(
     ("axis", "start", "distance", "unit"),
-    [("x", 0.0275, 4e-4, "m"), ("zn", 20e-6, 20e-6, "m"), ("thx", 2e-4, 3e-4, "rad")],
+    [("x", 0.0275, 4e-4, "m"), ("thx", 2e-4, 3e-4, "rad")],
 )
 def test_a_playback_records_exactly_the_requested_commands(bench, axis, start, distance, unit):
     trajectory = make_there_and_back(axis, start, distance, 0.005, unit=unit)
@@ -115,9 +76,8 @@ def test_a_playback_records_exactly_the_requested_commands(bench, axis, start, d
 @pytest.mark.parametrize(
     ("baud", "period_s", "round_s"), [(125_000, 0.02, 0.001), (9_600, 0.2, 0.01)]
 )
-def test_a_record_is_played_on_a_shared_bus(robot, make_bench, baud, period_s, round_s):
-    bench = make_bench(robot, ports=1, baud=baud)
-    bench.driver.open()
+def test_a_record_is_played_on_a_shared_bus(open_bench, baud, period_s, round_s):
+    bench = open_bench(ports=1, baud=baud)
     # Set-points share the bus with telemetry.
     assert bench.driver.setpoint_period_s == period_s
     time_s = np.arange(21) * period_s
@@ -134,10 +94,8 @@ def test_a_record_is_played_on_a_shared_bus(robot, make_bench, baud, period_s, r
     assert bench.driver.status().fault is None
 
 
-@pytest.mark.parametrize("paced", [True, False])
-def test_a_shared_bus_delivers_the_announced_rates(robot, make_bench, paced):
-    bench = make_bench(robot, ports=1, paced=paced)
-    bench.driver.open()
+def test_a_shared_bus_delivers_the_announced_rates(open_bench):
+    bench = open_bench(ports=1)
     assert np.median(np.diff(bench.run(0.3).device_time_s)) == pytest.approx(0.01, abs=1e-6)
     bench.driver.capture(["zn"], bench.driver.capture_rates.single_axis_hz, 100)
     portions = []
@@ -171,18 +129,6 @@ def test_rows_too_close_in_time_are_refused_before_any_motion(bench):
     )
     with pytest.raises(LimitError, match=message):
         bench.driver.play(record)
-    check_nothing_moves(bench)
-
-
-def test_set_points_too_far_apart_are_refused_before_any_motion(bench, monkeypatch):
-    monkeypatch.setattr(segment_player, "MAX_SETPOINT_DISTANCE_STEPS", 100)
-    with pytest.raises(LimitError, match=r"axis x: .* more than the limit 10 µm in 5 ms"):
-        bench.driver.play(make_there_and_back("x", 0.0277, 4e-4, 0.005))
-    monkeypatch.undo()
-    check_nothing_moves(bench)
-
-
-def check_nothing_moves(bench):
     assert bench.driver.status().state is IDLE
     samples = bench.run(0.1)
     assert (samples.command == samples.command[0]).all()
@@ -191,7 +137,7 @@ def check_nothing_moves(bench):
     assert bench.driver.status().state is PLAYING
 
 
-@pytest.mark.parametrize("after_s", [0.004, 0.06, 0.13, 0.3])
+@pytest.mark.parametrize("after_s", [0.004, 0.06, 0.3])
 def test_stop_ends_a_trajectory_in_any_phase(bench, after_s):
     bench.driver.play(make_there_and_back("x", 0.0277, 4e-4, 0.005))
     bench.run(after_s)
@@ -208,27 +154,14 @@ def test_stop_ends_a_trajectory_in_any_phase(bench, after_s):
     assert bench.run_until(IDLE, MOVING).playback_row.max() == 80
 
 
-def test_a_move_can_start_directly_after_two_stops(bench):
-    bench.driver.move_to({"x": 0.05})
-    bench.run(0.2)
-    bench.driver.stop()
-    bench.driver.stop()
-    bench.driver.move_to({"x": 0.0275})
-    assert bench.driver.status().state is MOVING
-    samples = bench.run_until(IDLE)
-    assert samples.command[-1, 0] == pytest.approx(0.0275, abs=1e-15)
-    assert samples.command[:, 0].max() < 0.031
-
-
 @pytest.mark.parametrize("ports", [1, 2])
-def test_a_stop_takes_less_than_5_ms_with_the_line_saturated(robot, ports, make_bench):
-    bench = make_bench(robot, ports=ports, settings={"settle_s": 0.0})
-    bench.driver.open()
+def test_a_stop_takes_less_than_5_ms_with_the_line_saturated(ports, open_bench):
+    bench = open_bench(ports=ports, settings={"settle_s": 0.0})
     period_s = bench.driver.setpoint_period_s
     trajectory = bench.driver.accept(make_there_and_back("x", 0.0275, 4e-4, period_s, rows=4000))
     generator = np.random.default_rng(3)
     latencies = []
-    for _ in range(6):
+    for _ in range(4):
         bench.driver.play(trajectory)
         bench.run(0.08 + 10 * period_s + 0.001 * int(generator.integers(20)))
         bench.clock.advance(float(generator.uniform(0, 1e-3)))
@@ -261,9 +194,8 @@ def test_a_stop_that_the_program_did_not_send_is_a_fault(bench):
     bench.run_until(IDLE)
 
 
-def test_homing_makes_the_position_known(robot, make_bench):
-    bench = make_bench(robot, position_known=False, start_fraction=0.05)
-    bench.driver.open()
+def test_homing_makes_the_position_known(open_bench):
+    bench = open_bench(position_known=False, start_fraction=0.05)
     status = bench.driver.status()
     assert (status.state, status.position_known) == (IDLE, False)
     assert status.unhomed == ("x", "y", "z")
@@ -274,20 +206,6 @@ def test_homing_makes_the_position_known(robot, make_bench):
     samples = bench.run_until(IDLE, round_s=0.002)
     assert bench.driver.status().position_known
     assert samples.command[-1, :3].tolist() == [0.0, 0.0, 0.0]
-
-
-def test_a_stopped_homing_leaves_the_position_unknown(bench):
-    bench.driver.home(["x"])
-    bench.run(0.2)
-    bench.driver.stop()
-    bench.run_until(IDLE)
-    status = bench.driver.status()
-    assert (status.position_known, status.unhomed) == (False, ("x",))
-    with pytest.raises(StateError, match="home first"):
-        bench.driver.move_to({"y": 0.03})
-    bench.driver.home(["x"])
-    bench.run_until(IDLE, round_s=0.002)
-    assert bench.driver.status().position_known
 
 
 def test_a_capture_is_complete_and_uses_the_clock_of_the_samples(bench):
@@ -397,28 +315,22 @@ def test_a_reopened_driver_is_idle(bench):
     bench.run_until(IDLE)
 
 
-def test_a_second_port_of_one_board_is_refused(robot, make_bench):
-    from rotemina.sim.robot_files import load_robot
-
+def test_a_second_port_of_one_board_is_refused(make_bench):
     bench = make_bench(load_robot("picma"), ports=1, settings={"second_port": "second"})
     with pytest.raises(DriverError, match="second_port"):
         bench.driver.open()
 
 
 @pytest.mark.parametrize(("ports", "period_s"), [(2, 0.01), (1, 0.02)])
-def test_a_chip_of_half_the_clock_plays_every_row_at_half_the_rate(
-    robot, make_bench, ports, period_s
-):
-    bench = make_bench(robot, ports=ports, tick_s=1e-3)
-    bench.driver.open()
+def test_a_chip_of_half_the_clock_plays_every_row_at_half_the_rate(open_bench, ports, period_s):
+    bench = open_bench(ports=ports, tick_s=1e-3)
     assert bench.driver.setpoint_period_s == period_s
     assert bench.driver.capture_rates.max_rate_for(1) == 1000.0
-    time_s = np.arange(61) * period_s
-    command = 30e-6 + 2e-6 * np.sin(2 * np.pi * time_s)
-    path = Record.from_signals(time_s, {("zn", Tap.CMD): command}, {"zn": "m"})
+    path = make_there_and_back("zn", 30e-6, 2e-6, period_s, rows=31)
     bench.driver.play(path)
     samples = bench.run_until(IDLE)
     assert bench.driver.status().fault is None
     is_playback_row = samples.playback_row >= 0
-    np.testing.assert_array_equal(samples.playback_row[is_playback_row], np.arange(61))
+    np.testing.assert_array_equal(samples.playback_row[is_playback_row], np.arange(31))
+    command = path.signal("zn", Tap.CMD)
     np.testing.assert_allclose(samples.command[is_playback_row, 5], command, atol=5.1e-10)

@@ -12,41 +12,21 @@ from rotemina.drivers.contract import (
 )
 from rotemina.drivers.mc68hc11.protocol import BoardFault
 from rotemina.drivers.virtual_board.clock import CrystalClock
-from rotemina.sim.records import Record, Tap
+from rotemina.sim.records import Tap
 
 IDLE, MOVING, FAULT = DeviceState.IDLE, DeviceState.MOVING, DeviceState.FAULT
-
-
-@pytest.fixture
-def bench(robot, make_bench):
-    bench = make_bench(robot)
-    bench.driver.open()
-    bench.run(0.05)
-    yield bench
-    bench.driver.close()
-
-
-def set_cut(bench, *, is_cut):
-    for port in bench.ports:
-        port.is_cut = is_cut
-
-
-def make_small_wave(axis, centre, rows=2000):
-    time_s = np.arange(rows) * 0.005
-    wave = 1e-6 * np.sin(2 * np.pi * time_s)
-    return Record.from_signals(time_s, {(axis, Tap.CMD): centre + wave}, {axis: "m"})
 
 
 def test_a_short_loss_is_tolerated_but_blocks_new_moves(bench):
     bench.driver.move_to({"x": 0.0285})
     samples = bench.run(0.05)
-    set_cut(bench, is_cut=True)
+    bench.set_cut(True)
     assert len(bench.run(0.2)) <= 2
     status = bench.driver.status()
     assert 0.1 < status.silent_s < 0.25
     with pytest.raises(StateError, match="has been silent"):
         bench.driver.move_to({"y": 0.03})
-    set_cut(bench, is_cut=False)
+    bench.set_cut(False)
     later_samples = bench.run_until(IDLE)
     assert bench.driver.status().silent_s == 0.0
     assert later_samples.command[-1, 0] == pytest.approx(0.0285, abs=1e-15)
@@ -54,15 +34,15 @@ def test_a_short_loss_is_tolerated_but_blocks_new_moves(bench):
 
 
 def test_after_a_long_loss_nothing_resumes(bench):
-    bench.driver.play(make_small_wave("zn", 30e-6))
+    bench.driver.play(bench.make_wave(2000))
     bench.run(0.5)
-    set_cut(bench, is_cut=True)
+    bench.set_cut(True)
     with pytest.raises(ConnectionLostError, match="has not answered"):
         bench.run(1.0)
     status = bench.driver.status()
     assert (status.state, status.position_known) == (FAULT, False)
     write_count = len(bench.ports[1].written)
-    set_cut(bench, is_cut=False)
+    bench.set_cut(False)
     for _ in range(100):
         bench.clock.advance(0.005)
         with pytest.raises(ConnectionLostError):
@@ -74,11 +54,11 @@ def test_after_a_long_loss_nothing_resumes(bench):
 
 
 def test_a_late_set_point_is_a_fault_that_stops_both_boards(bench):
-    bench.driver.play(make_small_wave("zn", 30e-6))
+    bench.driver.play(bench.make_wave(2000))
     bench.run(0.8)
-    set_cut(bench, is_cut=True)
+    bench.set_cut(True)
     bench.run(0.4)
-    set_cut(bench, is_cut=False)
+    bench.set_cut(False)
     bench.run_until(FAULT)
     assert "set-point came too late" in bench.driver.status().fault
     bench.run(0.2)
@@ -90,7 +70,7 @@ def test_a_late_set_point_is_a_fault_that_stops_both_boards(bench):
 
 
 def test_a_playback_survives_a_program_that_is_busy_for_300_ms(bench):
-    bench.driver.play(make_small_wave("zn", 30e-6, rows=200))
+    bench.driver.play(bench.make_wave(200))
     # The axis is at the first row, and the first set-points are sent.
     bench.run(0.35)
     portions = []
@@ -161,13 +141,11 @@ def count_executions(bench):
     return counts
 
 
-@pytest.mark.parametrize("seed", range(2))
 @pytest.mark.parametrize("ports", [1, 2])
-def test_noise_repeats_no_command_and_moves_nothing_after_a_stop(robot, seed, ports, make_bench):
-    bench = make_bench(robot, ports=ports)
-    bench.driver.open()
+def test_noise_repeats_no_command_and_moves_nothing_after_a_stop(robot, ports, open_bench):
+    bench = open_bench(ports=ports)
     execution_counts = count_executions(bench)
-    generator = np.random.default_rng(seed)
+    generator = np.random.default_rng(ports)
     for port in bench.ports:
         port.to_board = make_noise(generator, 0.004)
         port.to_host = make_noise(generator, 0.004)
@@ -203,18 +181,15 @@ def request_move(bench, target):
     raise AssertionError(bench.driver.status())
 
 
-@pytest.mark.parametrize("seed", range(3))
-def test_a_playback_survives_lost_frames(robot, seed, make_bench):
-    bench = make_bench(robot)
-    bench.driver.open()
-    generator = np.random.default_rng(seed)
+def test_a_playback_survives_lost_frames(bench):
+    generator = np.random.default_rng(1)
 
     def drop_some_frames(data):
         # Whole frames are dropped, so that no two frame ends form a stop.
         return b"" if generator.random() < 0.02 else data
 
     bench.ports[1].to_board = drop_some_frames
-    bench.driver.play(make_small_wave("zn", 30e-6, rows=200))
+    bench.driver.play(bench.make_wave(200))
     samples = bench.run_until(IDLE, MOVING, FAULT)
     assert bench.driver.status().fault is None
     rows = samples.playback_row[samples.playback_row >= 0]
@@ -225,21 +200,20 @@ def test_a_playback_survives_lost_frames(robot, seed, make_bench):
 def test_lost_telemetry_leaves_gaps_and_no_wrong_samples(bench):
     generator = np.random.default_rng(5)
     bench.ports[0].to_host = lambda data: b"" if generator.random() < 0.03 else data
-    bench.driver.play(make_small_wave("zn", 30e-6, rows=300))
+    bench.driver.play(bench.make_wave(300))
     samples = bench.run_until(IDLE, MOVING, FAULT)
     is_playback_row = samples.playback_row >= 0
     rows = samples.playback_row[is_playback_row]
     assert 150 < len(rows) < 300
-    expected_commands = make_small_wave("zn", 30e-6, rows=300).signal("zn", Tap.CMD)[rows]
+    expected_commands = bench.make_wave(300).signal("zn", Tap.CMD)[rows]
     np.testing.assert_allclose(samples.command[is_playback_row, 5], expected_commands, atol=5.1e-10)
     assert (np.diff(rows) > 0).all()
     elapsed_s = samples.device_time_s[is_playback_row] - samples.device_time_s[is_playback_row][0]
     np.testing.assert_allclose(elapsed_s, (rows - rows[0]) * 0.005, atol=2e-6)
 
 
-def test_boards_with_different_crystals_stay_synchronous(robot, make_bench):
-    bench = make_bench(robot, crystal_ppm=(200.0, -200.0))
-    bench.driver.open()
+def test_boards_with_different_crystals_stay_synchronous(open_bench):
+    bench = open_bench(crystal_ppm=(200.0, -200.0))
     bench.run(18.0, round_s=0.02)
     first, second = bench.driver._open_session.boards
     number = first.find_sample_number(bench.clock())
@@ -251,10 +225,7 @@ def test_boards_with_different_crystals_stay_synchronous(robot, make_bench):
     assert len(bench.run(0.5)) > 90
 
 
-def test_a_lost_port_stops_the_other_board_and_closes_both_ports(robot, make_bench):
-    bench = make_bench(robot)
-    bench.driver.open()
-    bench.run(0.05)
+def test_a_lost_port_stops_the_other_board_and_closes_both_ports(bench):
     first, second = bench.ports
 
     def raise_connection_lost(_data):

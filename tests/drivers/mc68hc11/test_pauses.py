@@ -5,7 +5,6 @@ import pytest
 
 from rotemina.drivers.contract import DeviceState, StateError
 from rotemina.drivers.mc68hc11.connection import MAX_PAUSE_S
-from rotemina.sim.records import Record, Tap
 
 IDLE, FAULT = DeviceState.IDLE, DeviceState.FAULT
 
@@ -29,9 +28,7 @@ on_both_kinds_of_lines = pytest.mark.parametrize("ports", [2, 1], ids=["two line
 
 
 def play(bench):
-    time_s = np.arange(2000) * 0.005
-    signals = {("zn", Tap.CMD): 30e-6 + 1e-6 * np.sin(2 * np.pi * time_s)}
-    bench.driver.play(Record.from_signals(time_s, signals, {"zn": "m"}))
+    bench.driver.play(bench.make_wave(2000))
 
 
 def move(bench):

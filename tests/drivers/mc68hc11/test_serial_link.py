@@ -1,7 +1,5 @@
 """The parts of the serial link: requests, set-points, the board's clock, its sampling grid."""
 
-from itertools import count
-
 import numpy as np
 import pytest
 
@@ -24,7 +22,6 @@ from rotemina.drivers.mc68hc11.protocol import (
     StreamSegment,
     Telemetry,
     encode_frame,
-    unpack_message,
 )
 from rotemina.drivers.mc68hc11.sampling_grid import SamplingGrid
 from rotemina.drivers.mc68hc11.segment_window import SegmentWindow
@@ -81,29 +78,6 @@ def test_queues_are_bounded():
         dialogue.ask(BoardRequest(message=SetWatchdog(1)))
 
 
-class BoardQueue:
-    """A queue that accepts segments only in order, without an answer, like a board."""
-
-    def __init__(self):
-        self.segments = []
-
-    def receive(self, data):
-        for frame in FrameDecoder().feed(data):
-            segment = unpack_message(frame.type, frame.payload)
-            assert isinstance(segment, StreamSegment)
-            expected = len(self.segments)
-            if segment.index == expected % 256:
-                self.segments.append(segment)
-                return None
-            if 0 < (expected - segment.index) % 256 <= 16:
-                return None
-            return FrameRefused(frame.number, RefusalReason.OUT_OF_ORDER)
-        raise AssertionError(data)
-
-    def make_telemetry(self):
-        return Telemetry.from_samples(0, 0, 0, 0, len(self.segments) % 256, ())
-
-
 def make_window(count):
     return SegmentWindow(
         1,
@@ -112,32 +86,6 @@ def make_window(count):
         lambda: 0.04,
         Gate().permit(),
     )
-
-
-@pytest.mark.parametrize("seed", range(5))
-def test_each_segment_arrives_once_and_in_order_despite_losses(seed):
-    generator = np.random.default_rng(seed)
-    window = make_window(600)
-    board, now_s, number, answers = BoardQueue(), 0.0, 0, []
-    for step in count():
-        assert now_s < 60.0
-        now_s += 0.002
-        window.release(int(now_s / 0.004))
-        if step % 5 == 0:
-            answers.append(board.make_telemetry())
-        if answers and generator.random() < 0.7:
-            answer = answers.pop(0)
-            if generator.random() > 0.05:
-                window.receive(answer, now_s)
-        if window.acknowledged_count == 600:
-            break
-        if window.has_segment_to_send(now_s):
-            number = (number + 1) % 256
-            data = window.take_frame(now_s, number, 0.002).data
-            if generator.random() > 0.05 and (reply := board.receive(data)) is not None:
-                answers.append(reply)
-    assert [segment.unpack_differences()[0][0] for segment in board.segments] == list(range(600))
-    assert window.repeat_count < 600
 
 
 def test_only_released_segments_are_sent_and_only_a_few_at_a_time():

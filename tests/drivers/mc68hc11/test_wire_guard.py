@@ -21,19 +21,9 @@ from rotemina.drivers.mc68hc11.protocol import (
 )
 from rotemina.drivers.mc68hc11.segment_player import SegmentPlayer
 from rotemina.drivers.mc68hc11.wire_guard import LineGuard, StepLimits, WireGuard
-from rotemina.sim.records import Record, Tap
 
 LIMITS = {0: StepLimits("x", -100, 100, 50), 1: StepLimits("y", 0, 1000, 500)}
 IDLE, FAULT = DeviceState.IDLE, DeviceState.FAULT
-
-
-@pytest.fixture
-def bench(robot, make_bench):
-    bench = make_bench(robot)
-    bench.driver.open()
-    bench.run(0.1)
-    yield bench
-    bench.driver.close()
 
 
 @pytest.fixture
@@ -156,9 +146,7 @@ def test_a_trajectory_that_leaves_the_range_ends_at_its_limit(bench, monkeypatch
         return tuple(step + (2_000_000 if instant > 200 else 0) for step in steps)
 
     monkeypatch.setattr(SegmentPlayer, "_find_steps", find_wrong_steps)
-    time_s = np.arange(1000) * 0.005
-    signals = {("zn", Tap.CMD): 30e-6 + 1e-6 * np.sin(2 * np.pi * time_s)}
-    bench.driver.play(Record.from_signals(time_s, signals, {"zn": "m"}))
-    samples = bench.run(4.0)
+    bench.driver.play(bench.make_wave(1000))
+    samples = bench.run(2.0)
     assert "is outside its range" in bench.driver.status().fault
     assert np.ptp(samples.command[:, bench.driver.axes.index("zn")]) < 1e-4

@@ -25,9 +25,8 @@ def implausible_reports(monkeypatch):
     return remaining
 
 
-def test_an_implausible_report_is_discarded_and_counted(robot, make_bench, implausible_reports):
-    bench = make_bench(robot, ports=1)
-    bench.driver.open()
+def test_an_implausible_report_is_discarded_and_counted(open_bench, implausible_reports):
+    bench = open_bench(ports=1)
     samples_before = bench.run(0.3)
     rejected = bench.driver.link_quality().rejected
     implausible_reports["reports"] = 2
@@ -41,10 +40,9 @@ def test_an_implausible_report_is_discarded_and_counted(robot, make_bench, impla
 
 
 def test_a_board_that_repeats_an_implausible_position_loses_its_trust(
-    robot, make_bench, implausible_reports
+    open_bench, implausible_reports
 ):
-    bench = make_bench(robot, ports=1)
-    bench.driver.open()
+    bench = open_bench(ports=1)
     bench.run(0.3)
     implausible_reports["reports"] = 1000
     with pytest.raises(ProtocolError, match=r"3 reports in a row .* home or confirm"):
