@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from rotemina.drivers.simulator import SetpointGenerator, setpoint_generator
+from rotemina.drivers.simulator import SetpointGenerator
 from rotemina.sim.robot_files import load_robot
 from rotemina.sim.trajectory import SetpointLimits
 
@@ -110,13 +110,6 @@ def test_an_axis_without_bounds_crosses_its_range_in_a_second():
     limits = SetpointLimits.of(load_robot("emps"))
     assert limits.speed[0] == pytest.approx(0.27)
     assert limits.acceleration[0] == pytest.approx(2.7)
-
-
-@pytest.mark.parametrize(
-    "kernel", [setpoint_generator._fill_commands, setpoint_generator._compute_braking_speed]
-)
-def test_other_threads_run_while_set_points_are_computed(kernel):
-    assert kernel.targetoptions["nogil"]
 
 
 def test_a_target_beyond_the_range_by_rounding_is_reached():
