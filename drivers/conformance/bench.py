@@ -37,7 +37,7 @@ class DriverBench:
         From now on, delays each byte by a number of seconds, in both directions.
     cause_fault : callable, optional
         Causes a fault in the open device that can be cleared immediately.
-    touched : callable, optional
+    was_device_contacted : callable, optional
         Returns whether anything has reached the device since the bench was created.
     short_loss_s, long_loss_s : float
         Duration of a link loss that the driver must mask, and of one after which it must raise. The

@@ -34,6 +34,8 @@ from rotemina.sim.trajectory import RATE_SLACK_RATIO
 
 # A stop is sent between two exchanges with the device, and may have to wait for one of them.
 MAX_STOP_DELAY_S = 0.010
+# Field of the samples, and what a finding calls it.
+_SIGNAL_NAMES = {"command": "the command", "measured": "the reading"}
 # Relative tolerance of a distance. Gain errors of amplifiers and sensors are a few percent, but
 # wrong units change a distance by a factor of 57 (degrees) or 1000 (millimetres).
 _GAIN_TOLERANCE = 0.2
@@ -168,14 +170,14 @@ def units(bench: DriverBench) -> None:
             subject.move_by(axis, distance)
             subject.run_until_idle()
             after = subject.run(0.2)
-            for name in ("command", "measured"):
+            for name in _SIGNAL_NAMES:
                 ends = [
                     np.median(getattr(samples, name)[:, axis.index]) for samples in (before, after)
                 ]
                 actual = float(ends[1] - ends[0])
                 tolerance = _GAIN_TOLERANCE * abs(distance) + 2.0 * axis.resolution
                 require_within(
-                    f"axis {axis.name}: the {name} changed by",
+                    f"axis {axis.name}: {_SIGNAL_NAMES[name]} changed by",
                     actual,
                     distance,
                     tolerance,
