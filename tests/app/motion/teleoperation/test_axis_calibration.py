@@ -53,31 +53,22 @@ def test_the_deflection_is_exactly_one_at_and_beyond_the_ends(axis, excess):
         assert axis.is_at_end(end) is (expected != 0.0)
 
 
-@given(make_calibrations(), RAW, RAW)
-def test_the_deflection_is_monotone_and_at_most_one(axis, first, second):
-    low, high = sorted((first, second))
-    rise = axis.compute_deflection(high) - axis.compute_deflection(low)
-    assert (-rise if axis.inverted else rise) >= -1e-15
-    assert abs(axis.compute_deflection(first)) <= 1.0
-
-
-@given(make_calibrations(), RAW, st.floats(0, 1e-6))
-def test_the_deflection_is_continuous(axis, raw, step):
+@given(make_calibrations(), RAW, st.floats(0, 2))
+def test_the_deflection_is_monotone_continuous_and_at_most_one(axis, raw, distance):
     sides = [side for side in (axis.centre - axis.low, axis.high - axis.centre) if side > 0]
     max_slope = 3.0 / (min(sides) - axis.dead_zone)  # 1 + 2 expo, per share of the travel
-    change = abs(axis.compute_deflection(raw + step) - axis.compute_deflection(raw))
-    assert change <= max_slope * step * (1 + 1e-6) + 1e-12
+    edges = axis.centre - axis.dead_zone, axis.centre + axis.dead_zone
+    for middle, step in ((raw, distance), *((edge, 1e-6) for edge in edges)):
+        rise = axis.compute_deflection(middle + step) - axis.compute_deflection(middle - step)
+        rise = -rise if axis.inverted else rise
+        assert -1e-15 <= rise <= 2.0 * max_slope * step * (1 + 1e-6) + 1e-12
+    assert abs(axis.compute_deflection(raw)) <= 1.0
 
 
-@given(st.floats(0, 1), st.floats(0.001, 0.5), RAW)
-def test_the_curve_is_odd(expo, dead_zone, raw):
-    axis = InputAxisCalibration(dead_zone=dead_zone, expo=expo)
-    assert axis.compute_deflection(-raw) == -axis.compute_deflection(raw)
-
-
-def test_the_curve_mixes_linear_and_cubic_parts():
+def test_the_curve_mixes_linear_and_cubic_parts_and_is_odd():
     axis = InputAxisCalibration(dead_zone=0.2, expo=0.5)
-    assert axis.compute_deflection(0.6) == pytest.approx(0.5 * 0.5 + 0.5 * 0.5**3)
+    deflections = [axis.compute_deflection(raw) for raw in (0.6, -0.6)]
+    assert deflections == pytest.approx([0.5 * 0.5 + 0.5 * 0.5**3, -0.5 * 0.5 - 0.5 * 0.5**3])
 
 
 def test_a_trigger_goes_from_zero_to_one():
@@ -120,12 +111,12 @@ def test_a_saved_calibration_reads_back(folder):
         "X": InputAxisCalibration(low=-0.98, centre=0.013, high=1 / 3, expo=0.3, travel_m=0.02),
         'odd "name".é': InputAxisCalibration(inverted=True),
     }
+    assert folder.load_or_default(STICK).find_axis("X") == InputAxisCalibration()
     calibration = InputCalibration(device=STICK.key, axes=axes)
     folder.save(STICK, calibration)
     assert folder.read(STICK) == calibration
-    assert (
-        InputCalibrationFolder(folder.make_path(STICK).parent).load_or_default(STICK) == calibration
-    )
+    other_folder = InputCalibrationFolder(folder.make_path(STICK).parent)
+    assert other_folder.load_or_default(STICK) == calibration
 
 
 def test_each_device_has_a_separate_file(folder):
@@ -135,31 +126,16 @@ def test_each_device_has_a_separate_file(folder):
     assert all(path.parent == folder.make_path(STICK).parent for path in paths)
 
 
-def test_a_device_without_a_file_has_the_defaults(folder):
-    assert folder.load_or_default(STICK).find_axis("X") == InputAxisCalibration()
-
-
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("device = 3", "device = 3: must be text"),
         ("axes = {}", "device: missing"),
-        ('device = "hid:046d:c215:0001"\n[axes.X]\nexpo = 2', "axes.X.expo = 2: must be at most 1"),
-        ('device = "hid:046d:c215:0001"\n[axes.X]\nexpo = "1"', "axes.X.expo = '1': must be a num"),
-        ('device = "hid:046d:c215:0001"\n[axes.X]\nlow = nan', "axes.X.low = nan: must be a finit"),
-        (
-            'device = "hid:046d:c215:0001"\n[axes.X]\nexp = 1',
-            "axes.X.exp = 1: unknown key; did you",
-        ),
-        (
-            'device = "hid:046d:c215:0001"\n[axes.X]\nlow = 0.5',
-            "axes.X: low 0.5, centre 0 and high",
-        ),
-        ('device = "hid:046d:c215:0001"\naxes = 1', "axes = 1: must be a table"),
-        ('device = "hid:other"', "device = 'hid:other': this is the file of 'hid:046d:c215:0001'"),
-        ("device = ", "not valid TOML"),
-        ("x = " + "[" * 5000, "TOML"),
-        ("\xff", "not valid TOML"),
+        (f'device = "{STICK.key}"\n[axes.X]\nexpo = 2', "axes.X.expo = 2: must be at most 1"),
+        (f'device = "{STICK.key}"\n[axes.X]\nlow = nan', "axes.X.low = nan: must be a finit"),
+        (f'device = "{STICK.key}"\n[axes.X]\nexp = 1', "axes.X.exp = 1: unknown key; did you"),
+        (f'device = "{STICK.key}"\n[axes.X]\nlow = 0.5', "axes.X: low 0.5, centre 0 and high"),
+        ('device = "hid:other"', f"device = 'hid:other': this is the file of '{STICK.key}'"),
+        ("x = " + "[" * 5000, "nested more than 50 levels"),
     ],
 )
 def test_a_bad_file_is_explained_and_blocks_nothing(folder, caplog, text, message):
@@ -168,28 +144,16 @@ def test_a_bad_file_is_explained_and_blocks_nothing(folder, caplog, text, messag
     path.write_text(text, "utf-8")
     with pytest.raises(InputCalibrationError) as caught:
         folder.read(STICK)
-    if "[[[" not in text:
-        assert message in str(caught.value)
+    assert message in str(caught.value)
     assert str(path) in str(caught.value)
     with caplog.at_level(logging.WARNING):
         assert folder.load_or_default(STICK) == InputCalibration(device=STICK.key)
     assert "uncalibrated" in caplog.text
 
 
-def test_bytes_and_folders_in_place_of_a_file_block_nothing(folder):
-    path = folder.make_path(STICK)
-    path.mkdir(parents=True)
+def test_a_folder_in_place_of_a_file_blocks_nothing_and_the_reverse_is_reported(folder, tmp_path):
+    folder.make_path(STICK).mkdir(parents=True)
     assert folder.load_or_default(STICK) == InputCalibration(device=STICK.key)
-    path.rmdir()
-    path.write_bytes(b"\xff\xfe")
-    with pytest.raises(InputCalibrationError, match="UTF-8"):
-        folder.read(STICK)
-    path.write_bytes(b"#" * 1_000_001)
-    with pytest.raises(InputCalibrationError, match="larger than 1000000 bytes"):
-        folder.read(STICK)
-
-
-def test_a_folder_that_cannot_be_written_is_reported(tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(FileWriteError, match="folder cannot be created"):
         InputCalibrationFolder(tmp_path / "file").save(STICK, InputCalibration(device=STICK.key))

@@ -8,7 +8,7 @@ from hypothesis import given, settings, strategies as st
 
 from rotemina.app.errors import FrameError
 from rotemina.app.motion.teleoperation import LinearRateLaw
-from rotemina.app.motion.teleoperation.micro_nano_axis import HybridFrame, PiezoSaturation
+from rotemina.app.motion.teleoperation.micro_nano_axis import HybridFrame
 from rotemina.app.motion.teleoperation.modes import SteeringModes
 from rotemina.app.motion.teleoperation.tip_pivot_modes import FineFrame, PivotFrame
 from rotemina.sim.kinematics import JOINTS, KinematicChain, compute_tip_position
@@ -20,17 +20,10 @@ MODES = SteeringModes(ROBOT)
 RESOLUTION = {axis: ROBOT.axes[axis].sensor.resolution for axis in JOINTS}
 CENTRE = dict(zip(JOINTS, CHAIN.centre.tolist(), strict=True))
 
+SPANS = CHAIN.upper - CHAIN.lower
 JOINT_POSITIONS = st.tuples(
     *(st.one_of(st.floats(0.0, 1.0), st.sampled_from([0.0, 1.0])),) * 6
-).map(
-    lambda shares: dict(
-        zip(
-            JOINTS,
-            (CHAIN.lower + np.array(shares) * (CHAIN.upper - CHAIN.lower)).tolist(),
-            strict=True,
-        )
-    )
-)
+).map(lambda shares: dict(zip(JOINTS, CHAIN.lower + np.array(shares) * SPANS, strict=True)))
 SHARES = st.tuples(*(st.floats(0.0, 1.0),) * 3)
 
 
@@ -101,22 +94,6 @@ def test_speeds_are_the_derivative_of_the_joints(name):
             assert speeds[axis] == pytest.approx(slope, rel=1e-5, abs=1e-9)
 
 
-@pytest.mark.parametrize("name", MODES.names)
-def test_a_mode_begins_with_the_speed_of_the_axes(name):
-    frame = MODES.begin_mode(name, CENTRE)
-    velocity = {
-        coordinate.name: 0.1 * coordinate.bounds.max_speed
-        for coordinate in frame.coordinates.values()
-    }
-    converted_back = frame.compute_coordinate_speeds(
-        frame.compute_axis_speeds(frame.start, velocity)
-    )
-    assert converted_back == {
-        coordinate_name: pytest.approx(speed, rel=1e-9)
-        for coordinate_name, speed in velocity.items()
-    }
-
-
 # Hybrid
 
 
@@ -134,15 +111,7 @@ def test_the_piezo_moves_within_its_range_and_the_table_the_rest():
     assert frame.compute_reserve(large) == 0.0
 
 
-def test_forward_and_return_paths_are_equal():
-    frame = HybridFrame.begin_at(CHAIN, CENTRE)
-    heights = frame.start["z"] + np.linspace(-2e-4, 2e-4, 101)
-    forward = [frame.compute_joints({**frame.start, "z": height}) for height in heights]
-    backward = [frame.compute_joints({**frame.start, "z": height}) for height in heights[::-1]]
-    assert forward == backward[::-1]
-
-
-@pytest.mark.parametrize("start_zn", [0.0, 8e-6, 32.5e-6, 65e-6])
+@pytest.mark.parametrize("start_zn", [0.0, 32.5e-6])
 def test_the_transition_keeps_axis_limits_and_the_speed_of_the_tip(start_zn):
     start = {**CENTRE, "zn": start_zn}
     frame = HybridFrame.begin_at(CHAIN, start)
@@ -166,19 +135,6 @@ def test_the_transition_keeps_axis_limits_and_the_speed_of_the_tip(start_zn):
         assert max(abs(axis_speeds[axis]) for axis_speeds in speeds) <= ROBOT.axes[axis].max_speed
     sideways = np.array(tips)[:, :2] - tips[0][:2]
     assert np.abs(sideways).max() < 1e-12
-
-
-@given(st.floats(-1e-4, 1e-4), st.floats(0.0, 65e-6))
-def test_the_saturation_is_monotone_bounded_and_invertible(u, position):
-    saturation = PiezoSaturation(0.0, 65e-6)
-    assert 0.0 <= saturation.compute_position(u) <= 65e-6 * (1.0 + 1e-12)
-    assert 0.0 <= saturation.compute_slope(u) <= 1.0
-    assert saturation.compute_position(saturation.invert(position)) == pytest.approx(
-        position, abs=1e-15
-    )
-    h = 1e-10
-    slope = (saturation.compute_position(u + h) - saturation.compute_position(u - h)) / (2.0 * h)
-    assert saturation.compute_slope(u) == pytest.approx(slope, abs=1e-4)
 
 
 def test_near_the_end_of_the_table_the_piezo_keeps_its_range():
@@ -231,16 +187,7 @@ def test_pivoting_is_bounded_by_range_and_speed_of_the_tables():
 # Robots
 
 
-def test_the_modes_cycle():
-    assert MODES.names == ("micro", "nano", "hybrid", "fine", "pivot")
-    names = ["micro"]
-    for _ in MODES.names:
-        names.append(MODES.find_next(names[-1]))
-    assert tuple(names) == (*MODES.names, "micro")
-    assert MODES.find_next("gone") == "micro"
-
-
-@pytest.mark.parametrize(("name", "axes"), [("emps", "q"), ("picma", "p"), ("fsm", "m1 m2 m3")])
+@pytest.mark.parametrize(("name", "axes"), [("picma", "p"), ("fsm", "m1 m2 m3")])
 def test_a_robot_without_a_tip_has_its_axes(name, axes):
     robot = load_robot(name)
     modes = SteeringModes(robot)

@@ -23,20 +23,14 @@ from rotemina.drivers.inputs import InputIdentity, InputReading
 ROBOT = ("x", "y", "z", "thx", "thy", "zn")
 STEP_S = 0.01
 REST = (0.0, 0.0)
-BUTTONS = ("stop", "stage", "dead", "fine", "take")
-ACTIONS = dict(
-    zip(
-        BUTTONS,
-        (
-            OperatorAction.STOP,
-            OperatorAction.STAGE,
-            OperatorAction.DEAD_MAN,
-            OperatorAction.FINE,
-            OperatorAction.TAKE_OVER,
-        ),
-        strict=True,
-    )
-)
+ACTIONS = {
+    "stop": OperatorAction.STOP,
+    "stage": OperatorAction.STAGE,
+    "dead": OperatorAction.DEAD_MAN,
+    "fine": OperatorAction.FINE,
+    "take": OperatorAction.TAKE_OVER,
+}
+BUTTONS = tuple(ACTIONS)
 
 
 def make_stick(key, streams=False, axes=("X", "Y"), buttons=BUTTONS):
@@ -65,12 +59,12 @@ def make_profile(*devices):
 class ArbiterBench:
     """An arbiter, the current reports of its devices, and the time."""
 
-    def __init__(self, *mappings, devices=("a",), streams=False, calibration=None):
+    def __init__(self, *mappings, devices=("a",), streams=False):
         self.arbiter = InputArbiter(ROBOT, make_profile(*(mappings or [make_mapping("a")])))
         self.now_s = 0.0
         self.state = {}
         for key in devices:
-            self.arbiter.plug(make_stick(key, streams), calibration)
+            self.arbiter.plug(make_stick(key, streams))
             self.state[key] = (REST, ())
 
     def report(self, key="a", axes=None, held=()):
@@ -111,44 +105,11 @@ def list_losses(intents):
 # One device
 
 
-def test_a_stick_at_rest_earns_trust_and_then_deflects():
-    bench = ArbiterBench()
-    assert bench.step().deflections == {}
-    assert bench.run(0.2)[-1].deflections == {"x": 0.0, "y": 0.0}
-    intent = bench.report(axes=(1.0, -1.0)).step()
-    assert intent.deflections == {"x": 1.0, "y": -1.0}
-    assert (intent.device, intent.host_time_s, intent.loss_reason) == ("a", bench.now_s, None)
-
-
 def test_only_the_axis_that_was_never_centred_stays_inactive():
     bench = ArbiterBench().report(axes=(0.6, 0.0))
     assert bench.run(1.0)[-1].deflections == {"y": 0.0}
     assert "release it" in bench.list_reasons()[0]
     assert bench.list_reasons()[1] is None
-
-
-def test_a_saturated_axis_is_reported():
-    bench = ArbiterBench().report(axes=(1.0, 0.0))
-    assert "x" not in bench.run(1.0)[-1].deflections
-    assert "at its end from the start" in bench.list_reasons()[0]
-
-
-def test_a_jittering_axis_stops_acting_and_the_other_continues():
-    bench = ArbiterBench()
-    bench.run(0.2)
-    for count in range(30):
-        intent = bench.report(axes=(0.9 if count % 2 else -0.9, 0.5)).step()
-    assert set(intent.deflections) == {"y"}
-    assert "jitters" in bench.list_reasons()[0]
-
-
-@pytest.mark.parametrize("raw", [nan, 7.0])
-def test_invalid_numbers_move_nothing(raw):
-    bench = ArbiterBench()
-    bench.run(0.2)
-    assert set(bench.report(axes=(raw, 0.5)).step().deflections) == {"y"}
-    assert bench.list_reasons()[0] is not None
-    assert bench.arbiter.device_views[0].axes[0].deflection in (0.0, 1.0)
 
 
 def test_a_swapped_stick_without_a_mapped_control_is_refused():
@@ -161,93 +122,12 @@ def test_a_swapped_stick_without_a_mapped_control_is_refused():
     assert bench.arbiter.device_views[0].problem == bench.arbiter.problems[0]
 
 
-def test_readings_of_another_shape_move_nothing():
-    bench = ArbiterBench()
-    bench.run(0.2)
-    reading = InputReading(bench.now_s, (1.0,), ())
-    assert bench.arbiter.step({"a": [reading]}, bench.now_s).deflections == {}
-    assert "a reading has 1 axes and 0 buttons" in bench.list_reasons()[0]
-    assert bench.run(0.2)[-1].deflections == {"x": 0.0, "y": 0.0}
-
-
-def test_a_device_whose_readings_stop_matching_is_lost_once_and_must_be_centred():
-    bench = ArbiterBench()
-    bench.run(0.2)
-    bench.report(axes=(1.0, 0.0), held=("fine",)).run(0.1)
-    intents = []
-    for _ in range(3):
-        bench.now_s += STEP_S
-        reading = InputReading(bench.now_s, (1.0,), ())
-        intents.append(bench.arbiter.step({"a": [reading]}, bench.now_s))
-    [reason] = list_losses(intents)
-    assert reason.startswith("stick a: a reading has 1 axes and 0 buttons, but the device has 2")
-    assert intents[0].loss_reason == reason
-    assert intents[0].held == frozenset()
-    [view] = bench.arbiter.device_views
-    assert reason.endswith(view.problem)
-    assert view.latest_reading is None
-    assert bench.run(0.5)[-1].deflections == {"y": 0.0}  # it is still deflected
-    assert bench.report(axes=REST).run(0.2)[-1].deflections["x"] == 0.0
-
-
-def test_an_open_device_can_turn_out_to_stream():
-    bench = ArbiterBench()
-    bench.run(0.2)
-    bench.stop_reporting()
-    assert list_losses(bench.run(1.0)) == []
-    bench.state["a"] = (REST, ())
-    bench.run(0.2)
-    bench.arbiter.set_streaming("a", streams=True)
-    bench.stop_reporting()
-    assert len(list_losses(bench.run(1.0))) == 1
-
-
-def test_a_view_has_the_latest_reading_and_the_pressed_buttons():
-    bench = ArbiterBench()
-    bench.report(axes=(0.5, 0.0), held=("fine", "take")).run(0.1)
-    [view] = bench.arbiter.device_views
-    assert view.pressed_buttons == {"fine", "take"}
-    assert view.latest_reading.axes == (0.5, 0.0)
-    assert view.calibration == InputCalibration(device="a")
-
-
-def test_unplugging_is_reported_once_and_a_replugged_stick_must_be_centred():
-    bench = ArbiterBench()
-    bench.run(0.2)
-    bench.report(axes=(1.0, 0.0)).run(0.1)
-    bench.arbiter.unplug("a")
-    intents = bench.run(0.2)
-    assert list_losses(intents) == ["stick a: unplugged"]
-    assert intents[0].loss_reason is not None
-    assert all(not intent.deflections for intent in intents)
-    bench.arbiter.plug(make_stick("a"))
-    assert "x" not in bench.run(0.5)[-1].deflections
-    assert bench.report(axes=REST).run(0.2)[-1].deflections["x"] == 0.0
-
-
 def test_plugging_in_a_device_twice_is_a_replug():
     bench = ArbiterBench()
     bench.report(axes=REST).run(0.2)
     bench.arbiter.plug(make_stick("a"))
     assert list_losses(bench.report(axes=(0.5, 0.0)).run(0.1)) == ["stick a: replugged"]
     assert bench.run(0.5)[-1].deflections == {"y": 0.0}
-
-
-def test_a_silent_stream_is_lost_and_releases_its_buttons():
-    bench = ArbiterBench(streams=True)
-    bench.run(0.2)
-    bench.report(axes=(1.0, 0.0), held=("fine",)).run(0.1)
-    bench.stop_reporting()
-    intents = bench.run(1.0)
-    [reason] = list_losses(intents)
-    assert reason.startswith("stick a: silent: a streaming device")
-    assert intents[20].deflections == {"x": 1.0, "y": 0.0}
-    assert intents[-1].deflections == {}
-    assert intents[-1].held == frozenset()
-    assert "silent" in bench.list_reasons()[0]
-    bench.state["a"] = ((1.0, 0.0), ("fine",))
-    intent = bench.run(0.3)[-1]
-    assert (intent.deflections, intent.held) == ({"y": 0.0}, frozenset())
 
 
 def test_a_calibration_acts_at_once_and_the_stick_must_be_centred():
@@ -278,9 +158,9 @@ def test_a_mapping_can_invert_an_axis():
 def test_a_press_counts_once_and_a_hold_as_long_as_it_lasts():
     bench = ArbiterBench()
     bench.run(0.1)
-    intents = bench.report(held=("stage",)).run(0.5)
-    assert list_presses(intents) == [OperatorAction.STAGE]
-    assert all(intent.held == {OperatorAction.STAGE} for intent in intents)
+    intents = bench.report(held=("stage", "fine")).run(0.5)
+    assert list_presses(intents) == [OperatorAction.STAGE]  # fine is only held
+    assert all(intent.held == {OperatorAction.STAGE, OperatorAction.FINE} for intent in intents)
     assert bench.report().run(0.1)[-1].held == frozenset()
 
 
@@ -296,26 +176,14 @@ def test_a_press_between_two_steps_is_not_missed():
     assert intent.pressed == {OperatorAction.STAGE}
 
 
-def test_fine_is_held_and_never_pressed():
-    bench = ArbiterBench()
-    bench.run(0.1)
-    intents = bench.report(held=("fine",)).run(0.1)
-    assert list_presses(intents) == []
-    assert intents[-1].held == {OperatorAction.FINE}
-
-
 def test_without_its_dead_man_switch_a_stick_does_nothing():
-    bench = ArbiterBench(make_mapping("a", excluded=()))
-    bench.run(0.2)
+    bench = ArbiterBench(make_mapping("a", excluded=())).report(held=("dead",))
+    assert bench.run(1.0)[-1].deflections == {}  # it was held from the start
+    bench.report(axes=REST).run(0.2)
     assert bench.report(axes=(1.0, 0.0)).step().deflections == {}
     assert bench.report(held=("dead",)).step().deflections == {"x": 1.0, "y": 0.0}
     bench.report().run(0.05)
     assert bench.step().deflections == {}
-
-
-def test_a_dead_man_switch_held_from_the_start_does_nothing():
-    bench = ArbiterBench(make_mapping("a", excluded=())).report(held=("dead",))
-    assert bench.run(1.0)[-1].deflections == {}
 
 
 def test_a_missing_device_with_the_dead_man_switch_blocks_all_axes():
@@ -384,7 +252,7 @@ def test_a_jittering_axis_presses_nothing():
 # Mapping
 
 
-def test_while_the_mapping_is_open_only_stops_are_sent():
+def test_while_the_mapping_is_open_only_stops_are_sent_and_then_all_must_be_released():
     bench = ArbiterBench()
     bench.run(0.2)
     bench.report(axes=(1.0, 0.0)).step()
@@ -397,13 +265,7 @@ def test_while_the_mapping_is_open_only_stops_are_sent():
     assert list_presses(intents) == [OperatorAction.STOP]
     assert intents[-1].held == {OperatorAction.STOP}
     assert bench.arbiter.device_views[0].axes[0].raw == 1.0
-
-
-def test_after_the_mapping_sticks_and_buttons_must_be_released():
-    bench = ArbiterBench()
-    bench.run(0.2)
-    bench.arbiter.open_mapping()
-    bench.report(axes=(1.0, 0.0), held=("stage",)).run(0.2)
+    bench.report(held=("stage",)).run(0.2)
     bench.arbiter.close_mapping()
     intents = bench.run(0.5)
     assert "x" not in intents[-1].deflections
@@ -456,15 +318,6 @@ def test_another_profile_acts_after_centring_and_a_bad_one_not_at_all():
     assert list_losses([bench.step()]) == ["another profile is now in use"]
     assert bench.step().deflections == {}
     assert bench.report(axes=REST).run(0.2)[-1].deflections == {"thx": 0.0, "thy": 0.0}
-
-
-def test_a_profile_for_another_device_drives_nothing_and_reports_it():
-    bench = ArbiterBench(make_mapping("hid:046d:*"))
-    assert bench.run(1.0)[-1].deflections == {}
-    assert bench.arbiter.problems == (
-        "profile 'Bench' needs hid:046d:*, which is not connected; connected: stick a (a). "
-        "Connect it, or choose or create another profile",
-    )
 
 
 def test_without_a_profile_nothing_moves_and_a_bad_one_is_refused_at_once():
@@ -526,19 +379,13 @@ def test_the_trainee_takes_over_with_the_button_and_from_rest(training_bench):
 def test_the_trainer_takes_over_at_once_by_moving_or_by_the_button(training_bench, report):
     give_control_to_trainee(training_bench)
     training_bench.report("b", axes=(1.0, 0.0)).step()
-    intent = training_bench.report("a", **report).step()
-    assert intent.loss_reason == "the trainer has taken over"
-    assert "x" not in intent.deflections or report.get("held")
-    assert 1.0 not in intent.deflections.values()
+    intents = training_bench.report("a", **report).run(0.5)
+    assert intents[0].loss_reason == "the trainer has taken over"
+    assert all(intent.deflections.get("x", 0.0) == 0.0 for intent in intents)
     assert training_bench.arbiter.driving_seat is OperatorRole.TRAINER
+    if "axes" in report:
+        assert "release it first" in training_bench.list_reasons("a")[0]
     assert training_bench.report("a", axes=REST).run(0.2)[-1].deflections == {"x": 0.0, "y": 0.0}
-
-
-def test_a_trainer_who_takes_over_by_moving_drives_from_rest_only(training_bench):
-    give_control_to_trainee(training_bench)
-    intents = training_bench.report("a", axes=(0.9, 0.0)).run(1.0)
-    assert all("x" not in intent.deflections for intent in intents)
-    assert "release it first" in training_bench.list_reasons("a")[0]
 
 
 def test_a_touch_of_the_trainers_stick_does_not_take_over(training_bench):

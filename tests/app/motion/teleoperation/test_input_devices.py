@@ -4,7 +4,6 @@ import threading
 
 import pytest
 
-from rotemina.app.errors import InputProfileError
 from rotemina.app.motion.inputs import (
     AxisMapping,
     DeviceMapping,
@@ -153,30 +152,6 @@ def test_a_chosen_profile_stays_until_another_one_is_chosen(make_devices, clock,
     assert run(devices, clock).intent.deflections["x"] == 0.0
 
 
-def test_without_a_chosen_profile_the_automatic_one_is_used_again(make_devices, clock, stick):
-    mapping = DeviceMapping(key="hid:stick", axes=(AxisMapping(control="x", drives="zn"),))
-    devices = make_devices(stick)
-    run(devices, clock)
-    devices.use_profile(InputProfile(name="Other", devices=(mapping,)))
-    assert run(devices, clock).intent.deflections == {"zn": 0.0}
-    devices.use_profile(None)
-    assert run(devices, clock).intent.deflections == {"x": 0.0, "y": 0.0, "z": 0.0}
-
-
-def test_a_profile_with_two_owners_of_an_axis_is_refused_and_the_previous_one_stays(
-    make_devices, clock, stick
-):
-    devices = make_devices(stick)
-    run(devices, clock)
-    axes = (AxisMapping(control="x", drives="x"), AxisMapping(control="y", drives="x"))
-    with pytest.raises(InputProfileError, match="two owners"):
-        devices.use_profile(
-            InputProfile(name="Both", devices=(DeviceMapping(key="hid:stick", axes=axes),))
-        )
-    assert devices.profile.name == "Automatic"
-    assert run(devices, clock).intent.deflections["y"] == 0.0
-
-
 def test_a_device_that_raises_an_error_is_dropped_and_the_others_continue(
     make_devices, clock, stick
 ):
@@ -207,38 +182,6 @@ def test_a_calibration_is_used_and_saved(make_devices, clock, stick):
     stick.deflect("x", 1.0)
     assert run(devices, clock, TICK_S).intent.deflections["x"] == -1.0
     assert devices.calibrations.read(stick.identity) == inverted
-
-
-def test_the_view_is_updated_at_30_hz_and_at_once_after_a_change(make_devices, clock, stick):
-    devices = make_devices(stick)
-    run(devices, clock)
-    previous_view = devices.view
-    run(devices, clock, TICK_S)
-    run(devices, clock, TICK_S)
-    assert clock() - devices.view.host_time_s <= 1.0 / 30.0
-    devices.open_mapping()
-    run(devices, clock, TICK_S)
-    view = devices.view
-    assert view is not previous_view
-    assert view.is_mapping_open
-    assert view.host_time_s == clock()
-    assert [device.device.identity.key for device in view.devices] == ["hid:stick"]
-    assert view.profile == devices.profile
-
-
-def test_a_listener_is_called_every_step_until_it_is_removed(make_devices, clock, stick):
-    devices = make_devices(stick)
-    run(devices, clock)
-    updates = []
-    remove_listener = devices.add_listener(updates.append)
-    stick.deflect("x", 0.5)
-    run(devices, clock, 2 * TICK_S)
-    remove_listener()
-    stick.deflect("x", 1.0)
-    run(devices, clock, TICK_S)
-    readings_per_step = [update.readings["hid:stick"] for update in updates]
-    assert [len(readings) for readings in readings_per_step] == [1, 0]
-    assert readings_per_step[0][0].axes == (0.5, 0.0, 0.0)
 
 
 def test_other_threads_do_not_wait_while_a_device_is_opened(make_devices, clock, stick):

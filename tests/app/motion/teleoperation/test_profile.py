@@ -2,7 +2,7 @@ import re
 from pathlib import Path
 
 import pytest
-from hypothesis import given, strategies as st
+from hypothesis import given, settings, strategies as st
 
 from rotemina.app.errors import InputProfileError
 from rotemina.app.motion.inputs import (
@@ -47,11 +47,14 @@ PROFILES = st.builds(
         max_size=3,
     ).map(tuple),
 )
+DEVICE = 'name = "a"\n[[devices]]\nkey = "k"\n'
+ACTION = f'{DEVICE}[[devices.actions]]\ncontrol = "1"\n'
 PROFILE = InputProfile(
     name="Bench", devices=(DeviceMapping(key="a", axes=(AxisMapping(control="X", drives="x"),)),)
 )
 
 
+@settings(max_examples=25)
 @given(PROFILES)
 def test_a_saved_profile_reads_back(tmp_path_factory, profile):
     folder = tmp_path_factory.mktemp("profiles")
@@ -70,23 +73,19 @@ def test_a_folder_lists_good_and_bad_profiles(tmp_path):
     assert list_profiles(tmp_path / "none") == ()
 
 
-def test_saving_replaces_a_profile_of_the_same_name(tmp_path):
+def test_saving_replaces_the_file_unless_it_fails(tmp_path, monkeypatch):
     save_profile(tmp_path, PROFILE)
     other = InputProfile(name="Bench", devices=(DeviceMapping(key="b"),))
-    assert load_profile(save_profile(tmp_path, other)) == other
-    assert len(list_profiles(tmp_path)) == 1
-
-
-def test_a_failed_save_leaves_the_previous_file(tmp_path, monkeypatch):
-    path = save_profile(tmp_path, PROFILE)
+    path = save_profile(tmp_path, other)
 
     def raise_disk_full(*_):
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr("os.fsync", raise_disk_full)
     with pytest.raises(FileWriteError, match="No space left"):
-        save_profile(tmp_path, InputProfile(name="Bench", devices=(DeviceMapping(key="b"),)))
-    assert load_profile(path) == PROFILE
+        save_profile(tmp_path, PROFILE)
+    assert load_profile(path) == other
+    assert len(list_profiles(tmp_path)) == 1
 
 
 @pytest.mark.parametrize(
@@ -94,48 +93,32 @@ def test_a_failed_save_leaves_the_previous_file(tmp_path, monkeypatch):
     [
         ("", "name: missing; the file needs it (and 1 more)"),
         ('name = "a"\ndevices = []', "devices = []: must have at least 1 entry"),
-        ('name = "a"\ndevices = {}', "devices: must be a list"),
         ('name = "../a"\n[[devices]]\nkey = "k"', "name = '../a': it must begin with"),
         ('name = "a."\n[[devices]]\nkey = "k"', "name = 'a.': it must begin with"),
-        ('name = "a"\n[[device]]\nkey = "k"', "unknown key; did you mean 'devices'?"),
         ('name = "a"\n[[devices]]\nkey = ""', "devices[0].key = '': must not be empty"),
         (
-            'name = "a"\n[[devices]]\nkey = "k"\nseat = "pilot"',
-            "devices[0].seat = 'pilot': must be 'trainer' or 'trainee'",
-        ),
-        (
-            'name = "a"\n[[devices]]\nkey = "k"\n[[devices.axes]]\ncontrol = "X"\ndrive = "x"',
+            f'{DEVICE}[[devices.axes]]\ncontrol = "X"\ndrive = "x"',
             "devices[0].axes[0].drive = 'x': unknown key; did you mean 'drives'?",
         ),
         (
-            'name = "a"\n[[devices]]\nkey = "k"\n[[devices.actions]]\ncontrol = "1"\n'
-            'action = "jump"',
+            f'{ACTION}action = "jump"',
             "devices[0].actions[0].action = 'jump': must be 'stop', 'emergency_stop'",
         ),
         (
-            'name = "a"\n[[devices]]\nkey = "k"\n[[devices.actions]]\ncontrol = "1"\n'
-            'action = "stop"\nat = 0.05',
+            f'{ACTION}action = "stop"\nat = 0.05',
             "devices[0].actions[0]: at = 0.05: must be at least 0.1, or at most -0.1",
-        ),
-        (
-            'name = "a"\n[[devices]]\nkey = "k"\n[[devices.actions]]\ncontrol = "1"\n'
-            'action = "stop"\nhysteresis = 1',
-            "devices[0].actions[0].hysteresis = 1: must be at most 0.5",
         ),
     ],
 )
 def test_bad_profiles_are_explained(tmp_path, text, message):
     path = tmp_path / "bench.toml"
+    with pytest.raises(InputProfileError, match=r"bench\.toml cannot be read \(file not found"):
+        load_profile(path)
     path.write_text(text, "utf-8")
     with pytest.raises(InputProfileError) as caught:
         load_profile(path)
     assert str(caught.value).startswith(f"{path}: ")
     assert message in str(caught.value)
-
-
-def test_a_missing_file_is_explained(tmp_path):
-    with pytest.raises(InputProfileError, match=r"none\.toml cannot be read \(file not found"):
-        load_profile(tmp_path / "none.toml")
 
 
 def test_the_example_of_the_documentation_can_be_used(tmp_path):

@@ -1,5 +1,6 @@
 """A report of an input device acts only for as long as the device confirms it."""
 
+from itertools import count
 from math import nan
 
 import numpy as np
@@ -16,22 +17,17 @@ from rotemina.app.motion.inputs import (
     PluggedDevice,
     SilencePolicy,
 )
-from rotemina.app.motion.inputs.report_watch import (
-    MAX_PAUSE_S,
-    MAX_SILENCE_S,
-    MAX_STILLNESS_S,
-    sanitise_reading,
-)
+from rotemina.app.motion.inputs.report_watch import MAX_PAUSE_S, MAX_STILLNESS_S
 from rotemina.drivers.inputs import InputIdentity, InputReading
 
 STEP_S = 0.005
-BUTTONS = ("dead", "coarse", "stop", "stage")
-ACTIONS = (
-    OperatorAction.DEAD_MAN,
-    OperatorAction.COARSE,
-    OperatorAction.STOP,
-    OperatorAction.STAGE,
-)
+ACTIONS = {
+    "dead": OperatorAction.DEAD_MAN,
+    "coarse": OperatorAction.COARSE,
+    "stop": OperatorAction.STOP,
+    "stage": OperatorAction.STAGE,
+}
+BUTTONS = tuple(ACTIONS)
 
 
 def make_device(key="stick"):
@@ -48,7 +44,7 @@ def make_mapping(key="stick", policy=SilencePolicy.STOP, axes=("x", "y"), button
         ),
         actions=tuple(
             ActionMapping(control=button, action=action)
-            for button, action in zip(BUTTONS, ACTIONS, strict=True)
+            for button, action in ACTIONS.items()
             if button in buttons
         ),
     )
@@ -93,6 +89,10 @@ class ReportingDevices:
     @property
     def x(self):
         return self.intent.deflections.get("x", 0.0)
+
+    def stream(self, seconds, read_x=lambda: 0.0, read_y=lambda: 0.0, held=("dead",)):
+        """Report in every step."""
+        return self.run(seconds, lambda: self.report(x=read_x(), y=read_y(), held=held))
 
     def drive(self, held=("dead",)):
         """Deflect the stick, and report each change once."""
@@ -167,12 +167,12 @@ def test_a_pedal_with_an_active_button_must_confirm_it_too(button):
     stick = make_mapping(buttons=() if button == "dead" else ("dead",))
     devices = ReportingDevices(stick, make_mapping("pedal", axes=(), buttons=(button,)))
     devices.report("pedal", held=(button,))
-    values = iter(0.8 + 0.0001 * number for number in range(1000))
     devices.report(held=("dead",))
     devices.run(0.5)
-    devices.run(0.4, lambda: devices.report(x=next(values), held=("dead",)))
+    read_x = make_slow_motion(0.8)
+    devices.stream(0.4, read_x)
     assert devices.x > 0.7
-    devices.run(0.4, lambda: devices.report(x=next(values), held=("dead",)))
+    devices.stream(0.4, read_x)
     assert devices.x == 0.0
     [reason] = devices.losses
     assert reason.startswith("pedal: silent for 1 s")
@@ -193,53 +193,56 @@ def make_noise(levels, seed=1):
     return lambda: float(rng.integers(-levels, levels, endpoint=True)) / 127.5
 
 
-@pytest.mark.parametrize("levels", [0, 1, 2, 9])
+def make_slow_motion(begin):
+    """Return a function whose results differ each time."""
+    return count(begin, 0.0001).__next__
+
+
+@pytest.mark.parametrize("levels", [0, 9])
 def test_an_interrupted_stream_counts_as_released_at_any_noise(levels):
     devices, sample_noise = ReportingDevices(), make_noise(levels)
-    devices.run(3.0, lambda: devices.report(x=sample_noise(), y=sample_noise()))
-    devices.run(0.2, lambda: devices.report(x=sample_noise(), y=sample_noise(), held=("dead",)))
-    devices.run(
-        0.5, lambda: devices.report(x=0.8 + sample_noise(), y=sample_noise(), held=("dead",))
-    )
+
+    def read_deflected_x():
+        return 0.8 + sample_noise()
+
+    devices.stream(3.0, sample_noise, sample_noise, held=())
+    devices.stream(0.2, sample_noise, sample_noise)
+    devices.stream(0.5, read_deflected_x, sample_noise)
     assert devices.x > 0.6
     assert devices.measure_motion_s() <= 0.3
     assert devices.intent.held == frozenset()
     [reason] = devices.losses
     assert "a streaming device has sent nothing for 0.25 s" in reason
-    devices.run(
-        0.5, lambda: devices.report(x=0.8 + sample_noise(), y=sample_noise(), held=("dead",))
-    )
+    devices.stream(0.5, read_deflected_x, sample_noise)
     assert (devices.x, devices.intent.held) == (0.0, frozenset())
 
 
 def test_a_stream_interrupted_at_its_centre_releases_the_dead_man_switch():
     devices = ReportingDevices()
-    devices.run(0.3, devices.report)
-    devices.run(0.2, lambda: devices.report(held=("dead",)))
+    devices.stream(0.3, held=())
+    devices.stream(0.2)
     devices.run(0.3)
     assert devices.intent.held == frozenset()
-    devices.run(0.3, lambda: devices.report(x=0.8, held=("dead",)))
+    devices.stream(0.3, lambda: 0.8)
     assert devices.x == 0.0
 
 
 def test_after_an_interruption_a_stream_is_recognized_again():
     devices = ReportingDevices()
     for _ in range(3):
-        devices.run(0.3, devices.report)
-        devices.run(0.2, lambda: devices.report(held=("dead",)))
-        devices.run(0.3, lambda: devices.report(x=0.8, held=("dead",)))
+        devices.stream(0.3, held=())
+        devices.stream(0.2)
+        devices.stream(0.3, lambda: 0.8)
         assert devices.measure_motion_s() <= 0.3
     assert len(devices.losses) == 3
 
 
 def test_repeating_noise_is_a_stream_even_if_the_operator_chose_to_continue():
-    devices, sample_noise = (
-        ReportingDevices(make_mapping(policy=SilencePolicy.CONTINUE)),
-        make_noise(1),
-    )
-    devices.run(0.5, lambda: devices.report(x=sample_noise()))
-    devices.run(0.1, lambda: devices.report(held=("dead",)))
-    devices.run(0.5, lambda: devices.report(x=0.8 + sample_noise(), held=("dead",)))
+    devices = ReportingDevices(make_mapping(policy=SilencePolicy.CONTINUE))
+    sample_noise = make_noise(1)
+    devices.stream(0.5, sample_noise, held=())
+    devices.stream(0.1)
+    devices.stream(0.5, lambda: 0.8 + sample_noise())
     assert devices.x > 0.6
     assert devices.measure_motion_s() <= 0.3
 
@@ -247,15 +250,14 @@ def test_repeating_noise_is_a_stream_even_if_the_operator_chose_to_continue():
 def test_moving_a_stick_for_long_does_not_make_it_a_stream():
     devices = ReportingDevices(make_mapping(policy=SilencePolicy.CONTINUE))
     devices.report(held=("dead",))
-    values = iter(0.2 + 0.0001 * number for number in range(4000))
-    devices.run(10.0, lambda: devices.report(x=next(values), held=("dead",)))
+    devices.stream(10.0, make_slow_motion(0.2))
     assert devices.measure_motion_s(20.0) > 19.9
 
 
 def test_a_device_that_streams_only_while_deflected_may_be_silent_at_rest():
     devices = ReportingDevices()
     devices.report(held=("dead",))
-    devices.run(1.0, lambda: devices.report(x=1.0, held=("dead",)))
+    devices.stream(1.0, lambda: 1.0)
     devices.report()
     devices.run(10.0)
     assert devices.losses == []
@@ -270,11 +272,9 @@ def test_a_device_that_streams_only_while_deflected_may_be_silent_at_rest():
     [
         InputReading(100.0, (nan, nan), (False,) * 4, "a report of type 9"),
         InputReading(100.0, (0.8,), (True,) * 4),
-        InputReading(100.0, (0.8, None), (True,) * 4),
         InputReading(None, (0.8, 0.0), (True,) * 4),
         InputReading(100.0, None, None),
         "nonsense",
-        None,
     ],
 )
 def test_an_invalid_reading_counts_as_released_and_as_a_fault(answer):
@@ -299,7 +299,7 @@ def test_an_invalid_reading_counts_as_released_and_as_a_fault(answer):
     assert devices.arbiter.device_views[0].fault_count == 1
 
 
-@pytest.mark.parametrize("raw", [1.5, -7.0, nan, float("inf")])
+@pytest.mark.parametrize("raw", [1.5, nan, float("-inf")])
 def test_a_deflection_beyond_the_range_moves_nothing_until_the_stick_is_centred(raw):
     devices = ReportingDevices()
     devices.drive()
@@ -314,15 +314,14 @@ def test_a_deflection_beyond_the_range_moves_nothing_until_the_stick_is_centred(
 # Clocks
 
 
-@pytest.mark.parametrize("jump_s", [MAX_PAUSE_S + 0.01, 60.0, -5.0])
+@pytest.mark.parametrize("jump_s", [MAX_PAUSE_S + 0.01, -5.0])
 @pytest.mark.parametrize("policy", SilencePolicy)
-@pytest.mark.parametrize("has_backlog", [False, True])
-def test_after_a_gap_in_the_programs_clock_old_reports_do_not_act(jump_s, policy, has_backlog):
+def test_after_a_gap_in_the_programs_clock_old_reports_do_not_act(jump_s, policy):
     devices = ReportingDevices(make_mapping(policy=policy))
     devices.drive()
-    if has_backlog:  # reports sent during the gap and read only now
-        devices.report(x=0.8, held=("dead", "stage"))
-        devices.report(x=0.9, held=("dead",))
+    # Reports sent during the gap and read only now.
+    devices.report(x=0.8, held=("dead", "stage"))
+    devices.report(x=0.9, held=("dead",))
     devices.step(jump_s)
     assert (devices.x, devices.intent.held, devices.pressed) == (0.0, frozenset(), [])
     assert "its clock jumped by" in devices.losses[0]
@@ -359,23 +358,6 @@ def test_a_wrong_source_clock_does_not_prolong_consent(wrong_s):
     assert devices.measure_motion_s() <= MAX_STILLNESS_S + 0.02
 
 
-def test_the_time_of_a_reading_lies_between_two_polls():
-    buttons = (False,) * 4
-    times_s = [
-        sanitise_reading(
-            make_device(), InputReading(time_s, (0.0, 0.0), buttons), 1.0, 2.0
-        ).host_time_s
-        for time_s in (0.0, 1.5, 9.0, nan, float("inf"))
-    ]
-    assert times_s[:3] == [1.0, 1.5, 2.0]
-    assert all(1.0 <= time_s <= 2.0 for time_s in times_s)
-
-
-def test_the_bounds_are_consistent():
-    assert MAX_SILENCE_S + 2 * STEP_S <= 0.3
-    assert MAX_SILENCE_S < MAX_PAUSE_S < MAX_STILLNESS_S
-
-
 def test_a_watching_device_does_not_stop_the_driving_one():
     trainee = DeviceMapping(
         key="trainee",
@@ -384,8 +366,7 @@ def test_a_watching_device_does_not_stop_the_driving_one():
     )
     devices = ReportingDevices(make_mapping(), trainee)
     devices.report("trainee", x=0.9)
-    values = iter(0.8 + 0.0001 * number for number in range(1000))
     devices.report(held=("dead",))
-    devices.run(2.0, lambda: devices.report(x=next(values), held=("dead",)))
+    devices.stream(2.0, make_slow_motion(0.8))
     assert devices.x > 0.7
     assert devices.losses == []

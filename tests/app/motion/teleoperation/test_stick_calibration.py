@@ -31,17 +31,18 @@ def test_ends_are_reached_even_slightly_short_of_the_sweep():
     assert (axis.compute_deflection(-0.985), axis.compute_deflection(0.985)) == (-1.0, 1.0)
 
 
-def test_a_bad_axis_does_not_prevent_calibrating_the_others():
+def test_a_bad_axis_does_not_prevent_calibrating_the_others_whose_curve_is_kept():
     calibration_run = StickCalibrationRun(["X", "Y"])
     calibration_run.feed(InputReading(0.0, (0.1, 0.0), ()))
     calibration_run.begin_sweep()
     for raw in (-0.8, 0.9):
         calibration_run.feed(InputReading(1.0, (raw, 0.01), ()))
     assert list(calibration_run.problems) == ["Y"]
-    before = {"X": InputAxisCalibration(expo=0.3), "Y": InputAxisCalibration()}
-    calibrated = calibration_run.make_calibrations(before)
+    before = InputAxisCalibration(expo=0.5, inverted=True, travel_m=0.03)
+    calibrated = calibration_run.make_calibrations({"X": before, "Y": InputAxisCalibration()})
     assert list(calibrated) == ["X"]
-    assert (calibrated["X"].centre, calibrated["X"].expo) == (0.1, 0.3)
+    axis = calibrated["X"]
+    assert (axis.centre, axis.expo, axis.inverted, axis.travel_m) == (0.1, 0.5, True, 0.03)
 
 
 def test_a_silent_device_rests_at_its_last_reading():
@@ -101,13 +102,7 @@ def test_unselected_axes_may_be_at_any_position():
         StickCalibrationRun(["X", "Slider"], selected_axes=["Q"])
 
 
-def test_curve_direction_and_travel_are_kept():
-    before = {"X": InputAxisCalibration(expo=0.5, inverted=True, travel_m=0.03)}
-    axis = calibrate([0.0], [-1.0, 1.0]).make_calibrations(before)["X"]
-    assert (axis.expo, axis.inverted, axis.travel_m) == (0.5, True, 0.03)
-
-
-@pytest.mark.parametrize("seed", range(50))
+@pytest.mark.parametrize("seed", range(12))
 def test_every_result_is_a_valid_calibration(seed):
     """Any input leads to a result or to a reason."""
     random = np.random.default_rng(seed)

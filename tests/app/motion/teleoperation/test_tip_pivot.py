@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rotemina.app.motion.teleoperation import LinearRateLaw, tip_pivot_modes
+from rotemina.app.motion.teleoperation import LinearRateLaw
 from rotemina.app.motion.teleoperation.tip_pivot_modes import PivotFrame
 from rotemina.drivers.mc68hc11.protocol import BoardAxis
 from rotemina.drivers.virtual_board.axis_drive import AxisDrive
@@ -55,17 +55,14 @@ class DelayedBoards:
         return row
 
 
-def measure_deviation_m(rate_share, both_tilts, nano_delay, phase=0.0, seconds=1.2):
-    """Return the deviation of the true tip, m, with the tilts at a share of their speed."""
+def measure_deviation_m(rate_share, nano_delay, phase=0.0, seconds=1.2):
+    """Return the deviation of the true tip, m, with both tilts at a share of their speed."""
     start = dict(zip(JOINTS, CHAIN.centre.tolist(), strict=True))
     start["x"], start["y"] = start["x"] + phase * 1e-7, start["y"] - 0.4 * phase * 1e-7
-    start |= {"thx": 1e-4, "thy": 1e-4 if both_tilts else start["thy"]}
+    start |= {"thx": 1e-4, "thy": 1e-4}
     frame = PivotFrame.begin_at(CHAIN, start)
     laws = {
-        name: LinearRateLaw(
-            coordinate.bounds,
-            coordinate.bounds.max_speed * (rate_share if both_tilts or name == "thx" else 1e-9),
-        )
+        name: LinearRateLaw(coordinate.bounds, rate_share * coordinate.bounds.max_speed)
         for name, coordinate in frame.coordinates.items()
     }
     for name, law in laws.items():
@@ -103,28 +100,18 @@ def measure_deviation_m(rate_share, both_tilts, nano_delay, phase=0.0, seconds=1
 
 @pytest.mark.parametrize("nano_delay", [-6, 6])  # ticks: 3 ms in either direction
 def test_the_true_tip_stays_within_200_nm(nano_delay):
-    assert measure_deviation_m(0.69, True, nano_delay) <= 200e-9
-    assert measure_deviation_m(1.0, True, nano_delay) <= 200e-9
+    assert measure_deviation_m(0.69, nano_delay) <= 200e-9
+    assert measure_deviation_m(1.0, nano_delay) <= 200e-9
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("nano_delay", [-6, -3, 0, 3, 6])
+@pytest.mark.parametrize("nano_delay", [-6, 0, 6])
 def test_the_true_tip_stays_within_200_nm_at_any_rate(nano_delay):
-    for share in (0.1, 0.25, 0.5, 0.69, 0.85, 1.0):
+    for share in (0.1, 0.69, 1.0):
         deviation_m = max(
-            measure_deviation_m(share, True, nano_delay, phase) for phase in (0.0, 0.25, 0.5, 0.75)
+            measure_deviation_m(share, nano_delay, phase) for phase in (0.0, 0.25, 0.5, 0.75)
         )
         print(
             f"{0.2 * share:.3g} mrad/s, nano {nano_delay * 0.5:+.1f} ms: {1e9 * deviation_m:.0f} nm"
         )
         assert deviation_m <= 200e-9
-
-
-def test_one_tilt_alone_deviates_less():
-    assert measure_deviation_m(1.0, False, 6) <= 130e-9
-
-
-def test_a_faster_table_would_deviate_more(monkeypatch):
-    """At 11 µm/s a table steps at its resonance frequency."""
-    monkeypatch.setattr(tip_pivot_modes, "MAX_PIVOT_TABLE_SPEED_M_S", 11e-6)
-    assert measure_deviation_m(1.0, True, -6) > 200e-9
