@@ -15,21 +15,31 @@ from rotemina.sim.robot_files import load_robot
 ROBOT = load_robot("rotemina")
 
 
-def test_refusal_reason_is_available_before_arming_and_reserves_nothing(bench):
+def assert_refused(bench, reason):
+    """Assert that the reason is available before arming, and that arming reserves nothing."""
+    owners = bench.session.snapshot().owners
+    assert reason in bench.find_refusal_reason()
+    with pytest.raises(InputError, match=reason):
+        bench.arm()
+    bench.step()
+    assert bench.session.snapshot().owners == owners
+
+
+def test_arming_is_refused_while_there_is_no_room_or_the_axes_are_in_use(bench):
     bench.prepare()
     assert bench.find_refusal_reason() is None
-    assert "the run needs 62 µm" in bench.prepare(start=32e-6).find_refusal_reason()
-    assert bench.session.snapshot().owners == {}
-    bench.session.go_to({"x": 0.03})
+    assert_refused(bench.prepare(start=32e-6), "the run needs 62 µm")
+    bench.session.go_to({"x": 0.03}, "joystick")
     bench.step()
-    assert "still moving" in bench.find_refusal_reason()
+    assert_refused(bench, "still moving")
     bench.harness.step_until_idle()
     bench.session.reservations.reserve("joystick")
-    assert "joystick controls axis" in bench.find_refusal_reason()
+    assert_refused(bench, "joystick controls axis")
+    assert bench.phase is PenetrationPhase.DISARMED
     bench.session.reservations.end_reservations("joystick")
     bench.prepare().arm()
     bench.press().step()
-    assert "a penetration is in phase approach" in bench.find_refusal_reason()
+    assert_refused(bench, "a penetration is in phase approach")
 
 
 def test_it_disarms_after_its_time_and_then_does_not_start(bench):
@@ -43,36 +53,14 @@ def test_it_disarms_after_its_time_and_then_does_not_start(bench):
         bench.press()
 
 
-def test_a_stop_disarms(bench):
-    bench.prepare().arm()
-    bench.session.stop()
-    bench.step()
-    assert bench.phase is PenetrationPhase.DISARMED
-    assert "a stop was requested" in bench.penetration.status.reason
-
-
-def test_a_start_after_an_unprocessed_stop_is_refused(bench):
+def test_a_stop_disarms_even_before_it_is_processed(bench):
     bench.prepare().arm()
     bench.session.stop()
     with pytest.raises(RequestRefusedError, match="a stop was requested"):
         bench.press()
-
-
-def test_nothing_starts_while_disarmed(bench):
-    with pytest.raises(RequestRefusedError, match="not armed"):
-        bench.press()
-
-
-def test_arming_does_not_displace_another_owner(bench):
-    bench.prepare()
-    bench.session.go_to({"x": 0.05}, "joystick")
-    with pytest.raises(RequestRefusedError, match="still moving"):
-        bench.arm()
-    bench.harness.step_until_idle()
-    bench.session.reservations.reserve("joystick")
-    with pytest.raises(RequestRefusedError, match="joystick controls axis"):
-        bench.arm()
+    bench.step()
     assert bench.phase is PenetrationPhase.DISARMED
+    assert "a stop was requested" in bench.penetration.status.reason
 
 
 @pytest.mark.parametrize(
@@ -97,13 +85,6 @@ def test_impossible_parameters_are_refused_at_arming(bench, parameters, error, m
     assert bench.phase is PenetrationPhase.DISARMED
     bench.step()
     assert bench.session.snapshot().owners == {}
-
-
-def test_a_robot_without_zn_is_refused(make_bench):
-    bench = make_bench(robot="picma")
-    bench.harness.step()
-    with pytest.raises(PenetrationError, match="has no axis 'zn' to penetrate with; it has p"):
-        bench.arm()
 
 
 def test_a_device_without_profiles_is_refused(bench, monkeypatch):

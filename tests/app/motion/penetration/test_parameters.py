@@ -1,9 +1,7 @@
 """Penetration parameters: strict bounds, messages in the operator's units, reading and writing."""
 
-from contextlib import suppress
-
 import pytest
-from hypothesis import HealthCheck, given, settings, strategies as st
+from hypothesis import given, settings, strategies as st
 
 from rotemina.app.errors import PenetrationError
 from rotemina.app.motion.penetration import PARAMETER_BOUNDS, PenetrationParameters
@@ -16,10 +14,8 @@ from rotemina.app.motion.penetration import PARAMETER_BOUNDS, PenetrationParamet
         ({"approach_speed": 0.0}, r"approach_speed = 0 m/s: must be 100 nm/s to 200 µm/s"),
         ({"hold_s": float("nan")}, "hold_s = nan: must be a finite number"),
         ({"hold_s": True}, "hold_s = True"),
-        ({"hold_s": "1"}, "hold_s = '1'"),
         ({"shape": "step"}, "shape = 'step': must be one of 's_curve', 'minimum_jerk', 'table'"),
         ({"shaping": 3}, "shaping = 3"),
-        ({"direction": "left"}, "'down', 'up'"),
         ({"axis": ""}, "axis = ''"),
         ({"table": ((0.0, 0.0), (1.0, 1.0))}, "must be given if and only if"),
         ({"shape": "table"}, "must be given if and only if shape is 'table'"),
@@ -34,52 +30,39 @@ def test_invalid_values_are_refused_with_value_and_bound(values, message):
         PenetrationParameters(**values)
 
 
+@settings(max_examples=30)
 @given(
     values=st.fixed_dictionaries(
         {}, optional={name: st.floats(b.minimum, b.maximum) for name, b in PARAMETER_BOUNDS.items()}
     ),
     shaping=st.sampled_from(["none", "zv", "zvd", "zvdd", "inverse"]),
     direction=st.sampled_from(["up", "down"]),
+    shape=st.sampled_from(
+        [{}, {"shape": "table", "table": ((0.0, 0.0), (0.25, 0.1), (1.0, 1.0)), "axis": 'z"n\\'}]
+    ),
 )
-def test_a_file_reads_back_to_the_same_parameters(values, shaping, direction):
-    parameters = PenetrationParameters(**values, shaping=shaping, direction=direction)
-    assert PenetrationParameters.from_text(parameters.text()) == parameters
-
-
-def test_a_file_on_disk_reads_back(tmp_path):
-    path = tmp_path / "cell.toml"
-    table = ((0.0, 0.0), (0.25, 0.1), (1.0, 1.0))
-    parameters = PenetrationParameters(shape="table", table=table, axis='z"n\\')
+def test_a_file_reads_back_to_the_same_parameters(
+    tmp_path_factory, values, shaping, direction, shape
+):
+    parameters = PenetrationParameters(**values, **shape, shaping=shaping, direction=direction)
+    path = tmp_path_factory.mktemp("parameters") / "cell.toml"
     parameters.save(path)
     assert PenetrationParameters.load(path) == parameters
 
 
 @pytest.mark.parametrize(
-    ("text", "message"),
+    ("content", "message"),
     [
-        ("dept = 1e-5", r"cell\.toml: dept = 1e-05: unknown key; did you mean 'depth'"),
-        ("zzz = 1", "known here: axis, direction"),
-        ("depth = 1.0", r"cell\.toml: depth = 1 m: must be"),
-        ("depth = [", "not valid TOML"),
+        (b"dept = 1e-5", r"cell\.toml: dept = 1e-05: unknown key; did you mean 'depth'"),
+        (b"zzz = 1", "known here: axis, direction"),
+        (b"depth = 1.0", r"cell\.toml: depth = 1 m: must be"),
+        (b"#" * 200_000, "larger"),
+        (None, "cannot be read"),
     ],
 )
-def test_a_bad_file_is_refused_with_its_name_and_key(tmp_path, text, message):
+def test_a_bad_file_is_refused_with_its_name_and_key(tmp_path, content, message):
     path = tmp_path / "cell.toml"
-    path.write_text(text, "utf-8")
+    if content is not None:
+        path.write_bytes(content)
     with pytest.raises(PenetrationError, match=message):
         PenetrationParameters.load(path)
-
-
-def test_a_file_that_is_no_text_is_refused(tmp_path):
-    (tmp_path / "raw.toml").write_bytes(b"\xff\xfe")
-    (tmp_path / "long.toml").write_bytes(b"#" * 200_000)
-    for name, message in (("raw", "not UTF-8"), ("long", "larger"), ("none", "cannot be read")):
-        with pytest.raises(PenetrationError, match=message):
-            PenetrationParameters.load(tmp_path / f"{name}.toml")
-
-
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=50)
-@given(data=st.text(max_size=200))
-def test_any_text_is_read_or_refused(data):
-    with suppress(PenetrationError):
-        PenetrationParameters.from_text(data)

@@ -24,7 +24,7 @@ def test_the_resonance_is_that_of_the_robot_file():
 
 
 @pytest.mark.parametrize("shape", ["s_curve", "minimum_jerk", "table"])
-@pytest.mark.parametrize("shaping", ["none", "zv", "zvd", "zvdd"])
+@pytest.mark.parametrize("shaping", ["none", "zv", "zvdd"])
 def test_a_board_runs_the_planned_profile(shape, shaping):
     parameters = PenetrationParameters(
         shape=shape, shaping=shaping, table=TABLE if shape == "table" else ()
