@@ -64,21 +64,23 @@ class OperationBench:
 
 
 @pytest.fixture
-def bench(tmp_path):
-    bench = OperationBench(tmp_path)
-    yield bench
-    bench.operation.close()
-    bench.session.close()
+def make_bench(tmp_path):
+    """Return a function that starts the operator's side again with the same folders."""
+    benches = []
+
+    def make():
+        benches.append(OperationBench(tmp_path))
+        return benches[-1]
+
+    yield make
+    for bench in benches:
+        bench.operation.close()
+        bench.session.close()
 
 
-def test_a_stick_moves_the_robot_until_it_is_released(bench):
-    start = bench.run(0.3).command["x"]
-    bench.stick.deflect("x", 1.0)
-    assert bench.run(0.5).command["x"] > start + 1e-4
-    bench.stick.release_all()
-    rest = bench.run(0.5).command["x"]
-    assert bench.run(0.3).command["x"] == rest
-    assert bench.messages == []
+@pytest.fixture
+def bench(make_bench):
+    return make_bench()
 
 
 def test_unplugging_the_stick_during_a_move_stops_it(bench):
@@ -89,21 +91,6 @@ def test_unplugging_the_stick_during_a_move_stops_it(bench):
     bench.run(0.2)
     assert bench.session.stop_requested_s is not None
     assert bench.session.snapshot().activity is DeviceState.IDLE
-
-
-def test_the_penetration_button_gives_the_refusal_and_starts_when_armed(bench):
-    bench.run(0.3)
-    bench.press(OperatorAction.PENETRATION)
-    assert "not armed" in bench.messages[0]
-    bench.session.go_to({"zn": 60e-6})
-    bench.run(1.0)
-    bench.operation.arm_penetration(PenetrationParameters(depth=2e-5))
-    bench.press(OperatorAction.PENETRATION)
-    assert str(bench.operation.penetration.status.phase) == "approach"
-    bench.press(OperatorAction.PENETRATION)
-    bench.run(2.0)
-    assert str(bench.operation.penetration.status.phase) == "aborted"
-    assert (bench.operation.data / "penetrations.jsonl").exists()
 
 
 def test_the_tool_is_switched_by_its_button(bench):
@@ -176,38 +163,31 @@ def test_the_session_is_recorded(bench, tmp_path):
     assert x[-1] > x[0]
 
 
-def test_scales_are_saved_and_a_bad_file_is_reported(bench, tmp_path):
-    bench.run(0.3)
+def test_scales_are_saved_and_a_bad_file_is_reported(make_bench, tmp_path):
     scales = ModeScales().with_scale("micro", "x", CoordinateScale(way=1e-3, speed=2e-3))
-    bench.operation.use_scales(scales)
-    second_bench = OperationBench(tmp_path)
-    assert second_bench.operation.teleoperator.scales == scales
-    second_bench.operation.close()
+    make_bench().operation.use_scales(scales)
+    assert make_bench().operation.teleoperator.scales == scales
     (tmp_path / "config" / SCALES_FILE).write_text("modes = 3", "utf-8")
-    bench_with_bad_file = OperationBench(tmp_path)
-    assert SCALES_FILE in bench_with_bad_file.operation.problems[0]
-    assert bench_with_bad_file.operation.teleoperator.scales == ModeScales()
-    bench_with_bad_file.operation.close()
+    operation = make_bench().operation
+    assert SCALES_FILE in operation.problems[0]
+    assert operation.teleoperator.scales == ModeScales()
 
 
-def test_penetration_parameters_are_saved_and_a_bad_file_is_reported_at_the_start(tmp_path):
-    first_bench = OperationBench(tmp_path)
-    assert first_bench.operation.penetration_parameters == PenetrationParameters()
+def test_penetration_parameters_are_saved_and_a_bad_file_is_reported_at_the_start(
+    make_bench, tmp_path
+):
+    operation = make_bench().operation
+    assert operation.penetration_parameters == PenetrationParameters()
     parameters = PenetrationParameters(depth=2e-5, shape="table", table=((0.0, 0.0), (1.0, 1.0)))
-    first_bench.operation.save_penetration_parameters(parameters)
-    first_bench.operation.close()
-    second_bench = OperationBench(tmp_path)
-    assert second_bench.operation.penetration_parameters == parameters
-    second_bench.operation.close()
+    operation.save_penetration_parameters(parameters)
+    assert make_bench().operation.penetration_parameters == parameters
     (tmp_path / "config" / PENETRATION_FILE).write_text("depth = 3", "utf-8")
-    bench_with_bad_file = OperationBench(tmp_path)
-    assert bench_with_bad_file.operation.penetration_parameters == PenetrationParameters()
-    assert bench_with_bad_file.messages == []  # no window could show it yet
-    bench_with_bad_file.operation.start()
-    bench_with_bad_file.operation.close()
-    assert (
-        "depth = 3 m: must be 1 µm to 100 µm; presets are used" in bench_with_bad_file.messages[0]
-    )
+    bench = make_bench()
+    assert bench.operation.penetration_parameters == PenetrationParameters()
+    assert bench.messages == []  # no window could show it yet
+    bench.operation.start()
+    bench.operation.close()
+    assert "depth = 3 m: must be 1 µm to 100 µm; presets are used" in bench.messages[0]
 
 
 def test_its_threads_end(tmp_path):
