@@ -16,10 +16,10 @@ from rotemina.app.microscope import (
     StageCalibration,
     StageCalibrationPhase,
     TipState,
-    VisitState,
 )
 from rotemina.app.microscope.calibration_file import CalibratedRegion, MicroscopeCalibration
 from rotemina.app.microscope.calibration_run import StageCalibrationRun
+from rotemina.app.motion.recording import SessionRecorder
 from rotemina.app.motion.session import MotionSession
 from rotemina.drivers.cameras import CameraHub, SimulatedMicroscope
 from rotemina.drivers.contract import DeviceState, VirtualClock
@@ -39,6 +39,18 @@ HIDDEN_MOUNTING = MappingProxyType(
         "offset_px": (30.0, -20.0),
     }
 )
+
+
+def make_stage_calibration(optics, tip_m):
+    """Make a calibration from the true mounting, without moves."""
+    return StageCalibration(
+        date="2026-11-21T10:00:00+00:00",
+        matrix=tuple(map(tuple, optics.mapping[:, :2].tolist())),
+        covariance=tuple(map(tuple, (1e4 * np.eye(4)).tolist())),
+        tip_m=tuple(tip_m.tolist()),
+        tip_px=tuple(optics.pixel_of(tip_m).tolist()),
+        residual_px=0.05,
+    )
 
 
 class CameraBench:
@@ -104,10 +116,11 @@ class CameraBench:
         """Return the pixel at this offset from the tip."""
         return self.true_pixel() + np.array([columns, rows])
 
+    def true_tip(self):
+        return compute_tip_position(self.chain, np.array(self.driver.true_positions))
+
     def true_pixel(self):
-        return self.optics.pixel_of(
-            compute_tip_position(self.chain, np.array(self.driver.true_positions))
-        )
+        return self.optics.pixel_of(self.true_tip())
 
     def start_calibration(self, stage=MICRO, pipette=True, **options):
         return StageCalibrationRun(
@@ -119,18 +132,17 @@ class CameraBench:
             **options,
         )
 
-    def run_until_finished(self, run, max_steps=1500):
+    def run_until(self, run, condition, max_steps=1500):
+        """Step a run of the microscope until a condition of its status holds; return the status."""
         for _ in range(max_steps):
             self.step()
-            status = run.step(self.clock())
-            if getattr(status, "phase", None) in (
-                StageCalibrationPhase.DONE,
-                StageCalibrationPhase.FAILED,
-            ):
-                return status
-            if getattr(status, "state", None) in (VisitState.ARRIVED, VisitState.FAILED):
-                return status
-        raise AssertionError(f"still {status}")
+            run.step(self.clock())
+            if condition(run.status):
+                return run.status
+        raise AssertionError(f"still {run.status}")
+
+    def run_until_finished(self, run):
+        return self.run_until(run, lambda _: run.ended)
 
     def calibrate_stages(self, *stages):
         """Calibrate stages and return the calibration."""
@@ -150,17 +162,7 @@ class CameraBench:
         )
 
     def make_true_calibration(self):
-        """Make a calibration from the true mounting, without moves."""
-        matrix = self.optics.mapping[:, :2]
-        tip_m = compute_tip_position(self.chain, np.array(self.driver.true_positions))
-        stage = StageCalibration(
-            date="2026-11-21T10:00:00+00:00",
-            matrix=tuple(map(tuple, matrix.tolist())),
-            covariance=tuple(map(tuple, (1e4 * np.eye(4)).tolist())),
-            tip_m=tuple(tip_m.tolist()),
-            tip_px=tuple(self.true_pixel().tolist()),
-            residual_px=0.05,
-        )
+        stage = make_stage_calibration(self.optics, self.true_tip())
         return self.make_empty_calibration().with_stage(MICRO, stage).with_stage(NANO, stage)
 
     def make_grey_image(self):
@@ -247,13 +249,14 @@ class MicroscopeRig:
             wait=self.clock.advance,
             mounting=mounting,
         )
-        self.feed = None
+        self.feed = self.recorder = None
         self.microscope = Microscope(
             self.session,
             folder,
             hub=CameraHub({"simulated": source}),
             clock=self.clock,
             make_feed=self._make_feed,
+            get_recorder=lambda: self.recorder,
             **options,
         )
         self.chain = KinematicChain.of(self.robot)
@@ -293,18 +296,14 @@ class MicroscopeRig:
         return self.optics.pixel_of(self.true_tip())
 
     def store_true_calibration(self):
-        """Store calibrations from the true mounting, without moves."""
-        tip_m = self.true_tip()
-        stage = StageCalibration(
-            date="2026-11-21T10:00:00+00:00",
-            matrix=tuple(map(tuple, self.optics.mapping[:, :2].tolist())),
-            covariance=tuple(map(tuple, (1e4 * np.eye(4)).tolist())),
-            tip_m=tuple(tip_m.tolist()),
-            tip_px=tuple(self.true_pixel().tolist()),
-            residual_px=0.05,
-        )
+        stage = make_stage_calibration(self.optics, self.true_tip())
         for name in (MICRO, NANO):
             self.microscope.setup.store_stage(name, stage, self.feed.newest.region)
+
+    def start_recording(self, path):
+        self.recorder = SessionRecorder(self.session, path, clock=self.clock)
+        self.recorder.start(thread=False)
+        return self.recorder
 
     def start_tracking(self):
         """Start to track the tip, whose direction is roughly known."""

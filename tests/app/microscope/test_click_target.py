@@ -1,4 +1,4 @@
-"""Clicks: the microscope's acceptance test, refusals and sequences of targets."""
+"""Clicks: the microscope's acceptance test, and refusals."""
 
 import numpy as np
 import pytest
@@ -7,7 +7,6 @@ from rotemina.app.errors import MicroscopeError, RequestRefusedError
 from rotemina.app.microscope import MICRO, NANO, VisitState
 from rotemina.app.microscope.click_corrections import VisitRun
 from rotemina.app.microscope.click_target import ClickMover
-from rotemina.app.microscope.targets import TargetSequence
 from rotemina.sim.errors import OutOfLimitsError
 from rotemina.sim.robot import AxisEffect
 
@@ -73,25 +72,6 @@ def test_ghost_predicts_the_tip_before_the_move(bench, clicks):
     assert bench.true_pixel() == pytest.approx(move.predicted_px, abs=0.5)
 
 
-def test_large_move_needs_confirmation(bench, clicks):
-    clicks.confirm_m = 20e-6
-    move = clicks.plan(bench.make_offset_pixel(100.0, 0.0))
-    assert move.needs_confirmation
-    with pytest.raises(MicroscopeError, match="confirm"):
-        clicks.go(move)
-    clicks.go(move, confirmed=True)
-
-
-def test_undo_moves_the_tip_back(bench, clicks):
-    start_pixel = bench.true_pixel()
-    clicks.go(clicks.plan(bench.make_offset_pixel(30.0, 20.0)))
-    bench.step(40)
-    assert np.linalg.norm(bench.true_pixel() - start_pixel) > 30.0
-    clicks.session.undo()
-    bench.step(60)
-    assert bench.true_pixel() == pytest.approx(start_pixel, abs=0.3)
-
-
 @pytest.mark.parametrize("pixel", [(-5.0, 100.0), (700.0, 100.0), (100.0, 520.0), (np.nan, 1.0)])
 def test_click_outside_the_calibrated_field_is_refused(clicks, pixel):
     with pytest.raises(MicroscopeError, match="outside the calibrated field"):
@@ -129,25 +109,3 @@ def test_misplaced_tip_ends_the_visit_without_correction(bench, clicks):
     status = bench.run_until_finished(run)
     assert status.state is VisitState.FAILED
     assert status.corrections == 0
-
-
-def test_targets_are_visited_in_order(bench, clicks):
-    sequence = TargetSequence(lambda pixel: start_visit(bench, clicks, pixel))
-    pixels = [(300.0, 220.0), (340.0, 260.0)]
-    for pixel in pixels:
-        sequence.mark(np.array(pixel))
-    for pixel in pixels:
-        target = sequence.visit_next()
-        with pytest.raises(MicroscopeError, match="moving to a target"):
-            sequence.visit_next()
-        for _ in range(200):
-            bench.step()
-            target = sequence.step(bench.clock())
-            if target.visit is VisitState.ARRIVED:
-                break
-        assert (target.column, target.row) == pixel
-        assert bench.true_pixel() == pytest.approx(pixel, abs=0.5)
-    with pytest.raises(MicroscopeError, match="every target"):
-        sequence.visit_next()
-    sequence.clear()
-    assert not sequence.targets

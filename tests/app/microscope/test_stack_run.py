@@ -28,14 +28,6 @@ def start_stack(bench, positions, move=None):
     )
 
 
-def run_until_finished(bench, run):
-    for _ in range(400):
-        bench.step()
-        if run.step(bench.clock()).state is not MicroscopeRunState.UNDER_WAY:
-            return run.status
-    raise AssertionError(run.status)
-
-
 def test_positions_are_evenly_spaced_up_to_the_last():
     assert compute_stack_positions(-2 * UM, 2 * UM, UM) == pytest.approx(
         [-2 * UM, -UM, 0.0, UM, 2 * UM]
@@ -61,14 +53,14 @@ def test_pictures_match_their_positions_despite_failed_reads(bench, monkeypatch)
 
     monkeypatch.setattr(SceneRenderer, "render_frame", render_or_fail)
     positions = compute_stack_positions(-20 * UM, 20 * UM, 20 * UM)
-    status = run_until_finished(bench, start_stack(bench, positions))
+    status = bench.run_until_finished(start_stack(bench, positions))
     assert status.state is MicroscopeRunState.DONE, status.reason
     assert [page.frame.metadata["focus_m"] for page in status.pages] == list(positions)
 
 
 def test_stack_takes_a_picture_per_position_returns_and_is_written(bench, tmp_path):
     positions = compute_stack_positions(-20 * UM, 20 * UM, 20 * UM)
-    status = run_until_finished(bench, start_stack(bench, positions))
+    status = bench.run_until_finished(start_stack(bench, positions))
     assert status.state is MicroscopeRunState.DONE, status.reason
     assert bench.camera.focus_m == 0.0
     assert [page.focus_m for page in status.pages] == list(positions)
@@ -88,11 +80,9 @@ def test_stack_takes_a_picture_per_position_returns_and_is_written(bench, tmp_pa
 
 def test_stop_ends_the_stack_in_place(bench):
     run = start_stack(bench, compute_stack_positions(-20 * UM, 20 * UM, 10 * UM))
-    while run.status.done < 2:
-        bench.step()
-        run.step(bench.clock())
+    bench.run_until(run, lambda status: status.done >= 2)
     bench.session.stop()
-    status = run_until_finished(bench, run)
+    status = bench.run_until_finished(run)
     assert status.state is MicroscopeRunState.FAILED
     assert status.pages == ()
     assert bench.camera.focus_m < 10 * UM
@@ -110,12 +100,10 @@ def test_failed_return_keeps_the_pictures(bench, is_refused):
         bench.camera.move_focus(place)
 
     run = start_stack(bench, (-20 * UM, 20 * UM), move)
-    while len(moves) < 3:
-        bench.step()
-        run.step(bench.clock())
+    bench.run_until(run, lambda _: len(moves) == 3)
     if not is_refused:
         bench.session.stop()
-    status = run_until_finished(bench, run)
+    status = bench.run_until_finished(run)
     assert status.state is MicroscopeRunState.DONE
     assert [page.focus_m for page in status.pages] == [-20 * UM, 20 * UM]
     assert status.reason.startswith("the return to the start position failed: ")
