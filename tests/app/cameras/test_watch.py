@@ -25,23 +25,11 @@ def classify_pictures(pictures, **kwargs):
     return [check.classify(frame) for frame in make_frames(pictures, **kwargs)]
 
 
-def test_noisy_stream_is_live():
-    assert set(classify_pictures(make_noisy_pictures(30))) == {PictureState.LIVE}
-
-
-def test_stream_freezes_and_recovers():
-    live = make_noisy_pictures(3)
-    states = classify_pictures([*live, *[live[-1]] * 12, *make_noisy_pictures(2, seed=2)])
-    first = states.index(PictureState.FROZEN)
-    assert first == 12  # one second after the last new picture
-    assert states[-1] is PictureState.LIVE
-    assert set(states[first:15]) == {PictureState.FROZEN}
-
-
-@pytest.mark.parametrize("buffers", [2, 3, 4, 16])
+@pytest.mark.parametrize("buffers", [1, 2, 16])
 def test_driver_that_cycles_through_its_buffers_is_frozen(buffers):
     live = make_noisy_pictures(20)
     states = classify_pictures([*live, *live[-buffers:] * 20, *make_noisy_pictures(2, seed=2)])
+    assert set(states[:20]) == {PictureState.LIVE}
     first = states.index(PictureState.FROZEN)
     assert first == 29  # one second after the last new picture
     assert set(states[first:-2]) == {PictureState.FROZEN}
