@@ -118,25 +118,17 @@ def test_a_device_without_a_laser_is_stopped_at_once():
     bench.session.close()
 
 
-def test_stop_aborts_the_run(bench):
+@pytest.mark.parametrize("is_lost", [False, True])
+def test_stop_or_a_lost_connection_aborts_the_run(bench, is_lost):
     run = bench.make_run()
     run.start()
     bench.step(10)
-    run.stop()
+    bench.session.disconnect() if is_lost else run.stop()
     bench.step(10)
     assert run.state.phase is CalibrationPlaybackPhase.FAILED
     assert run.record is None
     with pytest.raises(RequestRefusedError, match="already started"):
         run.start()
-
-
-def test_lost_connection_aborts_the_run(bench):
-    run = bench.make_run()
-    run.start()
-    bench.step(10)
-    bench.session.disconnect()
-    bench.step(2)
-    assert run.state.phase is CalibrationPlaybackPhase.FAILED
     run.close()
 
 

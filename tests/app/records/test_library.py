@@ -68,6 +68,16 @@ def map_names_to_notes(catalogue):
     return {entry.name: entry.note for entry in catalogue.entries}
 
 
+@pytest.fixture
+def tour(data_folder):
+    """Path of a listed record that has a note."""
+    path = data_folder / "played" / "tour.csv"
+    write_zn_record(path)
+    catalogue = refresh_catalogue(data_folder)
+    catalogue.set_texts(catalogue.entries[0].id, name="first try", note="keep me")
+    return path
+
+
 def test_files_in_the_folders_are_listed_with_their_metadata(data_folder, make_recording):
     write_zn_record(data_folder / "played" / "2026-03-04_05-06-07-000250_tour.csv.gz")
     # A record of an older program has no metadata.
@@ -107,41 +117,27 @@ def test_unchanged_files_are_not_opened_again(data_folder, monkeypatch):
     assert refresh_catalogue(data_folder).entries == before
 
 
-def test_texts_survive_changed_missing_and_restored_files(data_folder):
-    path = data_folder / "played" / "tour.csv"
-    write_zn_record(path)
-    catalogue = refresh_catalogue(data_folder)
-    catalogue.set_texts(catalogue.entries[0].id, name="first try", note="the dish was dry")
-    write_zn_record(path, rows=300)  # another record was written to the same path
-    catalogue.refresh()
-    (entry,) = catalogue.entries
-    assert (entry.name, entry.note, entry.changed) == ("first try", "the dish was dry", True)
+def test_texts_survive_changed_missing_and_restored_files(data_folder, tour):
+    write_zn_record(tour, rows=300)  # another record was written to the same path
+    (entry,) = refresh_catalogue(data_folder).entries
+    assert (entry.name, entry.note, entry.changed) == ("first try", "keep me", True)
     assert entry.duration_s == pytest.approx(2.99)
-    path.rename(data_folder / "elsewhere.csv")
-    catalogue.refresh()
-    assert catalogue.entries[0].missing
-    assert not catalogue.entries[0].is_usable
-    (data_folder / "elsewhere.csv").rename(path)
-    catalogue.refresh()
-    assert (catalogue.entries[0].missing, catalogue.entries[0].note) == (False, "the dish was dry")
+    tour.rename(data_folder / "elsewhere.csv")
+    (entry,) = refresh_catalogue(data_folder).entries
+    assert (entry.missing, entry.is_usable) == (True, False)
+    (data_folder / "elsewhere.csv").rename(tour)
+    (entry,) = refresh_catalogue(data_folder).entries
+    assert (entry.missing, entry.note) == (False, "keep me")
 
 
-def test_renamed_or_touched_file_keeps_its_entry(data_folder):
-    path = data_folder / "played" / "tour.csv"
-    write_zn_record(path)
-    catalogue = refresh_catalogue(data_folder)
-    catalogue.set_texts(catalogue.entries[0].id, note="keep me")
-    path.rename(path.with_name("renamed.csv"))
-    path.with_name("renamed.csv").touch()
-    catalogue.refresh()
-    (entry,) = catalogue.entries
+def test_renamed_or_touched_file_keeps_its_entry(data_folder, tour):
+    tour.rename(tour.with_name("renamed.csv")).touch()
+    (entry,) = refresh_catalogue(data_folder).entries
     assert (entry.path.name, entry.note, entry.changed) == ("renamed.csv", "keep me", False)
 
 
+@pytest.mark.usefixtures("tour")
 def test_data_folder_can_be_moved_or_copied(data_folder, tmp_path):
-    write_zn_record(data_folder / "played" / "tour.csv")
-    catalogue = refresh_catalogue(data_folder)
-    catalogue.set_texts(catalogue.entries[0].id, note="keep me")
     # ``copyfile`` gives the copies new dates.
     shutil.copytree(data_folder, tmp_path / "copy", copy_function=shutil.copyfile)
     shutil.rmtree(data_folder)
