@@ -2,8 +2,6 @@
 
 from dataclasses import replace
 
-import pytest
-
 from rotemina.drivers.cameras import (
     CameraIdentity,
     CameraSettings,
@@ -13,54 +11,39 @@ from rotemina.drivers.cameras import (
 from rotemina.plugins.microscope.camera_section import CameraSection, CameraSettingsSection
 
 
-@pytest.fixture
-def section(qtbot, microscope, window):
-    microscope.feed(
-        description=replace(
-            microscope.status.feed.description,
-            pixel_types=(PixelType.COLOUR, PixelType.MONO16, PixelType.MONO8),
-        )
-    )
-    settings_section = CameraSettingsSection(window.workbench, microscope, None)
-    qtbot.addWidget(settings_section)
-    settings_section.refresh(microscope.status)
-    return settings_section
-
-
 def get_selection(section):
     return section.pixel_type.currentData(), section.trigger.currentData()
 
 
-def test_settings_changed_elsewhere_are_shown(section, microscope):
+def test_the_form_follows_the_camera_unless_the_operator_selects_another(qtbot, microscope, window):
+    pixel_types = (PixelType.COLOUR, PixelType.MONO16, PixelType.MONO8)
+    description = replace(microscope.status.feed.description, pixel_types=pixel_types)
+    microscope.feed(description=description)
+    section = CameraSettingsSection(window.workbench, microscope, None)
+    qtbot.addWidget(section)
+
+    def show(**changes):
+        microscope.feed(**changes)
+        section.refresh(microscope.status)
+        return get_selection(section)
+
     # Without a requested type, the camera uses its first one.
-    assert get_selection(section) == (PixelType.COLOUR, CameraTrigger.FREE)
+    assert show() == (PixelType.COLOUR, CameraTrigger.FREE)
     settings = CameraSettings(pixel_type=PixelType.MONO16, trigger=CameraTrigger.SOFTWARE)
-    microscope.feed(settings=settings)
-    section.refresh(microscope.status)
-    assert get_selection(section) == (PixelType.MONO16, CameraTrigger.SOFTWARE)
-    microscope.feed(settings=CameraSettings())
-    section.refresh(microscope.status)
-    assert get_selection(section) == (PixelType.COLOUR, CameraTrigger.FREE)
-
-
-def test_a_reopened_camera_shows_its_own_settings(section, microscope):
-    description = microscope.status.feed.description
+    assert show(settings=settings) == (PixelType.MONO16, CameraTrigger.SOFTWARE)
+    assert show(settings=CameraSettings()) == (PixelType.COLOUR, CameraTrigger.FREE)
     section.pixel_type.select(PixelType.MONO8)
     section.trigger.select(CameraTrigger.SOFTWARE)
-    microscope.feed(description=None)
-    section.refresh(microscope.status)
-    microscope.feed(description=description)
-    section.refresh(microscope.status)
-    assert get_selection(section) == (PixelType.COLOUR, CameraTrigger.FREE)
+    show(description=None)
+    # A reopened camera shows its own settings.
+    assert show(description=description) == (PixelType.COLOUR, CameraTrigger.FREE)
 
-
-def test_the_operator_can_select_another_camera_than_the_open_one(qtbot, microscope, window):
-    section = CameraSection(window.workbench, microscope)
-    qtbot.addWidget(section)
+    cameras = CameraSection(window.workbench, microscope)
+    qtbot.addWidget(cameras)
     other_camera = CameraIdentity("fake:1", "Other", "fake")
     microscope.change(cameras=(*microscope.status.cameras, other_camera))
-    section.refresh(microscope.status)
-    assert section.choice.currentData() == "fake:0"
-    section.choice.select("fake:1")
-    section.refresh(microscope.status)
-    assert section.choice.currentData() == "fake:1"
+    cameras.refresh(microscope.status)
+    assert cameras.choice.currentData() == "fake:0"
+    cameras.choice.select("fake:1")
+    cameras.refresh(microscope.status)
+    assert cameras.choice.currentData() == "fake:1"

@@ -103,6 +103,31 @@ def press_go(qtbot, section):
     qtbot.mouseClick(section.go, Qt.MouseButton.LeftButton)
 
 
+def zoom_and_pan(qtbot, section):
+    """Check that the wheel keeps the point under the mouse, and that a drag pans."""
+    view, cursor = section.view, QPointF(60.0, 80.0)
+    position, span = view._make_projection().to_position(cursor), view._span_m
+    event = QWheelEvent(
+        cursor,
+        view.mapToGlobal(cursor),
+        QPoint(),
+        QPoint(0, 120),
+        Qt.MouseButton.NoButton,
+        Qt.KeyboardModifier.NoModifier,
+        Qt.ScrollPhase.NoScrollPhase,
+        False,
+    )
+    QApplication.sendEvent(view, event)
+    assert view._span_m < span
+    assert view._make_projection().to_position(cursor) == pytest.approx(position)
+    goal = section.goal
+    qtbot.mousePress(view, Qt.MouseButton.LeftButton, pos=QPoint(60, 80))
+    qtbot.mouseMove(view, QPoint(100, 90))
+    qtbot.mouseRelease(view, Qt.MouseButton.LeftButton, pos=QPoint(100, 90))
+    assert section.goal is goal
+    assert view._make_projection().to_position(QPointF(100.0, 90.0)) == pytest.approx(position)
+
+
 def test_a_click_chooses_a_saved_place_and_the_button_moves_there(qtbot, workbench, section):
     session = workbench.session
     start = dict(session.snapshot().command)
@@ -121,7 +146,9 @@ def test_a_click_chooses_a_saved_place_and_the_button_moves_there(qtbot, workben
     qtbot.waitUntil(lambda: rests_at(session, start), timeout=LONG_MS)
 
 
-def test_cells_and_free_places_are_chosen_and_other_axes_stay(qtbot, workbench, section):
+def test_cells_and_free_places_of_a_zoomed_map_are_chosen_and_other_axes_stay(
+    qtbot, workbench, section
+):
     cell = next(place for place in section._known_places if place.kind is PlaceKind.CELL)
     click_at(qtbot, section, *cell.tip_m[:2])
     assert section.goal == cell
@@ -130,6 +157,7 @@ def test_cells_and_free_places_are_chosen_and_other_axes_stay(qtbot, workbench, 
     assert section.goal is None  # the cell was removed
     command = dict(workbench.session.snapshot().command)
     tip = TipMap(ROBOT).compute_tip(command)
+    zoom_and_pan(qtbot, section)
     section.view.fit(whole_reach=False)
     section.view._span_m = 1e-3
     section.view._middle = tip
@@ -160,28 +188,3 @@ def test_a_far_place_needs_a_confirmation_that_a_stop_cancels(qtbot, workbench, 
     update_map(section)
     assert not section.go.isEnabled()
     workbench.stop()
-
-
-def test_the_wheel_keeps_the_point_under_the_mouse_and_a_drag_pans(qtbot, section):
-    view, cursor = section.view, QPointF(60.0, 80.0)
-    position, span = view._make_projection().to_position(cursor), view._span_m
-    no_modifier = Qt.KeyboardModifier.NoModifier, Qt.ScrollPhase.NoScrollPhase
-    wheel_step = QPoint(0, 120)
-    event = QWheelEvent(
-        cursor,
-        view.mapToGlobal(cursor),
-        QPoint(),
-        wheel_step,
-        Qt.MouseButton.NoButton,
-        *no_modifier,
-        False,
-    )
-    QApplication.sendEvent(view, event)
-    assert view._span_m < span
-    assert view._make_projection().to_position(cursor) == pytest.approx(position)
-    goal = section.goal
-    qtbot.mousePress(view, Qt.MouseButton.LeftButton, pos=QPoint(60, 80))
-    qtbot.mouseMove(view, QPoint(100, 90))
-    qtbot.mouseRelease(view, Qt.MouseButton.LeftButton, pos=QPoint(100, 90))
-    assert section.goal is goal
-    assert view._make_projection().to_position(QPointF(100.0, 90.0)) == pytest.approx(position)

@@ -40,25 +40,29 @@ def make_recorder(name="session"):
 
 
 def test_a_snapshot_has_the_raw_and_the_displayed_picture(microscope, tmp_path):
-    frame = microscope.status.feed.frame
+    frame, folder = microscope.status.feed.frame, tmp_path / "pictures"
     circumstances = make_circumstances(microscope.status, STATE, NOW, "a.arrows")
     contrast = ContrastSettings(auto=False, table=ColourTable.INVERTED)
-    tiff, png = write_pictures(tmp_path / "pictures", frame, contrast, circumstances, "one")
+    tiff, png = write_pictures(folder, frame, contrast, circumstances, "one")
     with tifffile.TiffFile(tiff) as file:
         np.testing.assert_array_equal(file.pages[0].asarray(), frame.pixels)
         metadata = json.loads(file.pages[0].description)
-    assert metadata["taken"] == "2026-03-04T05:06:07.890+00:00"
-    assert (metadata["camera"], metadata["objective"]) == ("Fake (fake:0)", "20x")
-    assert metadata["pixel_m"] == microscope.status.pixel_m
-    assert (metadata["command"], metadata["measured"]) == ({"x": 0.01}, {"x": 0.0101})
-    assert metadata["recording"] == "a.arrows"
+    expected = {
+        "taken": "2026-03-04T05:06:07.890+00:00",
+        "camera": "Fake (fake:0)",
+        "objective": "20x",
+        "pixel_m": microscope.status.pixel_m,
+        "command": {"x": 0.01},
+        "measured": {"x": 0.0101},
+        "recording": "a.arrows",
+    }
+    assert {key: metadata[key] for key in expected} == expected
     with Image.open(png) as image:
         displayed = np.asarray(image)
-    expected = 255 - np.rint(255.0 * frame.pixels / 4095)
-    np.testing.assert_array_equal(displayed[..., 1], expected)
-    (tmp_path / "pictures" / "taken").write_text("")
+    np.testing.assert_array_equal(displayed[..., 1], 255 - np.rint(255.0 * frame.pixels / 4095))
+    (folder / "taken").write_text("")
     with pytest.raises(MicroscopeError, match="cannot be created"):
-        write_pictures(tmp_path / "pictures" / "taken", frame, contrast, circumstances, "one")
+        write_pictures(folder / "taken", frame, contrast, circumstances, "one")
 
 
 def test_a_video_has_every_picture_until_it_ends(microscope, video_capture, make_numbered_frame):

@@ -69,6 +69,35 @@ def tools(microscope, view, session):
     return controller
 
 
+def make_frame(level=0, number=1, bright=None):
+    """Return a picture of one grey level, with a white part if its rows and columns are given."""
+    pixels = np.full((103, 130), level, np.uint16)
+    if bright is not None:
+        pixels[bright] = 4095
+    return CameraFrame(pixels, 0.0, number, 12, SensorRegion(0, 0, 130, 103))
+
+
+def show_frame(qtbot, view, microscope, frame):
+    """Show a picture without overlays and with fixed contrast, and return the painted view."""
+    for layer in OverlayLayer:
+        view.set_layer(layer, False)
+    view.set_contrast(ContrastSettings(auto=False))
+    microscope.feed(frame=frame)
+    with qtbot.waitSignal(view.painted, check_params_cb=lambda painted: painted is frame):
+        view.show_status(microscope.status)
+
+
+def read_level(view, image, column, row):
+    """Return the red level of a painted view at a pixel of the picture."""
+    return QColor(image.pixel(to_point(view, column, row))).red()
+
+
+def drag(qtbot, view, button, begin, end):
+    qtbot.mousePress(view, button, pos=begin)
+    qtbot.mouseMove(view, end)
+    qtbot.mouseRelease(view, button, pos=end)
+
+
 def to_point(view, column, row):
     return QPointF(*view.viewport.to_screen(column, row)).toPoint()
 
@@ -77,45 +106,36 @@ def list_call_names(microscope):
     return [call[0] for call in microscope.calls]
 
 
-def test_the_newest_picture_is_painted_at_its_place_and_veiled_if_frozen(qtbot, view, microscope):
-    pixels = np.zeros((103, 130), np.uint16)
-    pixels[40:60, 30:50] = 4095
-    frame = CameraFrame(pixels, 0.0, 1, 12, SensorRegion(0, 0, 130, 103))
-    for layer in OverlayLayer:
-        view.set_layer(layer, False)
-    view.set_contrast(ContrastSettings(auto=False))
-    with qtbot.waitSignal(view.painted, check_params_cb=lambda painted: painted is frame):
-        microscope.feed(frame=frame)
-        view.show_status(microscope.status)
+def test_a_picture_is_painted_at_its_place_zoomed_at_once_and_veiled_if_frozen(
+    qtbot, view, microscope
+):
+    show_frame(qtbot, view, microscope, make_frame(bright=np.s_[45:55, 60:70]))
+    levels = {(61, 46): 255, (68, 53): 255, (58, 50): 0, (72, 50): 0, (65, 43): 0}
     image = view.grab().toImage()
-    for column, row, level in ((31, 41, 255), (49, 59, 255), (29, 50, 0), (51, 50, 0), (40, 39, 0)):
-        point = to_point(view, column, row)
-        assert QColor(image.pixel(point.x(), point.y())).red() == level
+    assert {at: read_level(view, image, *at) for at in levels} == levels
     microscope.feed(state=FeedState.FROZEN, reason="the same again")
     view.show_status(microscope.status)
-    veiled = view.grab().toImage()
     corner = QPoint(250, 200)
     assert QColor(image.pixel(corner)).red() == 0
-    assert QColor(veiled.pixel(corner)).red() > 0  # a frozen picture is greyed
+    assert QColor(view.grab().toImage().pixel(corner)).red() > 0  # a frozen picture is greyed
+    microscope.feed(state=FeedState.LIVE)
+    view.show_status(microscope.status)
+    view.show_one_to_one()  # does not wait for another picture
+    image = view.grab().toImage()
+    assert {at: read_level(view, image, *at) for at in levels} == levels
 
 
 def test_pictures_that_arrive_faster_than_they_are_drawn_are_skipped(qtbot, view, microscope):
     painted = []
     view.painted.connect(painted.append)
-    frames = [
-        CameraFrame(
-            np.full((103, 130), level, np.uint16), 0.0, level, 12, SensorRegion(0, 0, 130, 103)
-        )
-        for level in (100, 1000, 2000, 4095)
-    ]
+    frames = [make_frame(level, level) for level in (100, 1000, 2000, 4095)]
     view.set_contrast(ContrastSettings(auto=False))
     for frame in frames:
         microscope.feed(frame=frame)
         view.show_status(microscope.status)
     qtbot.waitUntil(lambda: bool(painted) and painted[-1] is frames[-1])
     assert not any(frame is frames[1] or frame is frames[2] for frame in painted)
-    point = to_point(view, 65, 30)
-    assert QColor(view.grab().toImage().pixel(point)).red() == 255
+    assert read_level(view, view.grab().toImage(), 65, 30) == 255
 
 
 @pytest.fixture
@@ -141,16 +161,12 @@ def test_a_camera_that_closes_during_rendering_leaves_no_picture(
     started, may_continue = blocked_rendering
     qtbot.waitUntil(lambda: not view._renderer.busy or started.is_set())
     may_continue.clear()
-    frame = CameraFrame(
-        np.full((103, 130), 4095, np.uint16), 0.0, 1, 12, SensorRegion(0, 0, 130, 103)
-    )
-    microscope.feed(frame=frame)
-    view.show_status(microscope.status)
-    microscope.feed(frame=None)
-    view.show_status(microscope.status)
+    for frame in (make_frame(4095), None):
+        microscope.feed(frame=frame)
+        view.show_status(microscope.status)
     may_continue.set()
     qtbot.waitUntil(lambda: not view._renderer.busy)
-    dark = CameraFrame(np.zeros((103, 130), np.uint16), 0.0, 2, 12, SensorRegion(0, 0, 130, 103))
+    dark = make_frame(0, 2)
     may_continue.clear()
     microscope.feed(frame=dark)
     with qtbot.waitSignal(view.painted, check_params_cb=lambda painted: painted is dark):
@@ -170,23 +186,6 @@ def test_a_view_may_be_deleted_while_its_picture_is_rendered(qtbot, microscope, 
     QApplication.processEvents()
 
 
-def test_a_zoom_does_not_wait_for_the_picture(qtbot, view, microscope):
-    for layer in OverlayLayer:
-        view.set_layer(layer, False)
-    view.set_contrast(ContrastSettings(auto=False))
-    pixels = np.zeros((103, 130), np.uint16)
-    pixels[45:55, 60:70] = 4095
-    frame = CameraFrame(pixels, 0.0, 1, 12, SensorRegion(0, 0, 130, 103))
-    microscope.feed(frame=frame)
-    with qtbot.waitSignal(view.painted, check_params_cb=lambda painted: painted is frame):
-        view.show_status(microscope.status)
-    view.show_one_to_one()
-    image = view.grab().toImage()
-    for column, row, level in ((61, 46, 255), (68, 53, 255), (58, 50, 0), (72, 50, 0)):
-        point = to_point(view, column, row)
-        assert QColor(image.pixel(point)).red() == level
-
-
 def test_the_wheel_zooms_a_drag_pans_and_keys_reset(qtbot, view):
     cursor = QPointF(60.0, 40.0)
     anchored_pixel = view.viewport.to_picture(60.0, 40.0)
@@ -203,17 +202,13 @@ def test_the_wheel_zooms_a_drag_pans_and_keys_reset(qtbot, view):
     view.wheelEvent(wheel)
     assert view.viewport.zoom == pytest.approx(2.0 * 1.2**2)
     assert view.viewport.to_screen(*anchored_pixel) == pytest.approx((60.0, 40.0))
-    qtbot.mousePress(view, Qt.MouseButton.MiddleButton, pos=QPoint(100, 100))
-    qtbot.mouseMove(view, QPoint(110, 95))
-    qtbot.mouseRelease(view, Qt.MouseButton.MiddleButton, pos=QPoint(110, 95))
+    drag(qtbot, view, Qt.MouseButton.MiddleButton, QPoint(100, 100), QPoint(110, 95))
     assert view.viewport.to_screen(*anchored_pixel) == pytest.approx((70.0, 35.0))
     view.set_tool(PointerTool.MARK)  # with this tool, only the space bar makes the left button pan
     view_centre = view.viewport.at
     with qtbot.assertNotEmitted(view.pressed):
         qtbot.keyPress(view, Qt.Key.Key_Space)
-        qtbot.mousePress(view, LEFT, pos=QPoint(100, 100))
-        qtbot.mouseMove(view, QPoint(90, 100))
-        qtbot.mouseRelease(view, LEFT, pos=QPoint(90, 100))
+        drag(qtbot, view, LEFT, QPoint(100, 100), QPoint(90, 100))
         qtbot.keyRelease(view, Qt.Key.Key_Space)
     assert view.viewport.at != view_centre
     qtbot.keyClick(view, Qt.Key.Key_1)
@@ -232,12 +227,8 @@ def test_clicks_move_nothing_unless_the_move_tool_is_chosen(qtbot, view, microsc
     ):
         tools.choose_tool(tool)
         qtbot.mouseClick(view, LEFT, pos=to_point(view, 80, 40))
-    assert list_call_names(microscope) == [
-        "mark_target",
-        "track",
-        "outline_cell",
-        "clear_measurement",
-    ]
+    names = ["mark_target", "track", "outline_cell", "clear_measurement"]
+    assert list_call_names(microscope) == names
     tools.choose_tool(PointerTool.MEASURE)
     microscope.calls.clear()
     qtbot.mousePress(view, LEFT, pos=to_point(view, 20, 20))

@@ -57,7 +57,6 @@ def change_feed(status, **changes):
     [
         (FeedState.LIVE, "", False),
         (FeedState.OPENING, "Opening …", False),
-        (FeedState.WAITING, "", False),
         (FeedState.STALLED, "STALLED", True),
         (FeedState.FROZEN, "FROZEN", True),
         (FeedState.BLACK, "BLACK", True),
@@ -71,40 +70,32 @@ def test_every_camera_state_has_a_notice_and_old_pictures_are_veiled(
     notice = make_feed_notice(change_feed(status, state=state, reason="why").feed)
     assert (notice.title, notice.veiled) == (title, is_veiled)
     assert notice.badge
-    if is_veiled:
-        assert notice.reason == ("why" if state is not FeedState.CLOSED else notice.reason)
-    first_notice = make_feed_notice(
-        change_feed(status, state=FeedState.LIVE, frame=None, age_s=None).feed
-    )
-    assert first_notice.title == "Waiting for the first picture"
+    if is_veiled and state is not FeedState.CLOSED:
+        assert notice.reason == "why"
 
 
 def test_the_badge_shows_rate_age_and_lost_pictures(status):
-    assert make_feed_notice(status.feed).badge == "live · 30 Hz · 12 ms old"
-    # The first picture has no rate yet.
-    assert make_feed_notice(change_feed(status, rate_hz=0.0).feed).badge == "live · 12 ms old"
+    first = change_feed(status, frame=None, age_s=None)
+    assert make_feed_notice(first.feed).title == "Waiting for the first picture"
     frame = replace(status.feed.frame, lost=3)
-    assert (
-        make_feed_notice(change_feed(status, frame=frame).feed).badge
-        == "live · 30 Hz · 12 ms old · 3 lost"
-    )
-    stalled = change_feed(status, state=FeedState.STALLED, age_s=3.21)
-    assert make_feed_notice(stalled.feed).badge == "stalled · 3.2 s old"
+    for changes, badge in (
+        ({"frame": frame}, "live · 30 Hz · 12 ms old · 3 lost"),
+        ({"rate_hz": 0.0}, "live · 12 ms old"),  # the first picture has no rate yet
+        ({"state": FeedState.STALLED, "age_s": 3.21}, "stalled · 3.2 s old"),
+    ):
+        assert make_feed_notice(change_feed(status, **changes).feed).badge == badge
 
 
 def test_clicks_need_a_live_calibrated_picture_and_a_tracked_tip(status):
     ready = SessionState(activity=DeviceState.IDLE)
     tracked = replace(status, tip=TipStatus(TipState.TRACKED))
     assert find_click_objection(tracked, ready) is None
+    unlive_states = [state for state in FeedState if state is not FeedState.LIVE]
     for unready, objection in (
         (status, "tip is not tracked"),
         (replace(tracked, calibration=None), "not calibrated"),
         (replace(tracked, calibration=None, calibration_problem="a bad file"), "a bad file"),
-        *(
-            (change_feed(tracked, state=state), "not live")
-            for state in FeedState
-            if state != FeedState.LIVE
-        ),
+        *((change_feed(tracked, state=state), "not live") for state in unlive_states),
         (change_feed(tracked, frame=None), "not live"),
     ):
         assert objection in find_click_objection(unready, ready)
@@ -117,20 +108,15 @@ def test_clicks_need_a_live_calibrated_picture_and_a_tracked_tip(status):
     ("pixel_m", "zoom", "length", "text"),
     [
         (0.335e-6, 0.47, 100e-6, "100 µm"),
-        (0.335e-6, 40.0, 1e-6, "1 µm"),
         (10e-6, 0.1, 0.01, "10 mm"),
         (1e-9, 10.0, 10e-9, "10 nm"),
-        (5e-6, 0.9, 1e-3, "1 mm"),
     ],
 )
 def test_the_scale_bar_has_a_round_length_that_fits(pixel_m, zoom, length, text):
-    bar = make_scale_bar(pixel_m, ScaleSource.CALIBRATION, zoom, 620.0)
-    assert bar.text == text
+    bar = make_scale_bar(pixel_m, ScaleSource.ROBOT_FILE, zoom, 620.0)
+    assert (bar.text, bar.remark) == (text, "from the robot file")
     assert bar.length_px == pytest.approx(length / pixel_m * zoom)
     assert 0.3 * 620.0 / 2.5 <= bar.length_px <= 0.3 * 620.0
-    assert (
-        make_scale_bar(pixel_m, ScaleSource.ROBOT_FILE, zoom, 620.0).remark == "from the robot file"
-    )
 
 
 def test_without_a_scale_the_bar_counts_pixels():
@@ -208,28 +194,19 @@ def test_texts_show_uncertainties(status):
     assert "±2.00 ± 0.30 µm from focus" in tip_text  # the sign of the defocus is unknown
     assert describe_tip(TipStatus(TipState.LOST, reason="covered")) == "lost: covered"
     stage_text = describe_stage("micro", status.calibration.micro)
-    assert stage_text.startswith("micro: 335.00 × 335.00 ± 0.00 nm/px, rotated 0.000")
-    assert "residual 0.07 px, 2026-03-04 05:06" in stage_text
+    for part in ("335.00 × 335.00 ± 0.00 nm/px", "residual 0.07 px, 2026-03-04 05:06"):
+        assert part in stage_text
     assert describe_stage("nano", None) == "nano: not calibrated"
-    assert (
-        describe_target(2, MarkedTarget(7.0, 8.0, VisitState.FAILED, "no"))
-        == "2   7, 8 px   failed: no"
-    )
+    failed_target = MarkedTarget(7.0, 8.0, VisitState.FAILED, "no")
+    assert describe_target(2, failed_target) == "2   7, 8 px   failed: no"
     line = MeasuredLine(np.zeros(2), np.array([3.0, 4.0]), 5.0, None, np.radians(53.0), None)
     assert format_measurement(line) == "5.0 px, 53.0°"
 
 
 def test_typed_camera_settings_are_read_and_written():
     texts = CameraTexts("12.5", "2", "", "10 20 640 480", "mono8", "software", False)
-    settings = CameraSettings(
-        0.0125,
-        2.0,
-        None,
-        SensorRegion(10, 20, 640, 480),
-        PixelType.MONO8,
-        CameraTrigger.SOFTWARE,
-        False,
-    )
+    region, trigger = SensorRegion(10, 20, 640, 480), CameraTrigger.SOFTWARE
+    settings = CameraSettings(0.0125, 2.0, None, region, PixelType.MONO8, trigger, False)
     assert to_camera_settings(texts) == settings
     assert to_camera_settings(to_camera_texts(settings)) == settings
     assert to_camera_settings(CameraTexts(region="Whole ")) == CameraSettings()
@@ -238,17 +215,12 @@ def test_typed_camera_settings_are_read_and_written():
 @pytest.mark.parametrize(
     ("texts", "message"),
     [
-        (CameraTexts(exposure="fast"), "exposure: 'fast' is not a number; enter one in ms"),
-        (CameraTexts(gain="nan"), "gain: 'nan' is not a number"),
-        (CameraTexts(rate="1 000"), "rate: '1 000' is not a number"),
-        (
-            CameraTexts(region="1 2 3"),
-            "region: '1 2 3' is not valid; enter whole, or four integers",
-        ),
-        (CameraTexts(region="1 2 3 -4"), "first column, first row, width and height"),
+        ({"exposure": "fast"}, "exposure: 'fast' is not a number; enter one in ms"),
+        ({"gain": "nan"}, "gain: 'nan' is not a number"),
+        ({"region": "1 2 3"}, "region: '1 2 3' is not valid; enter whole, or four integers"),
+        ({"region": "1 2 3 -4"}, "first column, first row, width and height"),
     ],
 )
 def test_invalid_camera_settings_are_refused(texts, message):
-    with pytest.raises(CameraSettingError) as caught:
-        to_camera_settings(texts)
-    assert message in str(caught.value)
+    with pytest.raises(CameraSettingError, match=message):
+        to_camera_settings(CameraTexts(**texts))
