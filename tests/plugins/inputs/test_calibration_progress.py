@@ -8,7 +8,6 @@ from rotemina.plugins.inputs.calibration_progress import (
     REST_DURATION_S,
     CalibrationProgress,
     CalibrationStep,
-    describe_axis_calibration,
 )
 
 
@@ -122,10 +121,3 @@ def test_inconsistent_settings_are_refused(make_bench, stick):
     with pytest.raises(InputCalibrationError, match=r"^axis X, expo: .* less than or equal to 1"):
         progress.change_axis("X", expo=2.0)
     assert progress.draft.find_axis("X").expo == 0.0
-
-
-def test_the_rest_position_is_described():
-    assert describe_axis_calibration(InputAxisCalibration()) == "-1.00 to +1.00, rests at +0.00"
-    assert "rests at an end" in describe_axis_calibration(
-        InputAxisCalibration(low=-1.0, centre=-1.0)
-    )

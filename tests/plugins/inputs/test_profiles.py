@@ -100,7 +100,7 @@ def test_bad_profiles_are_listed_with_their_problem(make_bench, make_stick, sett
     assert "does not have" in options["Other robot"].problem
 
 
-def test_changes_are_discarded(make_bench, make_stick, settings):
+def test_changes_are_discarded_even_of_a_profile_without_a_file(make_bench, make_stick, settings):
     bench = make_bench(make_stick())
     profiles = make_choice(bench, settings)
     profiles.use_changed_profile(make_profile("zn"))
@@ -108,11 +108,6 @@ def test_changes_are_discarded(make_bench, make_stick, settings):
     profiles.discard()
     assert list_driven_targets(bench) == {"x", "y", "z"}
     assert not profiles.is_changed
-
-
-def test_changes_of_a_profile_without_a_file_are_discarded_too(make_bench, make_stick, settings):
-    bench = make_bench(make_stick())
-    profiles = make_choice(bench, settings)
     profiles.use_changed_profile(make_profile("zn"))
     profiles.save("Mine").unlink()
     profiles.use_changed_profile(make_profile("thx"))
@@ -143,18 +138,13 @@ def test_saving_without_a_profile_is_refused(make_bench, settings):
         make_choice(make_bench(), settings).save("Mine")
 
 
-def test_profile_names_are_not_case_sensitive(make_bench, make_stick, settings):
-    bench = make_bench(make_stick())
-    bench.devices.save_profile(make_profile("x", "Mine"))
-    assert make_choice(bench, settings).has_profile("mine")
-    assert not make_choice(bench, settings).has_profile("yours")
-
-
 def test_a_valid_name_is_suggested(make_bench, make_stick, settings):
     bench = make_bench(make_stick())
     profiles = make_choice(bench, settings)
     assert profiles.suggest_name() == "stick"
     profiles.save("Mine")
+    assert profiles.has_profile("mine")  # names are not case sensitive
+    assert not profiles.has_profile("yours")
     assert profiles.suggest_name() == "Mine"
     assert make_valid_name("Maker/Stick™ <3>") == "Maker Stick 3"
     assert make_valid_name("***") == "Profile"

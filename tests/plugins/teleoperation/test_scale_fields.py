@@ -38,11 +38,12 @@ def test_each_coordinate_has_units_that_fit_its_range():
 
 
 @pytest.mark.parametrize("coordinate", [TABLE, PIEZO, TILT])
-@pytest.mark.parametrize("field", FIELDS, ids=lambda field: field.name)
-def test_typing_the_displayed_value_changes_nothing(coordinate, field):
+def test_typing_the_displayed_value_changes_nothing(coordinate):
     scale = CoordinateScale.make_preset(coordinate)
-    text = format_fields(scale, coordinate)[field.name]
-    assert with_entered_value(scale, field.name, f" {text} ", coordinate) is scale
+    texts = format_fields(scale, coordinate)
+    for field in FIELDS:
+        text = f" {texts[field.name]} "
+        assert with_entered_value(scale, field.name, text, coordinate) is scale, field.name
 
 
 @pytest.mark.parametrize(
@@ -63,10 +64,8 @@ def test_a_typed_number_has_the_unit_of_its_field(name, text, value):
         ("speed", "11", "11 mm/s: must be at most the maximum speed of 10 mm/s"),
         ("speed", "-1", "must be above 0 mm/s"),
         ("time_constant_s", "0.01", "0.01 s: must be at least 0.02 s"),
-        ("time_constant_s", "6", "must be at most 5 s"),
         ("time_constant_s", "0.02", "x: 1 mm/s within a time constant of 0.02 s .* at least 0.025"),
         ("spring_hz", "5.1", "must be at most 5 Hz"),
-        ("damping_ratio", "0.05", "0.05: must be at least 0.1"),
         ("contact_gain", "101", "101 %: must be at most 100 %"),
         ("way", "0,5", "'0,5' is not a number; enter one in mm with a decimal point"),
         ("damping_ratio", "", "'' is not a number; enter one with a decimal point"),
