@@ -101,7 +101,6 @@ def test_the_latest_runs_are_listed_first_and_once():
 
 def test_runs_that_end_while_the_file_is_read_are_not_duplicated():
     run_list = PastRunList()
-    (latest,) = make_runs(1, 5)
-    run_list.add_latest(latest)
+    run_list.add_latest(*make_runs(1, 5))
     run_list.add_logged(make_runs(6))
     assert [run.started for run in run_list.runs] == [f"run {n}" for n in (5, 4, 3, 2, 1, 0)]

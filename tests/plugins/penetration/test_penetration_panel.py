@@ -3,7 +3,6 @@
 import re
 from dataclasses import replace
 from pathlib import Path
-from types import SimpleNamespace
 
 import pytest
 from PySide6.QtCore import Qt
@@ -14,6 +13,7 @@ from rotemina.app.motion.penetration import (
     RUNNING_PHASES,
     PenetrationParameters,
     PenetrationPhase,
+    PenetrationRun,
     PenetrationVerdict,
     RunLog,
 )
@@ -26,6 +26,15 @@ from rotemina.sim.robot import AxisEffect
 
 LONG_MS = 30_000
 MICROSTEP_ERROR = AxisEffect(axis="x", id="microstep_error")
+FAILED_RUN = PenetrationRun(
+    started="2026-11-21T10:00:00+00:00",
+    robot="RoTeMiNa",
+    driver="simulator",
+    parameters={},
+    verdict=PenetrationVerdict.FAILED,
+    reason="too soft",
+    phases=(),
+)
 
 
 def list_notices(window):
@@ -250,33 +259,24 @@ def test_a_run_is_done_and_the_next_is_held_by_an_emergency_stop_and_retracted(
     assert problems == ()
 
 
-@pytest.mark.slow
 def test_logged_runs_are_shown_and_a_robot_without_zn_is_reported(
-    qtbot, make_robot_window, monkeypatch
+    qtbot, make_robot_window, monkeypatch, tmp_path
 ):
-    first_window = make_robot_window()
-    log = first_window.workbench.operation.penetration_log
-    first_panel = first_window.panels["penetration"]
-    move_above_cell(qtbot, first_panel, approach_distance=1e-6)
-    press(qtbot, first_panel.bar.arm)
-    press(qtbot, first_panel.bar.main_button)
-    qtbot.waitUntil(lambda: get_phase(first_panel) is PenetrationPhase.FAILED, timeout=LONG_MS)
-    qtbot.waitUntil(lambda: first_panel.log.table.rowCount() == 1, timeout=LONG_MS)
-    log_file = Path(log.path)
-    log_file.write_text(log_file.read_text("utf-8") + "{cut off\n", "utf-8")
-    other_window = make_robot_window("picma")
-    panel = other_window.panels["penetration"]
+    log = RunLog(tmp_path / "penetrations.jsonl")
+    log.append(FAILED_RUN)
+    with Path(log.path).open("a", encoding="utf-8") as file:
+        file.write("{cut off\n")
+    window = make_robot_window("picma")
+    panel = window.panels["penetration"]
+    window.docks["penetration"].raise_()
+    assert window.workbench.operation.penetration_log.path == log.path
     qtbot.waitUntil(lambda: panel.log.table.rowCount() == 1, timeout=LONG_MS)
-    assert "no contact within 1 µm" in panel.log.table.item(0, 7).text()
-    qtbot.waitUntil(
-        lambda: any("line 2" in text for text in list_notices(other_window)), timeout=LONG_MS
-    )
+    assert panel.log.table.item(0, 7).text() == FAILED_RUN.reason
+    qtbot.waitUntil(lambda: any("line 2" in text for text in list_notices(window)), timeout=LONG_MS)
     assert "has no axis 'zn' to penetrate with" in panel.message.text()
     assert not panel.bar.arm.isEnabled()
     assert not panel.simulated_cell.place_button.isEnabled()
-    monkeypatch.setattr(
-        type(other_window.workbench.session.service), "effects", property(lambda _: None)
-    )
+    monkeypatch.setattr(type(window.workbench.session.service), "effects", property(lambda _: None))
     panel.tabs.setCurrentIndex(2)
     qtbot.waitUntil(
         lambda: panel.simulated_cell.hint_label.text() == REAL_MACHINE_TEXT, timeout=LONG_MS
@@ -284,9 +284,20 @@ def test_logged_runs_are_shown_and_a_robot_without_zn_is_reported(
     assert not panel.simulated_cell.controls.isVisibleTo(panel)
 
 
+def press_outdated_buttons(window, panel):
+    """Check that a press on a button whose label belongs to an earlier phase does nothing."""
+    panel.bar._shown_phase = PenetrationPhase.ARMED  # the label of the previous frame
+    panel.bar._on_main_pressed()
+    panel.bar._on_arm_pressed()
+    assert get_phase(panel) is PenetrationPhase.DISARMED
+    notice = "Nothing was done: the penetration entered another phase just before you pressed."
+    assert list_notices(window)[0].startswith(notice)
+
+
 def test_cells_are_visited_in_order_and_a_run_is_noted_with_its_cell(
     qtbot, window, panel, tmp_path
 ):
+    press_outdated_buttons(window, panel)
     session, view = window.workbench.session, panel.cell_list
     panel.tabs.setCurrentIndex(3)
     qtbot.waitUntil(lambda: session.snapshot().position_known, timeout=LONG_MS)
@@ -311,25 +322,13 @@ def test_cells_are_visited_in_order_and_a_run_is_noted_with_its_cell(
     assert get_phase(panel) is PenetrationPhase.ARMED
     qtbot.waitUntil(lambda: "armed or running" in view.next.toolTip(), timeout=LONG_MS)
     status = panel.workbench.operation.penetration.status
-    failed = SimpleNamespace(
-        verdict=PenetrationVerdict.FAILED, thrust=None, started="now", reason="too soft"
-    )
     view.refresh(
-        session.snapshot(), replace(status, phase=PenetrationPhase.FAILED, run=failed), None
+        session.snapshot(), replace(status, phase=PenetrationPhase.FAILED, run=FAILED_RUN), None
     )
     cell_row = [view.table.item(1, column).text() for column in (0, 4, 5, 6)]
     assert cell_row == ["▸ 2", "failed", "", "too soft"]
     assert view.table.item(0, 4).text() == "skipped"
     view.export_to(tmp_path / "cells.csv")
     qtbot.waitUntil((tmp_path / "cells.csv").exists, timeout=LONG_MS)
-    assert ",failed,,now,too soft" in (tmp_path / "cells.csv").read_text()
+    assert f",failed,,{FAILED_RUN.started},too soft" in (tmp_path / "cells.csv").read_text()
     panel.workbench.operation.penetration.disarm()
-
-
-def test_a_press_on_an_outdated_button_is_reported(window, panel):
-    panel.bar._shown_phase = PenetrationPhase.ARMED  # the label of the previous frame
-    panel.bar._on_main_pressed()
-    panel.bar._on_arm_pressed()
-    assert get_phase(panel) is PenetrationPhase.DISARMED
-    notice = "Nothing was done: the penetration entered another phase just before you pressed."
-    assert list_notices(window)[0].startswith(notice)

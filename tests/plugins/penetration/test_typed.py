@@ -25,11 +25,11 @@ def test_every_parameter_can_be_typed_or_chosen():
     assert grouped == list(QUANTITIES.values())
 
 
-@pytest.mark.parametrize("key", QUANTITIES)
-def test_displayed_bounds_and_presets_are_accepted(key):
-    quantity, bound = QUANTITIES[key], PARAMETER_BOUNDS[key]
-    for value in (bound.minimum, bound.maximum, getattr(PenetrationParameters(), key)):
-        assert quantity.parse_value(quantity.format_number(value)) == value
+def test_displayed_bounds_and_presets_are_accepted():
+    for key, quantity in QUANTITIES.items():
+        bound = PARAMETER_BOUNDS[key]
+        for value in (bound.minimum, bound.maximum, getattr(PenetrationParameters(), key)):
+            assert quantity.parse_value(quantity.format_number(value)) == value, key
 
 
 @pytest.mark.parametrize(
@@ -39,7 +39,6 @@ def test_displayed_bounds_and_presets_are_accepted(key):
         ("approach_speed", " 20 ", 2e-5),
         ("duration_s", "90", 0.09),
         ("drift", "15", 0.15),
-        ("armed_s", "60", 60.0),
         ("false_alarms_per_hour", "1e-2", 0.01),
     ],
 )
@@ -51,22 +50,14 @@ def test_typed_values_have_the_displayed_unit(key, text, value):
     ("text", "message"),
     [
         ("500", "Depth: 500 µm must be 1 to 100 µm"),
-        ("0", "must be 1 to 100 µm"),
         ("12,5", "'12,5' is not a number; enter one in µm with a decimal point"),
         ("1_0", "is not a number"),
         ("nan", "is not a number"),
-        ("", "is not a number"),
     ],
 )
 def test_an_invalid_depth_is_refused_with_its_bounds(text, message):
     with pytest.raises(ParameterInputError, match=message):
         QUANTITIES["depth"].parse_value(text)
-
-
-def test_a_tooltip_has_a_description_and_bounds():
-    description, bounds = QUANTITIES["retract_speed"].tip
-    assert description == "Speed of the retraction."
-    assert bounds == "1 to 1000 µm/s; preset 100 µm/s"
 
 
 def test_a_formatted_table_is_parsed_again():
@@ -77,15 +68,12 @@ def test_a_formatted_table_is_parsed_again():
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("", "table: 0 points; must be 2 to 200"),
-        ("0, 0", "1 points"),
+        ("0, 0", "table: 1 points; must be 2 to 200"),
         ("0, 0\n0.5\n1, 1", "line 2: '0.5'; enter a time share, a comma and a depth share"),
-        ("0, 0\n0;5, 1\n1, 1", "line 2"),
         ("0, 0\n\n0.5, 1.2\n1, 1", "line 3: depth 1.2 must be 0 to 1"),
         ("0, 0\n-0.5, 1\n1, 1", "time -0.5 must be 0 to 1"),
         ("0, 0\n0.5, 0.1\n0.5, 0.2\n1, 1", "point 3: time 0.5 must be after 0.5"),
         ("0, 0\n0.9, 1", "from 0, 0 to 1, 1"),
-        ("0, 0.1\n1, 1", "from 0, 0 to 1, 1"),
         ("\n".join(f"{k / 200}, {k / 200}" for k in range(201)), "201 points"),
     ],
 )
