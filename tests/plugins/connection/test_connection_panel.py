@@ -4,7 +4,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel
 
-from rotemina.app.motion.state import ConnectionState, SessionPhase
+from rotemina.app.motion.state import ConnectionState
 from rotemina.drivers.contract import DeviceState, registry
 from rotemina.drivers.simulator import Simulator
 from rotemina.plugins.connection import driver_choice as device_module
@@ -47,13 +47,25 @@ def make_unhomed_simulator(robot):
     return Simulator(robot, {"start_homed": False, "start_fraction": 0.001})
 
 
-def test_a_homed_simulator_is_ready(qtbot, window, panel):
+def test_opening_the_panel_on_a_homed_simulator_moves_nothing(qtbot, window, panel):
     wait_for_phase(qtbot, panel, "Ready")
+    assert window.workbench.session.snapshot().activity is DeviceState.IDLE
     assert panel.state.phase.property("tone") == "good"
     assert panel.state.reason.text() == "Motion is possible."
     assert not panel.state.release.isEnabled()
     assert "nothing is locked" in panel.state.release.toolTip()
     assert "no open line" in panel.line.text.text()
+    fields = [field.widget for field in panel.device.form.fields.values()]
+    for widget in (*panel.findChildren(device_module.DriverChoice), *fields):
+        assert widget.focusPolicy() & Qt.FocusPolicy.TabFocus
+        assert widget.accessibleName()
+    for name in ("emergency", "release", "clear"):
+        assert getattr(panel.state, name).focusPolicy() & Qt.FocusPolicy.TabFocus
+    assert all(
+        label.textFormat() is Qt.TextFormat.PlainText
+        for label in panel.findChildren(QLabel)
+        if label.wordWrap()
+    )
 
 
 def test_an_unhomed_machine_is_homed_from_the_panel(qtbot, make_robot_window, press):
@@ -83,19 +95,7 @@ def test_the_owner_is_shown_while_homing(qtbot, make_robot_window, press):
     assert not panel.device.connect_button.isEnabled()
 
 
-def test_the_emergency_stop_locks_until_it_is_released(qtbot, window, panel, press):
-    wait_for_phase(qtbot, panel, "Ready")
-    press(panel.state.emergency)
-    qtbot.waitUntil(lambda: "release it first" in panel.state.reason.text(), timeout=LONG_MS)
-    assert panel.state.phase.property("tone") == "danger"
-    assert not panel.state.emergency.isEnabled()
-    assert not panel.position.home_all.isEnabled()
-    assert "release it first" in panel.position.home_all.toolTip()
-    press(panel.state.release)
-    qtbot.waitUntil(panel.state.emergency.isEnabled, timeout=LONG_MS)
-
-
-def test_back_undoes_a_move(qtbot, window, panel, press):
+def test_back_undoes_a_move_but_not_of_the_previous_device(qtbot, window, panel, press):
     session = window.workbench.session
     wait_for_phase(qtbot, panel, "Ready")
     assert "no previous position" in panel.position.back.toolTip()
@@ -103,6 +103,13 @@ def test_back_undoes_a_move(qtbot, window, panel, press):
     window.workbench.jog("zn", 1e-6)
     press(panel.position.back)
     qtbot.waitUntil(lambda: abs(session.snapshot().command["zn"] - start) < 1e-12, timeout=LONG_MS)
+    window.workbench.jog("zn", 1e-6)
+    qtbot.waitUntil(panel.position.back.isEnabled, timeout=LONG_MS)
+    panel.device.form.fields["seed"].widget.setText("5")
+    press(panel.device.connect_button)
+    qtbot.waitUntil(lambda: session.driver.settings["seed"] == 5, timeout=LONG_MS)
+    wait_for_phase(qtbot, panel, "Ready")
+    qtbot.waitUntil(lambda: not panel.position.back.isEnabled(), timeout=LONG_MS)
 
 
 def test_teaching_a_floor_asks_with_the_old_and_the_new_height(qtbot, window, panel, press):
@@ -129,13 +136,9 @@ def test_teaching_a_floor_asks_with_the_old_and_the_new_height(qtbot, window, pa
     assert "Without a floor" in tip.question.text.text()
     qtbot.mouseClick(tip.question.yes, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: tip.figures.values["Floor"].text() == "none", timeout=LONG_MS)
-
-
-def test_the_floor_question_is_cancelled_when_the_tip_moves(qtbot, window, panel, press):
-    wait_for_phase(qtbot, panel, "Ready")
-    press(panel.tip.teach)
-    window.workbench.jog("z", 1e-4)
-    qtbot.waitUntil(panel.tip.question.isHidden, timeout=LONG_MS)
+    press(tip.teach)
+    window.workbench.jog("z", 1e-4)  # the question is cancelled, because the tip moves
+    qtbot.waitUntil(tip.question.isHidden, timeout=LONG_MS)
     assert "no floor was set" in join_notices(window)
 
 
@@ -230,7 +233,9 @@ def test_the_position_after_a_lost_connection_must_be_confirmed(
     assert not window._bar.remedy_button.isVisible()
 
 
-def test_a_fault_is_cleared_from_the_panel(qtbot, make_robot_window, press, failing_driver):
+def test_a_fault_and_an_emergency_stop_are_ended_from_the_panel(
+    qtbot, make_robot_window, press, failing_driver
+):
     window = make_robot_window(driver=failing_driver)
     panel, driver = window.panels["connection"], window.workbench.session.driver
     wait_for_phase(qtbot, panel, "Ready")
@@ -240,6 +245,14 @@ def test_a_fault_is_cleared_from_the_panel(qtbot, make_robot_window, press, fail
     assert "too hot" in panel.state.reason.text()
     press(panel.state.clear)
     wait_for_phase(qtbot, panel, "Ready")
+    press(panel.state.emergency)
+    qtbot.waitUntil(lambda: "release it first" in panel.state.reason.text(), timeout=LONG_MS)
+    assert panel.state.phase.property("tone") == "danger"
+    assert not panel.state.emergency.isEnabled()
+    assert not panel.position.home_all.isEnabled()
+    assert "release it first" in panel.position.home_all.toolTip()
+    press(panel.state.release)
+    qtbot.waitUntil(panel.state.emergency.isEnabled, timeout=LONG_MS)
 
 
 def test_disconnecting_and_connecting_with_other_settings(qtbot, window, panel, press):
@@ -260,36 +273,22 @@ def test_disconnecting_and_connecting_with_other_settings(qtbot, window, panel, 
     assert window.workbench.settings.get("driver.simulator.start_homed", False) is False
 
 
-def test_back_forgets_the_positions_of_the_previous_device(qtbot, window, panel, press):
-    wait_for_phase(qtbot, panel, "Ready")
-    window.workbench.jog("zn", 1e-6)
-    qtbot.waitUntil(lambda: panel.position.back.isEnabled(), timeout=LONG_MS)
-    panel.device.form.fields["seed"].widget.setText("5")
-    press(panel.device.connect_button)
-    qtbot.waitUntil(lambda: window.workbench.session.driver.settings["seed"] == 5, timeout=LONG_MS)
-    wait_for_phase(qtbot, panel, "Ready")
-    qtbot.waitUntil(lambda: not panel.position.back.isEnabled(), timeout=LONG_MS)
-
-
-@pytest.mark.parametrize(
-    ("name", "text", "reason"),
-    [
+def test_invalid_settings_are_marked_or_refused_and_not_used(qtbot, window, panel, press):
+    connect, form = panel.device.connect_button, panel.device.form
+    for name, text, reason in (
         ("settle_s", "0,5", "decimal point"),
         ("settle_s", "1_0", "not a number"),
         ("seed", "1.5", "not an integer"),
-    ],
-)
-def test_a_setting_of_another_type_is_marked_and_not_used(qtbot, window, panel, name, text, reason):
-    field = panel.device.form.fields[name]
-    field.widget.setText(text)
-    qtbot.waitUntil(lambda: bool(field.widget.property("bad")), timeout=LONG_MS)
-    assert not panel.device.connect_button.isEnabled()
-    assert reason in panel.device.connect_button.toolTip()
-
-
-def test_a_value_that_the_driver_refuses_becomes_a_notice(qtbot, window, panel, press):
-    panel.device.form.fields["start_fraction"].widget.setText("7")
-    press(panel.device.connect_button)
+    ):
+        widget = form.fields[name].widget
+        text_before = widget.text()
+        widget.setText(text)
+        qtbot.waitUntil(lambda reason=reason: reason in connect.toolTip(), timeout=LONG_MS)
+        assert widget.property("bad")
+        assert not connect.isEnabled()
+        widget.setText(text_before)
+    form.fields["start_fraction"].widget.setText("7")
+    press(connect)
     assert "start_fraction" in join_notices(window)
     assert window.workbench.session.snapshot().connection is ConnectionState.CONNECTED
     assert window.workbench.settings.get("driver.simulator.start_fraction", 0.5) == 0.5
@@ -302,57 +301,55 @@ class FailingDriver(Simulator):
         raise TypeError("made for <another> age")
 
 
-def test_broken_drivers_are_listed_with_the_reason(make_robot_window, monkeypatch):
-    drivers = {"simulator": Simulator, "bursting": FailingDriver}
-    broken = {"old": "old:Driver is made for version <1>"}
-    monkeypatch.setattr(
-        device_module, "discover_drivers", lambda: registry.PluginDiscovery(drivers, broken)
-    )
-    window = make_robot_window()
-    device = window.panels["connection"].device
-    assert [device.choice.itemText(row) for row in range(3)] == [
-        "simulator",
-        "bursting",
-        "old – cannot be used",
-    ]
-    item = device.choice.model().item(2)
-    assert not item.isEnabled()
-    assert "&lt;1&gt;" in item.toolTip()
-    assert device.broken_text.text() == "old is left out: old:Driver is made for version <1>"
-    assert device.broken_text.textFormat() is Qt.TextFormat.PlainText
-    device.choice.setCurrentIndex(1)
-    device._connect_device()
-    assert "cannot be created: TypeError: made for <another> age" in join_notices(window)
-    assert window.workbench.session.driver.name == "simulator"
-
-
 class TwoPortSimulator(Simulator):
     name = "ported"
     default_settings = {**Simulator.default_settings, "port": "", "second_port": ""}  # noqa: RUF012
 
 
-def test_ports_are_offered_and_free_text_is_kept(qtbot, make_robot_window, monkeypatch):
-    drivers = {"simulator": Simulator, "ported": TwoPortSimulator}
+@pytest.fixture
+def device(make_robot_window, monkeypatch):
+    """The choice of a device, of which some fail and one has ports."""
+    drivers = {"simulator": Simulator, "bursting": FailingDriver, "ported": TwoPortSimulator}
+    broken = {"old": "old:Driver is made for version <1>"}
     monkeypatch.setattr(
-        device_module, "discover_drivers", lambda: registry.PluginDiscovery(drivers, {})
+        device_module, "discover_drivers", lambda: registry.PluginDiscovery(drivers, broken)
     )
-    window = make_robot_window()
-    device = window.panels["connection"].device
+    return make_robot_window().panels["connection"].device
+
+
+def test_broken_drivers_are_listed_with_the_reason_and_ports_are_offered(qtbot, device):
+    window = device.window()
+    settings, workbench = window.workbench.settings, window.workbench
+    assert [device.choice.itemText(row) for row in range(device.choice.count())] == [
+        "simulator",
+        "bursting",
+        "ported",
+        "old – cannot be used",
+    ]
+    item = device.choice.model().item(3)
+    assert not item.isEnabled()
+    assert "&lt;1&gt;" in item.toolTip()
+    assert device.broken_text.text() == "old is left out: old:Driver is made for version <1>"
+    assert device.broken_text.textFormat() is Qt.TextFormat.PlainText
     assert device.find.isHidden()
     device.choice.setCurrentIndex(1)
+    device._connect_device()
+    assert "cannot be created: TypeError: made for <another> age" in join_notices(window)
+    assert workbench.session.driver.name == "simulator"
+    device.choice.setCurrentIndex(2)
     port = device.form.fields["port"].widget
     qtbot.waitUntil(lambda: port.count() == 1, timeout=LONG_MS)
     assert port.itemText(0) == "/dev/ttyTEST0"
     assert "&lt;b&gt;" in port.itemData(0, Qt.ItemDataRole.ToolTipRole)
     qtbot.keyClicks(port.lineEdit(), "socket://host:9")
     qtbot.keyClick(port.lineEdit(), Qt.Key.Key_Return)
-    assert window.workbench.settings.get("driver.ported.port", "") == "socket://host:9"
+    assert settings.get("driver.ported.port", "") == "socket://host:9"
     device.choice.setCurrentIndex(0)
-    window.workbench.offer_ports([("/dev/pts/8", "board 1"), ("/dev/pts/9", "board 2")])
+    workbench.offer_ports([("/dev/pts/8", "board 1"), ("/dev/pts/9", "board 2")])
     assert device.choice.currentText() == "ported"
     assert device.form.read_values()["port"] == "/dev/pts/8"
     assert device.form.read_values()["second_port"] == "/dev/pts/9"
-    window.workbench.offer_ports([("/dev/pts/7", "both boards")])
+    workbench.offer_ports([("/dev/pts/7", "both boards")])
     assert device.form.read_values()["second_port"] == ""
 
 
@@ -363,25 +360,3 @@ def test_a_robot_without_tip_and_switches_says_so(qtbot, make_robot_window):
     assert "no limit switches" in panel.position.home_all.toolTip()
     assert "no tip" in panel.tip.teach.toolTip()
     assert not panel.position.home_buttons
-
-
-def test_controls_have_names_and_keyboard_focus(window, panel):
-    for widget in panel.findChildren(device_module.DriverChoice) + [
-        field.widget for field in panel.device.form.fields.values()
-    ]:
-        assert widget.focusPolicy() & Qt.FocusPolicy.TabFocus
-        assert widget.accessibleName()
-    for name in ("emergency", "release", "clear"):
-        assert getattr(panel.state, name).focusPolicy() & Qt.FocusPolicy.TabFocus
-    assert all(
-        label.textFormat() is Qt.TextFormat.PlainText
-        for label in panel.findChildren(QLabel)
-        if label.wordWrap()
-    )
-
-
-def test_opening_the_panel_moves_nothing(qtbot, window, panel):
-    wait_for_phase(qtbot, panel, "Ready")
-    state = window.workbench.session.snapshot()
-    assert state.phase is SessionPhase.READY
-    assert state.activity is DeviceState.IDLE

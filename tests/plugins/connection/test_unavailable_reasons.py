@@ -129,8 +129,3 @@ def test_clear_and_write_objections():
     assert "stores no parameters" in unavailable_reasons.find_write_objection(
         make_state(), SIMULATOR
     )
-
-
-def test_floor_objections():
-    assert "no tip" in unavailable_reasons.find_teach_objection(make_state(), None)
-    assert "no tip" in unavailable_reasons.find_removal_objection(None)
