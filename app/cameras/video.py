@@ -66,7 +66,7 @@ class VideoRecorder:
         Metadata of the whole video; must be convertible to JSON.
     pixel_m : float or None
         Size of a pixel in the specimen, m.
-    tell : callable
+    notify : callable
         Called with messages for the operator, on the writer thread.
     capacity_bytes : int
         Capacity of the queue; a picture that does not fit is dropped and counted.
@@ -90,7 +90,7 @@ class VideoRecorder:
         opener: FileOpener = open_new_file,
     ) -> None:
         self.path = path
-        self._tell = notify
+        self._notify = notify
         self._capacity_bytes = capacity_bytes
         self._queue: deque[CameraFrame] = deque()
         self._queued_bytes = 0
@@ -217,12 +217,12 @@ class VideoRecorder:
             self.status = replace(self.status, failure=failure)
             self._queue.clear()
             self._queued_bytes = 0
-        self._tell(failure)
+        self._notify(failure)
 
     def _report_dropped(self) -> None:
         if self.status.dropped and not self._has_reported_dropped:
             self._has_reported_dropped = True
-            self._tell(
+            self._notify(
                 message(
                     "engine",
                     "{name}: pictures are missing in the video: the disk is too slow, or the "
