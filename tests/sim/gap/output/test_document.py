@@ -129,18 +129,15 @@ def test_units_of_a_coupling_name_both_axes(made_diagnosis):
     assert cause["units"] == {"k": "rad/m", "frequency": "Hz"}
 
 
-def test_an_insignificant_gap_is_not_listed(made_diagnosis):
-    healthy_thx = replace(made_diagnosis.axes["thx"], verdict=GapVerdict.NONE, causes=())
-    document = as_json(replace(made_diagnosis, axes={"thx": healthy_thx}))
-    assert (document["verdict"], document["where"], document["causes"]) == ("none", [], [])
-
-
-def test_causes_are_sorted_by_the_gap_that_they_close(made_diagnosis):
+def test_causes_are_sorted_by_the_gap_that_they_close_and_noise_is_not_listed(made_diagnosis):
     thx = made_diagnosis.axes["thx"]
     small_cause = replace(thx.causes[0], effect="creep", gap_before=7e-7)
     axes = {"thx": replace(thx, causes=(small_cause, *thx.causes))}
     causes = as_json(replace(made_diagnosis, axes=axes))["causes"]
     assert [cause["effect"] for cause in causes] == ["hysteresis", "creep"]
+    healthy_thx = replace(thx, verdict=GapVerdict.NONE, causes=())
+    document = as_json(replace(made_diagnosis, axes={"thx": healthy_thx}))
+    assert (document["verdict"], document["where"], document["causes"]) == ("none", [], [])
 
 
 def test_partial_results_are_written_and_offsets_are_read_back(made_diagnosis, tmp_path):

@@ -12,22 +12,16 @@ def traces(diagnosis, records):
     return compute_traces(diagnosis, "thx", records)
 
 
-def test_each_record_has_a_trace_for_each_measured_tap(traces, records):
+def test_each_record_has_a_trace_without_mean_in_which_the_corrected_model_is_closer(
+    diagnosis, traces, records
+):
+    assert diagnosis.fitted
     assert [trace.number for trace in traces if trace.tap is Tap.MEAS] == list(range(len(records)))
     for trace in traces:
         assert trace.time_s[0] == 0.0
         assert len(trace.time_s) == len(trace.real) == len(trace.raw) == len(trace.corrected)
-
-
-def test_the_mean_of_a_gap_is_removed(traces):
-    for trace in traces:
         assert trace.gap_before.mean() == pytest.approx(0.0, abs=1e-12)
         assert trace.gap_after.mean() == pytest.approx(0.0, abs=1e-12)
-
-
-def test_the_corrected_model_is_closer(diagnosis, traces):
-    assert diagnosis.fitted
-    for trace in traces:
         if trace.tap is Tap.MEAS:
             assert trace.is_corrected
             assert np.std(trace.gap_after) < 0.2 * np.std(trace.gap_before)
