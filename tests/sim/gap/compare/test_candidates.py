@@ -16,8 +16,10 @@ def get_ids(candidate_list):
 
 
 def test_every_effect_that_can_be_fitted_is_a_candidate():
-    x_candidates = candidates(Evidence.of(ROBOT, "x", [simulate_sweep([])]))
-    thx_candidates = candidates(Evidence.of(ROBOT, "thx", [simulate_sweep([], ("thx",))]))
+    x_candidates = candidates(Evidence.of(ROBOT, "x", [simulate_sweep([], seconds=1.0)]))
+    thx_candidates = candidates(
+        Evidence.of(ROBOT, "thx", [simulate_sweep([], ("thx",), seconds=1.0)])
+    )
     assert {"backlash", "friction", "microstep_error", "delay", "sensor_gain"} <= get_ids(
         x_candidates
     )
@@ -30,11 +32,13 @@ def test_every_effect_that_can_be_fitted_is_a_candidate():
 
 
 def test_a_coupling_is_a_candidate_from_each_axis_that_was_commanded():
-    candidate_list = candidates(Evidence.of(ROBOT, "x", [simulate_sweep([], ("x", "y", "thx"))]))
+    candidate_list = candidates(
+        Evidence.of(ROBOT, "x", [simulate_sweep([], ("x", "y", "thx"), seconds=1.0)])
+    )
     sources = {
         candidate.from_axis for candidate in candidate_list if candidate.id == "cross_coupling"
     }
     assert sources == {"y", "thx"}
     assert "cross_coupling" not in get_ids(
-        candidates(Evidence.of(ROBOT, "x", [simulate_sweep([])]))
+        candidates(Evidence.of(ROBOT, "x", [simulate_sweep([], seconds=1.0)]))
     )

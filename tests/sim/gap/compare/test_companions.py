@@ -65,9 +65,7 @@ def test_creep_is_added_to_hysteresis_although_it_closes_almost_nothing():
     assert ranked["creep", None][0].effect == "creep"
 
 
-@pytest.mark.parametrize(
-    "effects", [(HYSTERESIS,), (OTHER_HYSTERESIS,), (HYSTERESIS, DRIFT), (HYSTERESIS, LAG)]
-)
+@pytest.mark.parametrize("effects", [(OTHER_HYSTERESIS,), (HYSTERESIS, DRIFT), (HYSTERESIS, LAG)])
 def test_no_creep_is_added_where_there_is_none(effects):
     _, hysteresis_only, best, ranked = explain_with_companions(*effects)
     assert best is hysteresis_only

@@ -4,13 +4,11 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
 import pytest
 
-from rotemina.sim.gap.compare import mean_squares, untouched
+from rotemina.sim.gap.compare import untouched
 from rotemina.sim.gap.compare.explanations import beside, explanation
 from rotemina.sim.gap.fit import baseline, fit
-from rotemina.sim.records import Tap
 
 # The shared records are in a module of the parent folder.
 sys.path.insert(0, str(Path(__file__).parents[1]))
@@ -37,15 +35,6 @@ def test_model_parameters_start_from_an_earlier_explanation(evidence):
     )
     earlier = explanation(evidence, 1, replace(tuned, effects=(tuned.effects[0], *model_effects)))
     assert tuple(beside(evidence, [DELAY], earlier)[1:]) == model_effects
-
-
-def test_mean_squares_are_computed_for_each_tap(evidence):
-    residual = np.zeros(evidence.parts[-1].rows.stop)
-    for part in evidence.parts:
-        residual[part.rows] = 2.0 if part.tap is Tap.MEAS else 1.0
-    squares = mean_squares(evidence, residual)
-    assert squares == {tap: 4.0 if tap is Tap.MEAS else 1.0 for tap in squares}
-    assert Tap.MEAS in squares
 
 
 def test_the_untouched_model_leaves_the_gap_and_has_no_causes(evidence):

@@ -94,9 +94,7 @@ def test_a_single_record_is_enough_to_name_modes():
     "truth",
     [
         AxisEffect(axis="m1", id="flexible_mode", parameters={"frequency": 1700.0, "share": 0.3}),
-        AxisEffect(axis="m1", id="resonance_mismatch", parameters={"frequency_error": 0.05}),
         AxisEffect(axis="m1", id="hysteresis", parameters={"width": 1e-6}),
-        AxisEffect(axis="m1", id="delay", parameters={"delay": 3e-4}),
         AxisEffect(axis="m1", id="cross_coupling", from_axis="m3", parameters={"k": 0.3}),
     ],
     ids=lambda effect: effect.id,

@@ -1,7 +1,6 @@
 """Parameters of the model are re-tuned together with a cause only if unseen data require it."""
 
 import numpy as np
-import pytest
 
 from rotemina.sim.gap.compare import explain, with_retained
 from rotemina.sim.gap.fit import Evidence
@@ -54,9 +53,8 @@ def test_a_retuning_that_only_fits_an_error_of_a_formula_is_dropped():
     assert "resonance_mismatch" not in find_retained([MODIFIED_HYSTERESIS], 0.8, 200.0, 6.0)
 
 
-@pytest.mark.parametrize("error", [-0.15, 0.1])
-def test_a_wrong_resonance_that_oscillates_is_retained(error):
-    mismatch = AxisEffect(axis="zn", id="resonance_mismatch", parameters={"frequency_error": error})
+def test_a_wrong_resonance_that_oscillates_is_retained():
+    mismatch = AxisEffect(axis="zn", id="resonance_mismatch", parameters={"frequency_error": 0.1})
     assert "resonance_mismatch" in find_retained([MODIFIED_HYSTERESIS, mismatch], 8.0, 4000.0, 1.5)
 
 

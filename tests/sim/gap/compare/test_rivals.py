@@ -34,33 +34,25 @@ def test_a_slight_shift_of_the_resonance_may_be_a_small_mass_on_a_spring(error, 
 
 
 @pytest.mark.parametrize(
-    ("own_score", "other_score", "expected"),
-    [(5.0, 4.0, ("friction",)), (5.0, 6.0, ()), (1.2, 1.1, ())],
-)
-def test_a_better_rival_with_more_parameters_is_not_ruled_out_while_a_gap_remains(
-    own_score, other_score, expected
-):
-    ranked = [
-        Rival("backlash", None, 0.95, SimpleNamespace(score=own_score)),
-        Rival("friction", None, 0.02, SimpleNamespace(score=other_score)),
-    ]
-    assert not_ruled_out(ranked, ("backlash", None), 100.0) == expected
-
-
-@pytest.mark.parametrize(
-    ("cause", "score", "other_score", "expected"),
+    ("raw", "cause", "score", "rival", "other_score", "expected"),
     [
-        ("friction", 50.0, 300.0, ("backlash",)),
-        ("backlash", 50.0, 300.0, ("friction",)),
-        ("friction", 50.0, 1200.0, ()),
-        ("friction", 10.0, 300.0, ()),
-        ("creep", 50.0, 300.0, ()),
+        # A better rival with more parameters is not ruled out while a gap remains.
+        (100.0, "backlash", 5.0, "friction", 4.0, ("friction",)),
+        (100.0, "backlash", 5.0, "friction", 6.0, ()),
+        (100.0, "backlash", 1.2, "friction", 1.1, ()),
+        # Friction and backlash are rivals if no formula fits.
+        (1e4, "friction", 50.0, "backlash", 300.0, ("backlash",)),
+        (1e4, "backlash", 50.0, "friction", 300.0, ("friction",)),
+        (1e4, "friction", 50.0, "backlash", 1200.0, ()),
+        (1e4, "friction", 10.0, "backlash", 300.0, ()),
+        (1e4, "creep", 50.0, "friction", 300.0, ()),
     ],
 )
-def test_friction_and_backlash_are_rivals_if_no_formula_fits(cause, score, other_score, expected):
-    rival = "friction" if cause == "backlash" else "backlash"
+def test_an_unlikely_rival_is_not_ruled_out_while_a_gap_remains(
+    raw, cause, score, rival, other_score, expected
+):
     ranked = [
-        Rival(cause, None, 0.99, SimpleNamespace(score=score)),
-        Rival(rival, None, 0.01, SimpleNamespace(score=other_score)),
+        Rival(cause, None, 0.98, SimpleNamespace(score=score)),
+        Rival(rival, None, 0.02, SimpleNamespace(score=other_score)),
     ]
-    assert not_ruled_out(ranked, (cause, None), 1e4) == expected
+    assert not_ruled_out(ranked, (cause, None), raw) == expected

@@ -19,7 +19,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from sweeps import ROBOT, simulate_sweep
 
 
-@pytest.mark.parametrize("period", [4e-6, 10e-6, 40e-6])
+@pytest.mark.parametrize("period", [4e-6, 40e-6])
 def test_the_period_of_a_grating_is_found_over_travels_of_any_length(period):
     parameters = {"period": period, "sine": -9e-8, "cosine": 2.3e-7, "second_cosine": -1.8e-7}
     truth = AxisEffect(axis="x", id="encoder_interpolation", parameters=parameters)
@@ -34,7 +34,7 @@ def test_the_period_of_a_grating_is_found_over_travels_of_any_length(period):
     assert result.cost < 1.5
 
 
-@pytest.mark.parametrize("centre", [-0.3, 0.17, 0.4])
+@pytest.mark.parametrize("centre", [-0.3, 0.17])
 def test_a_fit_after_screening_finds_the_centre_of_a_flexure(centre):
     centre_m = centre * ROBOT.axes["zn"].span
     truth = AxisEffect(

@@ -18,7 +18,9 @@ ROBOT = load_robot("rotemina")
     [
         ((), GapVerdict.NONE),
         ((GapVerdict.NONE, GapVerdict.EXPLAINED), GapVerdict.EXPLAINED),
-        ((GapVerdict.UNKNOWN, GapVerdict.NONE, GapVerdict.PARTLY), GapVerdict.UNKNOWN),
+        ((GapVerdict.PARTLY, GapVerdict.EXPLAINED), GapVerdict.PARTLY),
+        ((GapVerdict.INSUFFICIENT, GapVerdict.PARTLY), GapVerdict.INSUFFICIENT),
+        ((GapVerdict.UNKNOWN, GapVerdict.NONE, GapVerdict.INSUFFICIENT), GapVerdict.UNKNOWN),
     ],
 )
 def test_the_robot_has_the_verdict_of_its_least_certain_axis(verdicts, robot_verdict):
