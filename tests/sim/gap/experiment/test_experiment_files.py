@@ -30,10 +30,6 @@ def test_the_commands_are_a_trajectory_and_each_rival_has_a_prediction():
         record = files.records[files.names.predictions[rival]]
         assert record.signal("zn", Tap.MEAS) == pytest.approx(np.array(reading))
         assert record.signal("zn", Tap.CMD) == pytest.approx(trajectory.signal("zn", Tap.CMD))
-
-
-def test_names_of_files_are_valid_and_those_of_the_document():
-    files = make_experiment_records(EXPERIMENT, 1, "day", UNITS)
     assert set(files.records) == {files.names.commands, *files.names.predictions.values()}
     for name in files.records:
         assert "/" not in name

@@ -1,33 +1,26 @@
 """Trials of the next experiment: all may be played, and none exceeds the records."""
 
+import sys
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from rotemina.sim.gap.experiment.safe_tests import find_safe_tests
+from rotemina.sim.gap.location import apply_lag
 from rotemina.sim.records import Record, Tap
 from rotemina.sim.robot import KeepOut
 from rotemina.sim.robot_files import load_robot
 from rotemina.sim.trajectory import dry_run
 
-ROBOT = load_robot("rotemina")
-
-
-def make_commands(robot=ROBOT, share=0.2, hertz=1.0, rate_hz=1000.0, seconds=4.0, axes=("zn",)):
-    """Return sines around the middle of the range, each axis a little slower than the previous."""
-    time_s = np.arange(round(seconds * rate_hz)) / rate_hz
-    signals = {}
-    for number, axis in enumerate(axes):
-        description = robot.axes[axis]
-        wave = np.minimum(time_s, 1.0) * np.sin(2.0 * np.pi * hertz * 0.7**number * time_s)
-        signals[axis, Tap.CMD] = sum(description.range) / 2.0 + share * description.span * wave
-    units = {axis: robot.unit(axis) for axis in axes}
-    return Record.from_signals(time_s, signals, units)
+# The shared records are in a module of the parent folder.
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from sweeps import ROBOT, make_sines
 
 
 def test_an_axis_is_held_while_the_axis_that_may_couple_into_it_moves():
-    record = make_commands(axes=("thx", "thy"))
+    record = make_sines(axes=("thx", "thy"))
     trials = find_safe_tests(ROBOT, "thx", [record], ["thy"])
     thy_records = [
         trial.record for trial in trials if str(trial.name).endswith("of thy while thx is held")
@@ -38,7 +31,7 @@ def test_an_axis_is_held_while_the_axis_that_may_couple_into_it_moves():
 
 
 def test_near_a_keep_out_no_trial_leaves_the_recorded_range():
-    record = make_commands(share=0.02)
+    record = make_sines(share=0.02)
     low, high = (float(limit(record.signal("zn", Tap.CMD))) for limit in (np.min, np.max))
     guarded_robot = replace(ROBOT, keep_out=KeepOut(floor=0.0))
     for robot, inside in ((ROBOT, False), (guarded_robot, True)):
@@ -53,10 +46,10 @@ def test_near_a_keep_out_no_trial_leaves_the_recorded_range():
         assert all(are_inside) is inside
 
 
-@pytest.mark.parametrize("axis", ROBOT.axes)
+@pytest.mark.parametrize("axis", ["x", "thx", "zn"])
 @pytest.mark.parametrize("beyond_records", [False, True])
 def test_every_trial_of_every_axis_may_be_played(axis, beyond_records):
-    records = [make_commands(axes=(axis,), share=0.1 if "th" in axis else 0.02)]
+    records = [make_sines(axes=(axis,), share=0.1 if "th" in axis else 0.02)]
     trials = find_safe_tests(ROBOT, axis, records, beyond_records=beyond_records)
     assert len(trials) >= 12
     assert all(dry_run(ROBOT, trial.record).allowed for trial in trials)
@@ -93,10 +86,7 @@ def make_record(axis, robot, kind, rate_hz):
     }[kind]
     description = robot.axes[axis]
     command = sum(description.range) / 2.0 + 0.1 * description.span * wave
-    decay = np.exp(-1.0 / (rate_hz * 0.01))
-    measured = command.copy()
-    for row in range(1, rows):
-        measured[row] = decay * measured[row - 1] + (1.0 - decay) * command[row]
+    measured = apply_lag(command, 0.01 * rate_hz)
     measured += 1e-5 * description.span * rng.standard_normal(rows)
     signals = {(axis, Tap.CMD): command, (axis, Tap.MEAS): measured}
     return Record.from_signals(time_s, signals, {axis: robot.unit(axis)})
@@ -111,10 +101,15 @@ def find_peak_rates(record, axis):
 
 
 @pytest.mark.parametrize(
-    ("name", "rate_hz"), [("rotemina", 1000.0), ("picma", 200.0), ("fsm", 1000.0), ("emps", 200.0)]
-)
-@pytest.mark.parametrize(
-    "kind", ["sine", "triangle", "staircase", "random steps", "coarse sine", "multisine"]
+    ("kind", "name", "rate_hz"),
+    [
+        ("sine", "emps", 200.0),
+        ("triangle", "picma", 200.0),
+        ("staircase", "rotemina", 1000.0),
+        ("random steps", "picma", 200.0),
+        ("coarse sine", "emps", 200.0),
+        ("multisine", "fsm", 1000.0),
+    ],
 )
 def test_without_limits_no_trial_exceeds_the_records_and_all_start_and_end_at_rest(
     kind, name, rate_hz
@@ -153,5 +148,5 @@ def test_a_step_counts_with_the_measured_speed_of_the_machine():
 
 
 def test_an_axis_that_never_moved_in_the_records_is_not_moved():
-    commands_at_rest = make_commands(share=0.0)
+    commands_at_rest = make_sines(share=0.0)
     assert find_safe_tests(remove_limits(ROBOT), "zn", [commands_at_rest]) == []

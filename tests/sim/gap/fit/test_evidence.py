@@ -47,7 +47,7 @@ def centre(signal):
     return signal - signal.mean()
 
 
-@pytest.mark.parametrize("rows", [-1.0, -0.4, 0.0, 0.7, 1.0])
+@pytest.mark.parametrize("rows", [-1.0, 0.7])
 def test_a_shift_of_less_than_a_row_is_not_a_gap(rows):
     output = np.cumsum(np.sin(np.linspace(0.0, 40.0, 2000)))
     real = np.interp(np.arange(2000) + rows, np.arange(2000), output)

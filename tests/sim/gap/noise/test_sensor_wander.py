@@ -1,5 +1,8 @@
 """Drift of a sensor is distinguished from motion."""
 
+import sys
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -9,26 +12,15 @@ from rotemina.sim.gap.noise import wander
 from rotemina.sim.gap.noise.sensor_wander import wandering
 from rotemina.sim.records import Record, Tap
 from rotemina.sim.robot import AxisEffect
-from rotemina.sim.robot_files import load_robot
 from rotemina.sim.simulation import simulate
 
-ROBOT = load_robot("rotemina")
+# The shared records are in a module of the parent folder.
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from sweeps import ROBOT, make_triangles_and_steps
+
 RATE_HZ = 1000.0
 TIME_S = np.arange(8000) / RATE_HZ
 NOISE = np.random.default_rng(0).standard_normal(len(TIME_S))
-
-
-def make_triangles_and_steps(axis, share=0.1):
-    """Return motion at constant speed, then steps with holds between them."""
-    description = ROBOT.axes[axis]
-    wave = 2.0 / np.pi * np.arcsin(np.sin(2.0 * np.pi * 0.5 * TIME_S))
-    stairs = np.floor(TIME_S) % 3 - 1.0
-    path = np.where(TIME_S < 4.0, wave, 0.3 * stairs)
-    return Record.from_signals(
-        TIME_S,
-        {(axis, Tap.CMD): sum(description.range) / 2 + share * description.span * path},
-        {axis: description.unit},
-    )
 
 
 def test_a_record_too_noisy_to_prove_a_drift_counts_if_another_one_proves_it():
