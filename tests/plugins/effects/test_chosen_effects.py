@@ -27,18 +27,15 @@ def test_effects_are_sorted_by_axis_and_stage_and_keep_their_order():
     assert chain.requests == (DELAY_Z, FRICTION_Z, FLEXIBLE_MODE_Z, HYSTERESIS_THX)
 
 
-def test_an_added_effect_comes_last_in_its_stage():
+def test_an_added_effect_comes_last_in_its_stage_and_may_be_added_twice():
     chain, index = ChosenEffects.from_effects(ROBOT, (HYSTERESIS_THX, FLEXIBLE_MODE_Z)).with_effect(
         FRICTION_Z
     )
     assert (chain.requests, index) == ((FLEXIBLE_MODE_Z, FRICTION_Z, HYSTERESIS_THX), 1)
+    chain, index = chain.with_effect(HYSTERESIS_THX)
+    assert (chain.requests[2:], index) == ((HYSTERESIS_THX, HYSTERESIS_THX), 3)
     chain, index = chain.with_effect(DELAY_Z)
     assert index == 0
-
-
-def test_the_same_effect_may_be_added_twice():
-    chain, index = ChosenEffects.from_effects(ROBOT, (HYSTERESIS_THX,)).with_effect(HYSTERESIS_THX)
-    assert (chain.requests, index) == ((HYSTERESIS_THX, HYSTERESIS_THX), 1)
 
 
 def test_only_neighbours_within_a_stage_can_be_swapped():
@@ -72,25 +69,21 @@ def test_another_formulation_keeps_only_valid_values_of_shared_parameters():
     assert (other.formulation, dict(other.parameters)) == ("appendage", {"frequency": 80.0})
 
 
-def test_each_axis_is_offered_the_effects_that_fit_its_type():
+@pytest.mark.parametrize(
+    ("robot", "axis", "offered", "withheld"),
+    [
+        ("rotemina", "thx", {"hysteresis", "cross_coupling"}, {"friction"}),
+        ("rotemina", "x", {"friction", "resonance_mismatch"}, {"hysteresis"}),
+        # A single static axis has neither coupling nor dynamics.
+        ("picma", "p", {"hysteresis"}, {"cross_coupling", "resonance_mismatch"}),
+    ],
+)
+def test_each_axis_is_offered_the_effects_that_fit_its_type(robot, axis, offered, withheld):
     effects, _ = load_all_effects()
-    piezo_effects, stepper_effects = (
-        find_candidates(ROBOT, "thx", effects),
-        find_candidates(ROBOT, "x", effects),
-    )
-    assert "hysteresis" in piezo_effects
-    assert "hysteresis" not in stepper_effects
-    assert "friction" in stepper_effects
-    assert "friction" not in piezo_effects
-    modes = effects["flexible_mode"].formulations
-    assert stepper_effects["flexible_mode"] == [formulation.name for formulation in modes]
-    assert list(piezo_effects) == [effect_id for effect_id in effects if effect_id in piezo_effects]
-
-
-def test_a_single_static_axis_is_offered_neither_coupling_nor_dynamics():
-    effects, _ = load_all_effects()
-    robot = load_robot("picma")
-    candidates = find_candidates(robot, "p", effects)
-    assert "hysteresis" in candidates
-    assert "cross_coupling" not in candidates
-    assert "resonance_mismatch" not in candidates
+    candidates = find_candidates(load_robot(robot), axis, effects)
+    assert offered <= set(candidates)
+    assert not withheld & set(candidates)
+    assert list(candidates) == [effect_id for effect_id in effects if effect_id in candidates]
+    if "flexible_mode" in candidates:
+        modes = effects["flexible_mode"].formulations
+        assert candidates["flexible_mode"] == [formulation.name for formulation in modes]

@@ -1,6 +1,7 @@
 """The effects panel with the simulator running."""
 
 import threading
+from dataclasses import replace
 from importlib import resources
 from pathlib import Path
 
@@ -95,12 +96,24 @@ def get_mean_gap(session, axis):
     return abs(float((history.measured - history.model)[:, column].mean()))
 
 
-def test_an_effect_added_from_the_menu_is_simulated(panel, wait_for_effects):
-    find_action(panel.add.menu(), "θx", "Hysteresis").trigger()
+def test_an_effect_added_from_the_menu_is_simulated(window, panel, wait_for_effects):
+    menu = next(action for action in panel.add.menu().actions() if action.text() == "θx").menu()
+    menu.aboutToShow.emit()
+    headings = [action.text() for action in menu.actions() if not action.isEnabled()]
+    stages = ["Electronics", "Actuator", "Mechanics", "Sensor"]
+    assert headings == [stage for stage in stages if stage in headings]
+    hysteresis = find_action(menu, "Hysteresis")
+    assert load_all_effects()[0]["hysteresis"].summary in hysteresis.toolTip()
+    assert menu.toolTipsVisible()
+    hysteresis.trigger()
     wait_for_effects(HYSTERESIS)
     preset = panel.editor.fields["width"].quantity.preset
     assert panel.editor.fields["width"].edit.text() == f"{1e6 * preset:.6g}"
     assert panel.status.text() == "1 effect, 1 on"
+    for name in ("light", "dark"):
+        window.use_theme(name)
+        colour = panel.table.item(0, 3).foreground().color().name()
+        assert colour == window.workbench.theme.text
     find_action(panel.add.menu(), "X", "Flexible mode", "appendage").trigger()
     wait_for_effects(AxisEffect(axis="x", id="flexible_mode", formulation="appendage"), HYSTERESIS)
     assert panel.editor.title.text() == "X: Flexible mode"
@@ -123,52 +136,46 @@ def test_hysteresis_opens_a_gap_to_the_model_until_all_effects_are_off(
     assert not panel_with_hysteresis.all_off.isChecked()
 
 
-def test_the_menu_is_grouped_by_stage_with_summaries_as_tooltips(panel):
-    effects, _ = load_all_effects()
-    menu = next(action for action in panel.add.menu().actions() if action.text() == "θx").menu()
-    menu.aboutToShow.emit()
-    headings = [action.text() for action in menu.actions() if not action.isEnabled()]
-    assert headings == [
-        heading
-        for heading in ("Electronics", "Actuator", "Mechanics", "Sensor")
-        if heading in headings
-    ]
-    assert {"Actuator", "Mechanics", "Sensor"} <= set(headings)
-    assert effects["hysteresis"].summary in find_action(menu, "Hysteresis").toolTip()
-    assert menu.toolTipsVisible()
-
-
-def test_a_typed_value_is_applied_in_the_shown_unit(qtbot, panel_with_hysteresis, wait_for_effects):
+def test_a_value_is_typed_dragged_and_reset_in_the_shown_unit(
+    qtbot, session, panel_with_hysteresis, wait_for_effects
+):
     field = panel_with_hysteresis.editor.fields["width"]
-    assert field.quantity.unit == "µrad"
+    high, preset = field.quantity.high, field.quantity.preset
+    tooltip = field.edit.toolTip()
+    assert f"between 0 and {1e6 * high:.6g} µrad" in tooltip
+    assert f"Preset {1e6 * preset:.6g} µrad" in tooltip
     type_in(qtbot, field, "200")
     wait_for_effects(AxisEffect(axis="thx", id="hysteresis", parameters={"width": 2e-4}))
     assert field.reset.isEnabled()
     qtbot.mouseClick(field.reset, Qt.MouseButton.LeftButton)
-    preset = field.quantity.preset
     wait_for_effects(AxisEffect(axis="thx", id="hysteresis", parameters={"width": preset}))
     assert not field.reset.isEnabled()
+    field.slider.setValue(field.slider.maximum())
+    wait_for_effects(AxisEffect(axis="thx", id="hysteresis", parameters={"width": high}))
+    assert field.edit.text() == f"{1e6 * high:.6g}"
+    # A value that is only left with Return keeps all its digits.
+    precise_effect = AxisEffect(axis="thx", id="hysteresis", parameters={"width": 1.23456789e-4})
+    session.service.set_effects([precise_effect])
+    wait_for_effects(precise_effect)
+    qtbot.keyClick(panel_with_hysteresis.editor.fields["width"].edit, Qt.Key.Key_Return)
+    assert not panel_with_hysteresis.live._pause.isActive()
+    assert panel_with_hysteresis.chain.requests == (precise_effect,)
 
 
-@pytest.mark.parametrize(
-    ("text", "reason"),
-    [
-        ("9000", "9000 µrad must be between 0 and {high} µrad"),
-        ("2,5", "decimal point"),
-        ("1_0", "is not a number"),
-    ],
-)
 def test_a_refused_value_is_marked_and_reported_with_its_bound(
-    qtbot, window, session, panel_with_hysteresis, text, reason
+    qtbot, window, session, panel_with_hysteresis
 ):
     field = panel_with_hysteresis.editor.fields["width"]
-    type_in(qtbot, field, text)
-    assert reason.format(
-        high=field.quantity.format_number(field.quantity.high)
-    ) in get_newest_notice(window)
-    assert field.is_not_applied
-    assert field.edit.text() == text
-    assert session.service.effects == (HYSTERESIS,)
+    high = field.quantity.format_number(field.quantity.high)
+    for text, reason in (
+        ("2,5", "decimal point"),
+        ("9000", f"9000 µrad must be between 0 and {high} µrad"),
+    ):
+        type_in(qtbot, field, text)
+        assert reason in get_newest_notice(window)
+        assert field.is_not_applied
+        assert field.edit.text() == text
+        assert session.service.effects == (HYSTERESIS,)
     panel_with_hysteresis.editor.fields["shape"].slider.setValue(0)
     qtbot.waitUntil(
         lambda: list(session.service.effects[0].parameters) == ["shape"], timeout=LONG_MS
@@ -178,65 +185,29 @@ def test_a_refused_value_is_marked_and_reported_with_its_bound(
     assert not field.is_not_applied
 
 
-def test_leaving_a_field_changes_nothing(qtbot, session, panel_with_hysteresis, wait_for_effects):
-    long_value_effect = AxisEffect(axis="thx", id="hysteresis", parameters={"width": 1.23456789e-4})
-    session.service.set_effects([long_value_effect])
-    wait_for_effects(long_value_effect)
-    field = panel_with_hysteresis.editor.fields["width"]
-    qtbot.keyClick(field.edit, Qt.Key.Key_Return)
-    assert not panel_with_hysteresis.live._pause.isActive()
-    assert panel_with_hysteresis.chain.requests == (long_value_effect,)
-
-
-def test_a_slider_sets_the_value_up_to_its_bound(panel_with_hysteresis, wait_for_effects):
-    slider = panel_with_hysteresis.editor.fields["width"].slider
-    slider.setValue(slider.maximum())
-    high = panel_with_hysteresis.editor.fields["width"].quantity.high
-    wait_for_effects(AxisEffect(axis="thx", id="hysteresis", parameters={"width": high}))
-    assert panel_with_hysteresis.editor.fields["width"].edit.text() == f"{1e6 * high:.6g}"
-
-
-def test_the_tooltip_shows_bounds_and_preset(panel_with_hysteresis):
-    field = panel_with_hysteresis.editor.fields["width"]
-    tooltip = field.edit.toolTip()
-    assert f"between 0 and {1e6 * field.quantity.high:.6g} µrad" in tooltip
-    assert f"Preset {1e6 * field.quantity.preset:.6g} µrad" in tooltip
-
-
-def test_an_effect_is_switched_off_and_removed(qtbot, panel_with_hysteresis, wait_for_effects):
-    panel_with_hysteresis.table.item(0, 0).setCheckState(Qt.CheckState.Unchecked)
-    wait_for_effects(AxisEffect(axis="thx", id="hysteresis", enabled=False))
-    assert panel_with_hysteresis.status.text() == "1 effect, 0 on"
-    qtbot.mouseClick(panel_with_hysteresis.remove, Qt.MouseButton.LeftButton)
-    wait_for_effects()
-    assert not panel_with_hysteresis.remove.isEnabled()
-    assert panel_with_hysteresis.editor.fields == {}
-    assert "nominal" in panel_with_hysteresis.status.text()
-
-
 def test_undo_takes_back_single_changes_and_a_slider_drag_as_one(
     qtbot, panel_with_hysteresis, wait_for_effects
 ):
-    assert not panel_with_hysteresis.undo.isEnabled()
-    slider = panel_with_hysteresis.editor.fields["width"].slider
+    panel = panel_with_hysteresis
+    assert not panel.undo.isEnabled()
+    field = panel.editor.fields["width"]
     for slider_position in (600, 700, 800):
-        slider.setValue(slider_position)
-    qtbot.mouseClick(panel_with_hysteresis.remove, Qt.MouseButton.LeftButton)
+        field.slider.setValue(slider_position)
+    dragged = replace(HYSTERESIS, parameters={"width": field.quantity.from_slider(800)})
+    wait_for_effects(dragged)
+    panel.table.item(0, 0).setCheckState(Qt.CheckState.Unchecked)
+    wait_for_effects(replace(dragged, enabled=False))
+    assert panel.status.text() == "1 effect, 0 on"
+    qtbot.mouseClick(panel.remove, Qt.MouseButton.LeftButton)
     wait_for_effects()
-    qtbot.mouseClick(panel_with_hysteresis.undo, Qt.MouseButton.LeftButton)
-    dragged_parameters = {
-        "width": panel_with_hysteresis.editor.fields["width"].quantity.from_slider(800)
-    }
-    wait_for_effects(AxisEffect(axis="thx", id="hysteresis", parameters=dragged_parameters))
-    qtbot.mouseClick(panel_with_hysteresis.undo, Qt.MouseButton.LeftButton)
-    wait_for_effects(HYSTERESIS)
-    assert not panel_with_hysteresis.editor.fields["width"].reset.isEnabled()
-    assert not panel_with_hysteresis.undo.isEnabled()
-
-
-def test_the_panel_is_not_taller_than_the_trajectory_panel(window, panel):
-    heights = {name: other.minimumSizeHint().height() for name, other in window.panels.items()}
-    assert heights["effects"] <= heights["trajectory"]
+    assert not panel.remove.isEnabled()
+    assert panel.editor.fields == {}
+    assert "nominal" in panel.status.text()
+    for effect in (replace(dragged, enabled=False), dragged, HYSTERESIS):
+        qtbot.mouseClick(panel.undo, Qt.MouseButton.LeftButton)
+        wait_for_effects(effect)
+    assert not panel.editor.fields["width"].reset.isEnabled()
+    assert not panel.undo.isEnabled()
 
 
 def test_formulation_and_source_axis_can_be_changed(qtbot, session, panel, wait_for_effects):
@@ -278,6 +249,12 @@ def test_effects_of_one_stage_can_be_reordered(qtbot, session, panel, wait_for_e
 def test_the_robot_is_saved_and_its_effects_are_loaded(
     qtbot, window, session, panel_with_hysteresis, wait_for_effects, tmp_path
 ):
+    panel_with_hysteresis._ask_save()
+    (dialog,) = panel_with_hysteresis.findChildren(QFileDialog)
+    assert not dialog.testOption(QFileDialog.Option.DontConfirmOverwrite)
+    assert (Path(dialog.directory().absolutePath()) / "six_axis_tour.csv").is_file()
+    assert dialog.defaultSuffix() == "toml"
+    dialog.reject()
     path = tmp_path / "mine.toml"
     panel_with_hysteresis.all_off.setChecked(True)
     panel_with_hysteresis.save_robot(path)
@@ -291,32 +268,19 @@ def test_the_robot_is_saved_and_its_effects_are_loaded(
     wait_for_effects(HYSTERESIS)
 
 
-def test_a_save_dialog_asks_before_it_replaces_a_file(panel):
-    panel._ask_save()
-    (dialog,) = panel.findChildren(QFileDialog)
-    assert not dialog.testOption(QFileDialog.Option.DontConfirmOverwrite)
-    assert (Path(dialog.directory().absolutePath()) / "six_axis_tour.csv").is_file()
-    assert dialog.defaultSuffix() == "toml"
-    dialog.reject()
-
-
-@pytest.mark.parametrize("robot", ["picma", "rotemina"])
 def test_a_file_with_foreign_or_no_effects_keeps_the_list(
-    qtbot, window, session, panel_with_hysteresis, tmp_path, robot
+    qtbot, window, session, panel_with_hysteresis, tmp_path
 ):
     path = tmp_path / "other.toml"
-    text = read_shipped_robot(robot) + (
-        '\n[[axis.p.effect]]\nid = "delay"\n' if robot == "picma" else ""
-    )
-    path.write_text(text, "utf-8")
-    panel_with_hysteresis.load_effects(path)
-    reason = "no such axis" if robot == "picma" else "has no effects"
-    qtbot.waitUntil(lambda: reason in get_newest_notice(window), timeout=LONG_MS)
-    assert panel_with_hysteresis.chain.requests == session.service.effects == (HYSTERESIS,)
-
-
-def read_shipped_robot(robot):
-    return resources.files("rotemina.resources.robots").joinpath(f"{robot}.toml").read_text("utf-8")
+    for robot, addition, reason in (
+        ("picma", '\n[[axis.p.effect]]\nid = "delay"\n', "no such axis"),
+        ("rotemina", "", "has no effects"),
+    ):
+        shipped_file = resources.files("rotemina.resources.robots").joinpath(f"{robot}.toml")
+        path.write_text(shipped_file.read_text("utf-8") + addition, "utf-8")
+        panel_with_hysteresis.load_effects(path)
+        qtbot.waitUntil(lambda reason=reason: reason in get_newest_notice(window), timeout=LONG_MS)
+        assert panel_with_hysteresis.chain.requests == session.service.effects == (HYSTERESIS,)
 
 
 def test_the_window_stays_alive_while_effects_are_prepared(qtbot, window, session, panel):
@@ -380,39 +344,22 @@ def test_broken_effects_are_named_and_left_out(make_robot_window, monkeypatch):
     assert not action.isEnabled()
 
 
-def test_the_panel_is_disabled_for_a_real_machine(make_robot_window, monkeypatch):
-    monkeypatch.setattr(DeviceService, "effects", property(lambda self: None))
-    panel = make_robot_window().panels["effects"]
-    assert panel.status.text() == ONLY_SIMULATOR_TEXT
-    for widget in (panel.add, panel.load, panel.save, panel.all_off, panel.table):
-        assert not widget.isEnabled()
-
-
 def test_the_panel_follows_a_change_to_a_real_machine_and_back(
     qtbot, window, panel_with_hysteresis, monkeypatch
 ):
-    original_property = DeviceService.effects
+    panel = panel_with_hysteresis
     with monkeypatch.context() as patch:
         patch.setattr(DeviceService, "effects", property(lambda self: None))
-        qtbot.waitUntil(
-            lambda: panel_with_hysteresis.status.text() == ONLY_SIMULATOR_TEXT, timeout=LONG_MS
-        )
-        qtbot.waitUntil(lambda: not panel_with_hysteresis.add.isEnabled(), timeout=LONG_MS)
-        assert panel_with_hysteresis.table.rowCount() == 0
-    assert DeviceService.effects is original_property
-    qtbot.waitUntil(panel_with_hysteresis.add.isEnabled, timeout=LONG_MS)
-    assert panel_with_hysteresis.chain.requests == (HYSTERESIS,)
+        qtbot.waitUntil(lambda: panel.status.text() == ONLY_SIMULATOR_TEXT, timeout=LONG_MS)
+        qtbot.waitUntil(lambda: not panel.add.isEnabled(), timeout=LONG_MS)
+        for widget in (panel.load, panel.save, panel.all_off, panel.table):
+            assert not widget.isEnabled()
+        assert panel.table.rowCount() == 0
+    qtbot.waitUntil(panel.add.isEnabled, timeout=LONG_MS)
+    assert panel.chain.requests == (HYSTERESIS,)
 
 
 def test_a_lost_simulator_locks_the_panel(qtbot, window, panel_with_hysteresis):
     window.workbench.session.close()
     qtbot.waitUntil(lambda: not panel_with_hysteresis.add.isEnabled(), timeout=LONG_MS)
     window.workbench.notify(Level.INFO, "the window lives")
-
-
-def test_the_theme_recolours_the_list(window, panel_with_hysteresis):
-    window.use_theme("light")
-    light_colour = panel_with_hysteresis.table.item(0, 3).foreground().color().name()
-    window.use_theme("dark")
-    assert light_colour == "#1b2129"
-    assert panel_with_hysteresis.table.item(0, 3).foreground().color().name() == "#e8ebf0"

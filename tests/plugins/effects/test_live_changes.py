@@ -71,10 +71,12 @@ def send(qtbot, live, session, effects):
     qtbot.waitUntil(lambda: len(session.requests) > count)
 
 
-def test_accepted_effects_are_applied(qtbot, live, session):
-    send(qtbot, live, session, FIRST)
+def test_only_the_last_of_several_quick_changes_is_sent_and_applied(qtbot, live, session):
+    live.request(FIRST)
+    send(qtbot, live, session, SECOND)
+    assert session.requests == [SECOND]
     assert live.apply_state is ApplyState.UNDER_WAY
-    session.service.effects = FIRST
+    session.service.effects = SECOND
     refresh_at(live, 1.0)
     assert live.apply_state is ApplyState.APPLIED
 
@@ -89,12 +91,6 @@ def test_while_one_change_is_under_way_only_the_newest_waits(qtbot, live, sessio
     refresh_at(live, 1.0)
     assert session.requests == [FIRST, THIRD]
     assert live.apply_state is ApplyState.UNDER_WAY
-
-
-def test_only_the_last_of_several_quick_changes_is_sent(qtbot, live, session):
-    live.request(FIRST)
-    send(qtbot, live, session, SECOND)
-    assert session.requests == [SECOND]
 
 
 def test_a_slow_change_is_shown_as_preparing(qtbot, live, session, monkeypatch):
@@ -121,21 +117,20 @@ def test_a_dropped_request_is_sent_once_more(qtbot, live, session):
     )
 
 
-def test_a_request_refused_by_the_worker_is_not_repeated(qtbot, live, session):
+def test_a_refusal_by_the_worker_or_a_lost_device_ends_the_wait(qtbot, live, session):
     send(qtbot, live, session, FIRST)
     session.callback(CommandRefused("unstable"))
     refresh_at(live, 1.0, 2.0, 3.0)
     assert (live.apply_state, live.reason) == (ApplyState.REFUSED, "unstable")
-    assert session.requests == [FIRST]
-
-
-def test_a_refusal_during_a_fault_ends_the_wait(qtbot, live, session):
-    send(qtbot, live, session, FIRST)
-    session.callback(CommandRefused("width = 1"))
-    live.refresh(replace(make_state(1.0), fault="it diverged"))
-    assert live.apply_state is ApplyState.REFUSED
+    assert session.requests == [FIRST]  # it is not repeated
     send(qtbot, live, session, SECOND)
-    assert session.requests == [FIRST, SECOND]
+    session.callback(CommandRefused("width = 1"))
+    live.refresh(replace(make_state(4.0), fault="it diverged"))
+    assert live.apply_state is ApplyState.REFUSED
+    send(qtbot, live, session, THIRD)
+    refresh_at(live, 5.0, connection=ConnectionState.FAILED)
+    assert live.apply_state is ApplyState.REFUSED
+    assert session.requests == [FIRST, SECOND, THIRD]
 
 
 def test_an_immediate_refusal_is_reported(qtbot, live, session):
@@ -143,12 +138,6 @@ def test_an_immediate_refusal_is_reported(qtbot, live, session):
     with qtbot.waitSignal(live.refused) as refusal:
         live.request(FIRST)
     assert refusal.args == ["the queue is full"]
-    assert live.apply_state is ApplyState.REFUSED
-
-
-def test_a_lost_device_ends_the_wait(qtbot, live, session):
-    send(qtbot, live, session, FIRST)
-    refresh_at(live, 1.0, connection=ConnectionState.FAILED)
     assert live.apply_state is ApplyState.REFUSED
 
 

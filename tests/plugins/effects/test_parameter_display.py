@@ -26,14 +26,11 @@ def make_parameter(unit, low, high, typical, axis="thx", per=None, source_unit="
     ("unit", "typical", "axis", "text"),
     [
         ("q", 1.1e-4, "thx", "110 µrad"),
-        ("q", 5.5e-6, "x", "5.5 µm"),
         ("q", 2e-3, "x", "2 mm"),
         ("q/s", 1e-3, "x", "1 mm/s"),
         ("q", 2e-8, "zn", "20 nm"),
-        ("s", 1e-3, "x", "1 ms"),
         ("s", 60.0, "x", "60 s"),
         ("N s/q", 3.0, "x", "3 N s/m"),
-        ("Hz", 50.0, "x", "50 Hz"),
         ("u", 2.0, "thx", "2 V"),
         ("", 0.03, "x", "0.03"),
     ],
@@ -46,14 +43,10 @@ def test_the_unit_fits_the_typical_value(unit, typical, axis, text):
     )
 
 
-def test_a_coupling_has_the_units_of_both_axes():
-    assert (
-        make_parameter("q/…", -1.0, 1.0, 0.1, "thx", source_unit="m").format_value(0.5)
-        == "0.5 rad/m"
-    )
-    assert (
-        make_parameter("q/…", -1.0, 1.0, 0.1, "thx", source_unit="rad").format_value(0.5) == "0.5"
-    )
+@pytest.mark.parametrize(("source_unit", "text"), [("m", "0.5 rad/m"), ("rad", "0.5")])
+def test_a_coupling_has_the_units_of_both_axes(source_unit, text):
+    parameter = make_parameter("q/…", -1.0, 1.0, 0.1, "thx", source_unit=source_unit)
+    assert parameter.format_value(0.5) == text
 
 
 @pytest.mark.parametrize("text", ["1_0", "٢٥", "nan", "inf", "0x10", "2 8", "", "1e", "2,8"])
@@ -66,10 +59,9 @@ def test_a_value_out_of_bounds_is_refused_with_the_bounds():
     parameter = make_parameter("q", 0.0, 0.5, 0.1, per="span")
     with pytest.raises(ValueRefusedError, match=r"600 µrad.*between 0 and 581\.775 µrad"):
         parameter.parse_value("600")
-    with pytest.raises(ValueRefusedError, match="at least 0 N"):
-        make_parameter("N", 0.0, inf, 1.0, "x").parse_value("-1")
-    with pytest.raises(ValueRefusedError, match="at least 0 N"):
-        make_parameter("N", 0.0, inf, 1.0, "x").parse_value("1e999")
+    for text in ("-1", "1e999"):
+        with pytest.raises(ValueRefusedError, match="at least 0 N"):
+            make_parameter("N", 0.0, inf, 1.0, "x").parse_value(text)
 
 
 def test_the_displayed_bound_is_accepted_as_the_bound():
@@ -82,12 +74,9 @@ def test_the_displayed_bound_is_accepted_as_the_bound():
     [
         (0.0, 0.2, 1e-4),
         (0.02, 50.0, 1.7),
-        (0.0, 1.0, 0.7),
         (-100.0, 100.0, 0.02),
-        (-0.9, 9.0, 0.0),
         (-0.05, 1.0, 0.05),
         (0.0, 1.0, 0.0),
-        (1.0, 3.0, 1.0),
         (0.5, 4.0, 4.0),
     ],
 )
@@ -103,8 +92,3 @@ def test_a_slider_covers_the_bounds_and_is_invertible(low, high, typical):
         assert parameter.from_slider(parameter.to_slider(values[position])) == values[position]
     nearest = parameter.from_slider(parameter.to_slider(typical))
     assert nearest == pytest.approx(typical, rel=0.02, abs=1e-12)
-
-
-def test_an_unbounded_parameter_has_no_slider():
-    assert not make_parameter("N", 0.0, inf, 1.0).bounded
-    assert make_parameter("N", 0.0, 2.0, 1.0).bounded

@@ -90,22 +90,17 @@ def test_repeated_short_losses_take_two_rows(history):
     assert history.entries[-1].at == START + timedelta(seconds=40)
 
 
-def test_disconnecting_is_not_a_fault(history):
-    assert note_events(history, CONNECTED, DISCONNECTED)[-1] == (FaultKind.NOTE, "disconnected")
-
-
-def test_repeated_refusals_are_counted(history):
+def test_refusals_are_counted_latches_noted_once_and_disconnecting_is_no_fault(history):
     note_events(history, *[CommandRefused("too far")] * 3)
-    (entry,) = history.entries
-    assert entry.english_text == "too far (3 times)"
-
-
-def test_the_latch_is_noted_once(history):
     for latched in (None, "emergency stop", "emergency stop", None):
         history.record_latch(START, latched)
-    assert [entry.english_text for entry in history.entries] == [
-        "emergency stop locked",
-        "released",
+    note_events(history, CONNECTED, DISCONNECTED)
+    assert [(entry.kind, entry.english_text) for entry in history.entries] == [
+        (FaultKind.REFUSED, "too far (3 times)"),
+        (FaultKind.STOP, "emergency stop locked"),
+        (FaultKind.STOP, "released"),
+        (FaultKind.RECOVERED, "connected"),
+        (FaultKind.NOTE, "disconnected"),
     ]
 
 

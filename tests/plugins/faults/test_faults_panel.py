@@ -40,17 +40,41 @@ def wait_for_row(qtbot, panel, *row):
     qtbot.waitUntil(lambda: row in list_rows(panel), timeout=LONG_MS)
 
 
-def test_refusals_latches_and_recoveries_are_listed_newest_first(qtbot, window, panel):
+def test_rows_are_listed_newest_first_copied_written_and_cleared(
+    qtbot, window, panel, tmp_path, monkeypatch
+):
     wait_for_row(qtbot, panel, "recovered", "connected")
+    panel.table.selectRow(0)
     window.workbench.go_to({"x": 1.0})
     window.workbench.emergency_stop()
     wait_for_row(qtbot, panel, "stop and lock", "stop and lock locked")
     window.workbench.release()
     wait_for_row(qtbot, panel, "stop and lock", "released")
-    kinds = [kind for kind, _ in list_rows(panel)]
-    assert kinds == ["stop and lock", "stop and lock", "refused", "recovered"]
+    kinds = ["stop and lock", "stop and lock", "refused", "recovered"]
+    assert [kind for kind, _ in list_rows(panel)] == kinds
     assert "x" in list_rows(panel)[2][1]
     assert panel.table.item(0, 0).text().count(":") == 2
+    # The selected row stays selected when rows are added above it.
+    assert [entry.text for entry in panel.table.list_selected_entries()] == ["connected"]
+
+    qtbot.keyClick(panel.table, Qt.Key.Key_C, Qt.KeyboardModifier.ControlModifier)
+    selected_text = QGuiApplication.clipboard().text()
+    panel.table.clearSelection()
+    qtbot.mouseClick(panel.copy, Qt.MouseButton.LeftButton)
+    lines = QGuiApplication.clipboard().text().splitlines()
+    assert [line.split("\t")[1] for line in lines] == kinds[::-1]
+    assert selected_text == lines[0] + "\n"
+    target = tmp_path / "faults.txt"
+    monkeypatch.setattr(QFileDialog, "show", lambda dialog: dialog.fileSelected.emit(str(target)))
+    qtbot.mouseClick(panel.save, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(target.exists, timeout=LONG_MS)
+    assert target.read_text("utf-8").splitlines() == lines
+
+    qtbot.mouseClick(panel.clear_rows, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: panel.table.rowCount() == 0, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: not panel.save.isEnabled(), timeout=LONG_MS)
+    window.workbench.go_to({"x": 1.0})
+    qtbot.waitUntil(lambda: panel.table.rowCount() == 1, timeout=LONG_MS)
 
 
 def test_a_lost_device_is_listed_as_plain_text(qtbot, make_robot_window):
@@ -64,52 +88,13 @@ def test_a_lost_device_is_listed_as_plain_text(qtbot, make_robot_window):
     assert "reconnect" in panel.clear_fault.toolTip()
 
 
-def test_rows_are_copied_and_written_as_text(qtbot, window, panel, tmp_path, monkeypatch):
-    wait_for_row(qtbot, panel, "recovered", "connected")
-    window.workbench.go_to({"x": 1.0})
-    qtbot.waitUntil(lambda: panel.table.rowCount() == 2, timeout=LONG_MS)
-    qtbot.mouseClick(panel.copy, Qt.MouseButton.LeftButton)
-    lines = QGuiApplication.clipboard().text().splitlines()
-    assert [line.split("\t")[1] for line in lines] == ["recovered", "refused"]
-    panel.table.selectRow(1)
-    qtbot.keyClick(panel.table, Qt.Key.Key_C, Qt.KeyboardModifier.ControlModifier)
-    assert QGuiApplication.clipboard().text() == lines[0] + "\n"
-    target = tmp_path / "faults.txt"
-    monkeypatch.setattr(QFileDialog, "show", lambda dialog: dialog.fileSelected.emit(str(target)))
-    qtbot.mouseClick(panel.save, Qt.MouseButton.LeftButton)
-    qtbot.waitUntil(target.exists, timeout=LONG_MS)
-    assert target.read_text("utf-8").splitlines() == lines
-
-
-def test_the_list_can_be_cleared_and_new_rows_still_appear(qtbot, window, panel):
-    wait_for_row(qtbot, panel, "recovered", "connected")
-    qtbot.mouseClick(panel.clear_rows, Qt.MouseButton.LeftButton)
-    qtbot.waitUntil(lambda: panel.table.rowCount() == 0, timeout=LONG_MS)
-    qtbot.waitUntil(lambda: not panel.save.isEnabled(), timeout=LONG_MS)
-    window.workbench.go_to({"x": 1.0})
-    qtbot.waitUntil(lambda: panel.table.rowCount() == 1, timeout=LONG_MS)
-
-
-def test_a_selected_row_stays_selected_when_rows_are_added(qtbot, window, panel):
-    wait_for_row(qtbot, panel, "recovered", "connected")
-    panel.table.selectRow(0)
-    window.workbench.go_to({"x": 1.0})
-    qtbot.waitUntil(lambda: panel.table.rowCount() == 2, timeout=LONG_MS)
-    assert [entry.text for entry in panel.table.list_selected_entries()] == ["connected"]
-
-
-def test_without_a_board_nothing_can_be_injected(window, panel):
-    assert panel.injection.start_button.isEnabled()
-    assert not panel.injection.end_button.isEnabled()
-    for row in panel.injection.rows:
-        assert not row.button.isEnabled()
-        assert "start it first" in row.button.toolTip()
-        for field in row.fields:
-            assert field.accessibleName()
-
-
 def test_a_virtual_board_starts_accepts_faults_and_ends_with_the_window(qtbot, window, panel):
     injection, board = panel.injection, panel.injection.board
+    assert not injection.end_button.isEnabled()
+    for row in injection.rows:
+        assert not row.button.isEnabled()
+        assert "start it first" in row.button.toolTip()
+        assert all(field.accessibleName() for field in row.fields)
     qtbot.mouseClick(injection.start_button, Qt.MouseButton.LeftButton)
     assert not injection.start_button.isEnabled()
     qtbot.waitUntil(lambda: len(board.ports) == 2, timeout=LONG_MS)

@@ -28,14 +28,11 @@ def get_colour(image, x, y):
     return tuple(int(channel) for channel in image[y, x, 2::-1])
 
 
-def test_seen_from_above_x_is_right_and_y_is_up():
+def test_points_are_seen_from_above_and_from_the_side():
     points = np.array([[0.0, 0.5, 0.0], [0.0, 0.0, 0.5], [0.0, 0.0, 0.0]])
     (x0, x1, x2), (y0, y1, y2), _ = project_points(points, ABOVE, 1.0, SIZE)
     assert x1 > x0 == pytest.approx(x2)
     assert y2 < y0 == pytest.approx(y1)
-
-
-def test_seen_from_the_side_z_is_up_and_minus_y_is_nearer():
     points = np.array([[0.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
     _, down, near = project_points(points, OrbitView(azimuth=-90.0, elevation=0.0), 1.0, SIZE)
     assert down[1] < down[0]

@@ -29,20 +29,33 @@ def get_curve(panel, axis, curve):
     return panel.plots[axis].plot._curves[curve].getData()
 
 
-def test_command_model_and_measurement_are_drawn_up_to_now(qtbot, window, panel):
+def test_curves_are_drawn_up_to_now_with_the_gap_strip_if_there_is_room(qtbot, window, panel):
+    window.resize(1280, 1080)
     window.workbench.jog("thx", 1e-5)
     history = window.workbench.session.history
+    strip = panel.plots["thx"].strip
 
     def has_settled():
         newest = history.tail(0.1)
-        return abs(newest.command[0, 3] - 5.91775e-4) < 1e-9 and np.ptp(newest.model[:, 3]) < 1e-7
+        panel.refresh()
+        return (
+            abs(newest.command[0, 3] - 5.91775e-4) < 1e-9
+            and np.ptp(newest.model[:, 3]) < 1e-7
+            and np.isfinite(strip._values).any()
+        )
 
     qtbot.waitUntil(has_settled, timeout=LONG_MS)
-    panel.refresh()
     for curve in ("command", "model", "measured"):
         time_s, values = get_curve(panel, "thx", curve)
         assert time_s[-1] == pytest.approx(0.0, abs=0.05)
         assert values[-1] == pytest.approx(591.775, abs=3.0)
+    assert strip.isVisible()
+    panel.kind_choice.setCurrentIndex(2)  # a loop has no time axis
+    assert not strip.isVisible()
+    panel.kind_choice.setCurrentIndex(0)
+    assert strip.isVisible()
+    panel.plots["thx"].split_height(40)
+    assert not strip.isVisible()
 
 
 def test_every_view_is_drawn_with_cursors_and_an_overlay(qtbot, window, panel, tmp_path):
@@ -99,17 +112,6 @@ def save_and_check(qtbot, panel, folder):
     )
 
 
-def test_a_paused_plot_does_not_change(qtbot, window, panel):
-    panel.refresh()
-    panel.pause.setChecked(True)
-    old_values = get_curve(panel, "x", "measured")[1].copy()
-    window.workbench.jog("x", 1e-5)
-    session = window.workbench.session
-    qtbot.waitUntil(lambda: session.snapshot().command["x"] > 0.02750999, timeout=LONG_MS)
-    panel.refresh()
-    np.testing.assert_array_equal(get_curve(panel, "x", "measured")[1], old_values)
-
-
 def test_the_scale_changes_only_if_needed(qtbot):
     plot = SignalPlot(DARK)
     qtbot.addWidget(plot)
@@ -139,30 +141,22 @@ def test_new_samples_are_drawn_one_plot_at_a_time(qtbot, window, panel, monkeypa
     assert len(draw_calls) == 7
     panel.refresh()  # a full refresh draws all plots and clears the queue
     assert len(draw_calls) == 13
-    qtbot.wait(50)
-    assert len(draw_calls) == 13
+    assert not panel._waiting_plots
 
 
-@pytest.mark.parametrize("pixels", [13, 26])
-def test_the_scale_of_the_gap_strip_fits_at_every_text_size(qtbot, pixels):
-    axis = load_robot("rotemina").axes["thx"]
-    strip = GapStrip(DARK, "thx", axis, axis.sensor.noise_floor)
-    qtbot.addWidget(strip)
-    font = strip.font()
-    font.setPixelSize(pixels)
-    strip.setFont(font)
-    strip.resize(300, 50)
-    picture = strip.grab().toImage()
-    edge = {picture.pixelColor(0, y).name() for y in range(50)}
-    assert edge == {DARK.surface}  # no letter is cut off
-
-
-def test_the_gap_strip_is_scaled_by_floor_and_bounds(qtbot):
+def test_the_gap_strip_is_scaled_by_floor_and_bounds_and_cuts_off_no_letter(qtbot):
     axis = load_robot("rotemina").axes["zn"]
     floor = axis.sensor.noise_floor
     strip = GapStrip(DARK, "zn", axis, floor)
     qtbot.addWidget(strip)
     strip.resize(300, 50)
+    font = strip.font()
+    font.setPixelSize(26)
+    strip.setFont(font)
+    picture = strip.grab().toImage()
+    assert {picture.pixelColor(0, y).name() for y in range(50)} == {DARK.surface}
+    font.setPixelSize(13)
+    strip.setFont(font)
     time_s = np.linspace(-10.0, 0.0, 101)
     values = np.full(101, floor)
     values[40:60] = np.nan  # at rest
@@ -193,26 +187,9 @@ def test_the_gap_strip_is_scaled_by_floor_and_bounds(qtbot):
     assert strip.top == pytest.approx(20.0 * floor)  # nothing moved
 
 
-def test_the_gap_strip_is_shown_if_there_is_room(qtbot, window, panel):
-    window.resize(1280, 1080)
-    window.workbench.jog("zn", 1e-6)
-    strip = panel.plots["zn"].strip
-
-    def has_values():
-        panel.refresh()
-        return np.isfinite(strip._values).any()
-
-    qtbot.waitUntil(has_values, timeout=LONG_MS)
-    assert strip.isVisible()
-    panel.kind_choice.setCurrentIndex(2)  # a loop has no time axis
-    assert not strip.isVisible()
-    panel.kind_choice.setCurrentIndex(0)
-    assert strip.isVisible()
-    panel.plots["zn"].split_height(40)
-    assert not strip.isVisible()
-
-
-def test_old_readings_are_grey_and_their_age_is_shown(qtbot, window, panel):
+def test_old_readings_are_grey_with_their_age_and_waiting_plots_show_their_background(
+    window, panel
+):
     def get_pen_colours():
         curves = panel.plots["zn"].plot._curves
         return {curves[name].opts["pen"].color().name() for name in ("command", "measured")}
@@ -229,43 +206,6 @@ def test_old_readings_are_grey_and_their_age_is_shown(qtbot, window, panel):
     assert get_pen_colours() == normal_colours
     assert panel.age.isHidden()
 
-
-def test_rearranged_plots_keep_their_curves_while_paused(panel):
-    panel.grid.arrange(940, 390, 60)
-    panel.refresh()
-    panel.pause.click()
-    panel.grid.arrange(1270, 170, 60)
-    for name in panel.plots:
-        assert len(get_curve(panel, name, "measured")[0]) > 0
-
-
-@pytest.mark.parametrize(
-    ("size", "rows", "has_head", "axes_with_times"),
-    [
-        ((940, 390), [["x", "thx"], ["y", "thy"], ["z", "zn"]], True, ["z", "zn"]),
-        ((940, 250), [["x", "y", "z"], ["thx", "thy", "zn"]], True, ["thx", "thy", "zn"]),
-        ((590, 170), [["x", "y", "z"], ["thx", "thy", "zn"]], False, ["thx", "thy", "zn"]),
-        ((1270, 170), [["x", "y", "z", "thx", "thy", "zn"]], False, []),
-        ((590, 90), [["x", "y", "z", "thx", "thy", "zn"]], False, []),
-    ],
-)
-def test_plots_are_arranged_in_readable_rows_that_fit(panel, size, rows, has_head, axes_with_times):
-    grid = panel.grid
-    assert grid.arrange(*size, 60) is has_head
-    placed_names = {}
-    for name, plot in panel.plots.items():
-        row, column, _, _ = grid.layout().getItemPosition(grid.layout().indexOf(plot))
-        placed_names[row, column] = name
-    expected = {
-        (row_index, column_index): name
-        for row_index, names in enumerate(rows)
-        for column_index, name in enumerate(names)
-    }
-    assert placed_names == expected
-    assert [name for name, plot in panel.plots.items() if plot._has_times] == axes_with_times
-
-
-def test_a_plot_that_waits_to_be_drawn_shows_its_background(qtbot, window, panel):
     plot = panel.plots["x"].plot
     plot.paint_now()
     plot.resizeEvent(None)
@@ -273,3 +213,40 @@ def test_a_plot_that_waits_to_be_drawn_shows_its_background(qtbot, window, panel
     assert window.grab().toImage().pixelColor(centre).name() == window.workbench.theme.surface
     plot.paint_now()
     assert not plot._staggering.is_held
+
+
+ARRANGEMENTS = [
+    ((940, 390), [["x", "thx"], ["y", "thy"], ["z", "zn"]], True, ["z", "zn"]),
+    ((940, 250), [["x", "y", "z"], ["thx", "thy", "zn"]], True, ["thx", "thy", "zn"]),
+    ((590, 170), [["x", "y", "z"], ["thx", "thy", "zn"]], False, ["thx", "thy", "zn"]),
+    ((1270, 170), [["x", "y", "z", "thx", "thy", "zn"]], False, []),
+    ((590, 90), [["x", "y", "z", "thx", "thy", "zn"]], False, []),
+]
+
+
+def test_paused_plots_keep_their_curves_in_readable_rows_that_fit(qtbot, window, panel):
+    grid = panel.grid
+    grid.arrange(*ARRANGEMENTS[0][0], 60)
+    panel.refresh()
+    panel.pause.click()
+    old_values = get_curve(panel, "x", "measured")[1].copy()
+    window.workbench.jog("x", 1e-5)
+    session = window.workbench.session
+    qtbot.waitUntil(lambda: session.snapshot().command["x"] > 0.02750999, timeout=LONG_MS)
+    panel.refresh()
+    for size, rows, has_head, axes_with_times in ARRANGEMENTS:
+        assert grid.arrange(*size, 60) is has_head
+        placed_names = {}
+        for name, plot in panel.plots.items():
+            row, column, _, _ = grid.layout().getItemPosition(grid.layout().indexOf(plot))
+            placed_names[row, column] = name
+        assert placed_names == {
+            (row_index, column_index): name
+            for row_index, names in enumerate(rows)
+            for column_index, name in enumerate(names)
+        }
+        times = [name for name, plot in panel.plots.items() if plot._has_times]
+        assert times == axes_with_times
+        for name in panel.plots:
+            assert len(get_curve(panel, name, "measured")[0]) > 0
+    np.testing.assert_array_equal(get_curve(panel, "x", "measured")[1], old_values)
