@@ -118,16 +118,12 @@ def test_a_periodic_record_is_trimmed_to_its_steady_state(multisine):
     np.testing.assert_array_equal(record.signal("zn", Tap.CMD), command[2000:])
 
 
-def test_a_record_at_another_rate_is_not_marked_periodic(multisine):
+def test_a_record_at_another_rate_or_of_a_non_periodic_motion_starts_at_rest(robot, multisine):
     record = make_playback_record(multisine, 1990.5)
     trimmed = trim_to_steady_state(record, multisine)
-    assert trimmed.history == "rest"
-    assert trimmed.period_samples is None
+    assert (trimmed.history, trimmed.period_samples) == ("rest", None)
     np.testing.assert_array_equal(trimmed.values, record.values)
-
-
-def test_a_record_of_a_non_periodic_motion_starts_at_rest(robot):
     motion = prepare_excitation(robot, ExcitationRequest("zn", ExcitationWave.TRIANGLE), PERIOD_S)
-    record = trim_to_steady_state(make_playback_record(motion, 1000.0, mode="open_loop"), motion)
-    assert record.history == "rest"
-    assert record.metadata == {"mode": "open_loop"}
+    trimmed = trim_to_steady_state(make_playback_record(motion, 1000.0, mode="open_loop"), motion)
+    assert trimmed.history == "rest"
+    assert trimmed.metadata == {"mode": "open_loop"}

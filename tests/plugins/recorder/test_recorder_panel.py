@@ -52,7 +52,12 @@ def record_a_move(qtbot, window):
         return state.device_time_s > latest_command[1] + 0.2
 
     qtbot.waitUntil(has_rested, timeout=LONG_MS)
-    section.note_field.setText("moved by hand")
+    assert not section.note_button.isEnabled()
+    assert "type a remark first" in section.note_button.toolTip()
+    qtbot.keyClick(section.note_field, Qt.Key.Key_Return)
+    assert list_notices(window)[0] == "Nothing was noted: type a remark first."
+    qtbot.keyClicks(section.note_field, "moved by hand")
+    assert section.note_button.isEnabled()  # without a refresh
     qtbot.keyClick(section.note_field, Qt.Key.Key_Return)
     assert section.note_field.text() == ""
     noted_s = session.snapshot().device_time_s
@@ -168,15 +173,3 @@ def test_after_a_crash_files_are_recovered_and_a_full_disk_is_reported(
     window.workbench.close()
     assert Recording.open(writer.path).count > 0
     assert list(folder.glob("*.part")) == [busy]
-
-
-def test_an_empty_remark_is_refused(qtbot, window):
-    section = raise_panel(window).recording
-    click(qtbot, section.record)
-    qtbot.waitUntil(section.note_field.isEnabled, timeout=LONG_MS)
-    assert not section.note_button.isEnabled()
-    assert "type a remark first" in section.note_button.toolTip()
-    qtbot.keyClick(section.note_field, Qt.Key.Key_Return)
-    assert list_notices(window)[0] == "Nothing was noted: type a remark first."
-    qtbot.keyClicks(section.note_field, "seen")
-    assert section.note_button.isEnabled()  # without a refresh

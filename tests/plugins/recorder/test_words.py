@@ -40,8 +40,7 @@ def test_interrupted_files_and_recordings_of_others_are_named():
     ("begin", "end", "section"),
     [
         ("", "", (0.0, 10.0)),
-        (" 2.5 ", "", (2.5, 10.0)),
-        ("", "4", (0.0, 4.0)),
+        (" 2.5 ", "4", (2.5, 4.0)),
         ("9", "99", (9, 99)),
     ],
 )

@@ -82,11 +82,19 @@ def test_a_playback_is_paused_stepped_and_resumed(qtbot, window, panel):
     )
 
 
-def test_a_playback_ended_from_a_pause_is_compared(qtbot, window, panel):
+def test_a_double_click_on_pause_does_not_resume_and_the_end_is_compared(qtbot, window, panel):
     workbench, transport = window.workbench, panel.transport
     click(qtbot, transport.play)
     qtbot.waitUntil(lambda: workbench.playback.state.row > 200, timeout=LONG_MS)
     click(qtbot, transport.play)
+    qtbot.waitUntil(lambda: get_phase(panel) is PlaybackPhase.PAUSED, timeout=LONG_MS)
+    # The next press follows before the button has shown Resume for half a second.
+    workbench.toggle_playback()
+    assert "Not done: " in list_notices(window)[0]
+    assert get_phase(panel) is PlaybackPhase.PAUSED
+    qtbot.waitUntil(
+        lambda: transport.play.text() == "Resume" and transport.play.isEnabled(), timeout=LONG_MS
+    )
     qtbot.waitUntil(
         lambda: [bool(entry.gap) for entry in workbench.library.entries] == [True], timeout=LONG_MS
     )
@@ -96,41 +104,45 @@ def test_a_playback_ended_from_a_pause_is_compared(qtbot, window, panel):
     assert workbench.run.record is workbench.record
     assert not workbench.run.completed
     assert get_phase(panel) is PlaybackPhase.IDLE
-    assert list_notices(window) == []
+    assert len(list_notices(window)) == 1
 
 
-def test_a_step_before_the_start_moves_to_the_first_row(qtbot, window, panel):
+def test_a_step_before_the_start_moves_to_the_first_row_and_another_trajectory_ends_the_pause(
+    qtbot, window, panel
+):
+    session = window.workbench.session
     click(qtbot, panel.transport.forward)
     assert window.workbench.playback.state.row == 0
-    session = window.workbench.session
     qtbot.waitUntil(lambda: session.snapshot().command["zn"] == 30e-6, timeout=LONG_MS)
     click(qtbot, panel.transport.end)
+    assert get_phase(panel) is PlaybackPhase.IDLE
+    click(qtbot, panel.transport.forward)
+    assert get_phase(panel) is PlaybackPhase.PAUSED
+    with qtbot.waitSignal(window.workbench.plan_changed, timeout=LONG_MS):
+        window.workbench.plan_trajectory("other", make_swing(1.0))
     assert get_phase(panel) is PlaybackPhase.IDLE
 
 
 def test_a_deviation_beyond_the_bound_pauses_with_a_notice(qtbot, window, panel):
-    session = window.workbench.session
-    session.service.set_effects(
-        (AxisEffect(axis="zn", id="gain_error", parameters={"error": 0.2}),)
-    )
-    qtbot.waitUntil(lambda: session.at_rest, timeout=LONG_MS)  # the new plant is in use
-    panel.table.item(0, BOUND_COLUMN).setText("8")
-    assert window.workbench.bounds == {"zn": pytest.approx(8e-6)}
-    click(qtbot, panel.transport.play)
-    qtbot.waitUntil(lambda: len(list_notices(window)) > 0, timeout=LONG_MS)
-    assert "Playback paused: axis Z nano deviates" in list_notices(window)[0]
-    assert "the bound is 8 µm" in list_notices(window)[0]
-    qtbot.waitUntil(lambda: get_phase(panel) is PlaybackPhase.PAUSED, timeout=LONG_MS)
-
-
-def test_a_bound_can_be_changed_or_removed(window, panel):
-    item = panel.table.item(0, BOUND_COLUMN)
+    session, item = window.workbench.session, panel.table.item(0, BOUND_COLUMN)
     assert window.workbench.bounds == {"zn": pytest.approx(5e-6)}  # a quarter of the stroke
     item.setText("2,5 µm")
     assert "decimal" in list_notices(window)[0]
     assert item.text() == "5 µm"
     item.setText("")
     assert window.workbench.bounds == {}
+    session.service.set_effects(
+        (AxisEffect(axis="zn", id="gain_error", parameters={"error": 0.2}),)
+    )
+    qtbot.waitUntil(lambda: session.at_rest, timeout=LONG_MS)  # the new plant is in use
+    item.setText("8")
+    assert window.workbench.bounds == {"zn": pytest.approx(8e-6)}
+    click(qtbot, panel.transport.play)
+    qtbot.waitUntil(
+        lambda: "Playback paused: axis Z nano deviates" in list_notices(window)[0], timeout=LONG_MS
+    )
+    assert "the bound is 8 µm" in list_notices(window)[0]
+    qtbot.waitUntil(lambda: get_phase(panel) is PlaybackPhase.PAUSED, timeout=LONG_MS)
 
 
 def test_a_trajectory_can_be_repeated_and_started_in_between(qtbot, window, panel):
@@ -156,13 +168,6 @@ def test_a_trajectory_can_be_repeated_and_started_in_between(qtbot, window, pane
         panel.passes_field.setValue(2)
     assert "ends 100 µm from where it begins" in list_notices(window)[-1]
     assert (workbench.plan.name, panel.passes_field.value()) == ("ramp", 1)
-
-
-def test_another_trajectory_ends_a_pause(qtbot, window, panel):
-    click(qtbot, panel.transport.forward)
-    with qtbot.waitSignal(window.workbench.plan_changed, timeout=LONG_MS):
-        window.workbench.plan_trajectory("other", make_swing(1.0))
-    assert get_phase(panel) is PlaybackPhase.IDLE
 
 
 @pytest.mark.parametrize("text", ["0", "-1", "1_0", "five", "1 mm"])
@@ -257,9 +262,18 @@ def find_speed_dialog(window):
     return dialogs[0] if dialogs else None
 
 
-def test_a_missing_speed_limit_is_asked_for_once_and_remembered(qtbot, unlimited_window):
+def test_without_a_speed_limit_nothing_moves_and_a_typed_one_is_remembered(qtbot, unlimited_window):
     workbench, panel = unlimited_window.workbench, unlimited_window.panels["trajectory"]
     assert "no limit is stated for the speed of Z nano" in panel.verdict.text()
+    click(qtbot, panel.transport.play)
+    click(qtbot, panel.transport.play)
+    find_speed_dialog(unlimited_window).reject()
+    assert find_speed_dialog(unlimited_window) is None
+    assert get_phase(panel) is PlaybackPhase.IDLE
+    click(qtbot, panel.transport.play)
+    workbench.session.stop()
+    qtbot.waitUntil(lambda: find_speed_dialog(unlimited_window) is None, timeout=LONG_MS)
+
     click(qtbot, panel.transport.play)
     dialog = find_speed_dialog(unlimited_window)
     assert get_phase(panel) is PlaybackPhase.IDLE
@@ -279,19 +293,6 @@ def test_a_missing_speed_limit_is_asked_for_once_and_remembered(qtbot, unlimited
     assert find_speed_dialog(unlimited_window) is None
     assert "beyond the limit 60 µm/s" in list_notices(unlimited_window)[-1]
     assert get_phase(panel) is PlaybackPhase.IDLE
-
-
-def test_without_a_speed_limit_nothing_moves(qtbot, unlimited_window):
-    panel = unlimited_window.panels["trajectory"]
-    click(qtbot, panel.transport.play)
-    click(qtbot, panel.transport.play)
-    dialog = find_speed_dialog(unlimited_window)
-    dialog.reject()
-    assert find_speed_dialog(unlimited_window) is None
-    assert get_phase(panel) is PlaybackPhase.IDLE
-    click(qtbot, panel.transport.play)
-    unlimited_window.workbench.session.stop()
-    qtbot.waitUntil(lambda: find_speed_dialog(unlimited_window) is None, timeout=LONG_MS)
 
 
 @pytest.fixture
@@ -349,9 +350,10 @@ def test_resume_asks_and_can_start_over(qtbot, window, panel, moved_y_m):
     assert workbench.session.snapshot().command["y"] == pytest.approx(moved_y_m, abs=1e-9)
 
 
-def test_the_question_is_cancelled_by_a_stop_or_when_the_axis_is_back(
+def test_a_stop_or_the_return_of_the_axis_cancels_the_question_and_keeps_the_pause(
     qtbot, window, panel, moved_y_m
 ):
+    session, moved_text = window.workbench.session, panel.gaps.text()
     question = ask_to_resume(qtbot, window, panel)
     window.workbench.stop()
     qtbot.waitUntil(question.isHidden, timeout=LONG_MS)
@@ -363,26 +365,13 @@ def test_the_question_is_cancelled_by_a_stop_or_when_the_axis_is_back(
     qtbot.waitUntil(question.isHidden, timeout=LONG_MS)
     assert get_phase(panel) is PlaybackPhase.PAUSED
 
-
-def test_a_stop_while_moving_back_keeps_the_pause_with_a_notice(qtbot, window, panel, moved_y_m):
+    qtbot.waitUntil(lambda: session.at_rest, timeout=LONG_MS)
+    session.jog("y", 0.5e-3)
+    qtbot.waitUntil(lambda: panel.gaps.text() == moved_text, timeout=LONG_MS)
     question = ask_to_resume(qtbot, window, panel)
     click(qtbot, question.move_back)
-    snapshot = window.workbench.session.snapshot
-    qtbot.waitUntil(lambda: snapshot().activity is DeviceState.MOVING, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.MOVING, timeout=LONG_MS)
     click(qtbot, window.stop_button)
     qtbot.waitUntil(lambda: bool(list_notices(window)), timeout=LONG_MS)
     assert list_notices(window) == ["Not resumed: the machine was stopped again."]
     assert get_phase(panel) is PlaybackPhase.PAUSED
-
-
-def test_a_double_click_on_pause_does_not_resume(qtbot, window, panel):
-    workbench, play = window.workbench, panel.transport.play
-    click(qtbot, play)
-    qtbot.waitUntil(lambda: workbench.playback.state.row > 200, timeout=LONG_MS)
-    click(qtbot, play)
-    qtbot.waitUntil(lambda: get_phase(panel) is PlaybackPhase.PAUSED, timeout=LONG_MS)
-    # The next press follows before the button has shown Resume for half a second.
-    workbench.toggle_playback()
-    assert "Not done: " in list_notices(window)[0]
-    assert get_phase(panel) is PlaybackPhase.PAUSED
-    qtbot.waitUntil(lambda: play.text() == "Resume" and play.isEnabled(), timeout=LONG_MS)
