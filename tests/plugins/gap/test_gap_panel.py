@@ -16,7 +16,6 @@ from rotemina.app.workbench import ComparedRun
 from rotemina.plugins.gap.answer import DiagnosisAnswer, answer_exports
 from rotemina.plugins.gap.answer.distribution_view import compute_warmth
 from rotemina.plugins.gap.answer.ranking_view import name_causes
-from rotemina.plugins.gap.answer.unseen_motion_reduction import make_new_motion
 from rotemina.plugins.gap.diagnosing.diagnosis_job import DiagnosisStoppedError, describe_progress
 from rotemina.plugins.gap.diagnosing.diagnosis_process import DiagnosisProcess
 from rotemina.sim.comparison import compare
@@ -28,7 +27,6 @@ from rotemina.sim.messages import message
 from rotemina.sim.records import Record, Tap, write_record
 from rotemina.sim.robot import AxisEffect
 from rotemina.sim.robot_files import format_robot, load_robot
-from rotemina.sim.trajectory import dry_run
 
 ROBOT = load_robot("rotemina")
 LONG_MS = 30_000
@@ -149,13 +147,19 @@ def test_the_last_playback_is_used_until_a_record_is_chosen(panel, record):
     assert [run.name for run in panel.records.chosen] == ["first"]
 
 
-def test_files_are_added_and_ticked_with_the_menu(qtbot, window, panel, record, tmp_path):
+def test_files_are_added_and_ticked_with_the_menu_and_unreadable_ones_become_notices(
+    qtbot, window, panel, record, tmp_path
+):
+    (tmp_path / "bare.csv").write_text("0,1\n1,2\n2,3\n")
     paths = [tmp_path / name for name in ("a & b.csv", "<b>two.csv")]
     for path in paths:
         write_record(record, path)
-    panel.records.add_files(paths)
+    panel.records.add_files([tmp_path / "bare.csv", *paths])
     qtbot.waitUntil(lambda: len(panel.records.chosen) == 2, timeout=LONG_MS)
     qtbot.waitUntil(lambda: all(choice.entry for choice in panel.records.chosen), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: "no header" in get_newest_notice(window), timeout=LONG_MS)
+    panel.records.add_files([tmp_path / "missing.csv"])
+    qtbot.waitUntil(lambda: "missing.csv" in get_newest_notice(window), timeout=LONG_MS)
     menu_button = panel.rail.menu
     assert menu_button.text() == "2 records"
     assert "&lt;b&gt;two" in menu_button.toolTip()
@@ -167,38 +171,31 @@ def test_files_are_added_and_ticked_with_the_menu(qtbot, window, panel, record, 
     assert [choice.name for choice in panel.records.chosen] == ["<b>two.csv"]
 
 
-def test_unreadable_files_become_notices(qtbot, window, panel, record, tmp_path):
-    (tmp_path / "bare.csv").write_text("0,1\n1,2\n2,3\n")
-    write_record(record, tmp_path / "good.csv")
-    panel.records.add_files([tmp_path / "bare.csv", tmp_path / "good.csv"])
-    qtbot.waitUntil(lambda: "no header" in get_newest_notice(window), timeout=LONG_MS)
-    qtbot.waitUntil(lambda: len(panel.records.chosen) == 1, timeout=LONG_MS)
-    panel.records.add_files([tmp_path / "missing.csv"])
-    qtbot.waitUntil(lambda: "missing.csv" in get_newest_notice(window), timeout=LONG_MS)
-
-
-@pytest.mark.parametrize("is_accepted", [True, False])
 def test_a_file_without_a_header_is_read_when_its_columns_are_named(
-    qtbot, panel, tmp_path, monkeypatch, is_accepted
+    qtbot, panel, tmp_path, monkeypatch
 ):
     """A diagnosis that was requested before the file was chosen waits for the names."""
-    path, dialogs, diagnoses = tmp_path / "bare.csv", [], []
+    path, dialogs, diagnoses, finished = tmp_path / "bare.csv", [], [], []
     path.write_text("0,0.1,0.1\n1,0.2,0.2\n2,0.3,0.3\n", "utf-8")
     monkeypatch.setattr(ColumnMappingDialog, "show", lambda dialog: dialogs.append(dialog))
     monkeypatch.setattr(
         panel, "diagnose", lambda: diagnoses.append([run.name for run in panel.records.chosen])
     )
-    finished = []
     panel.records.reading_finished.connect(lambda: finished.append(len(panel.records.chosen)))
-    panel._diagnose_when_read = True
-    panel.records.add_files([path])
-    qtbot.waitUntil(lambda: bool(dialogs), timeout=LONG_MS)
-    assert finished == []
-    dialogs[0].set_columns("t [s], thx [mrad], thx.meas [mrad]")
-    (dialogs[0].accept if is_accepted else dialogs[0].reject)()
-    qtbot.waitUntil(lambda: bool(finished), timeout=LONG_MS)
-    assert finished == [1 if is_accepted else 0]
-    assert diagnoses == ([["bare.csv"]] if is_accepted else [])
+    for answer, chosen_counts in (
+        (ColumnMappingDialog.reject, [0]),
+        (ColumnMappingDialog.accept, [0, 1]),
+    ):
+        panel._diagnose_when_read = True
+        panel.records.add_files([path])
+        count = len(chosen_counts)
+        qtbot.waitUntil(lambda count=count: len(dialogs) == count, timeout=LONG_MS)
+        assert len(finished) == count - 1
+        dialogs[-1].set_columns("t [s], thx [mrad], thx.meas [mrad]")
+        answer(dialogs[-1])
+        qtbot.waitUntil(lambda count=count: len(finished) == count, timeout=LONG_MS)
+        assert finished == chosen_counts
+    assert diagnoses == [["bare.csv"]]
 
 
 def test_another_robot_is_chosen_and_a_broken_one_is_refused(qtbot, window, panel, tmp_path):
@@ -230,6 +227,13 @@ def test_a_record_beyond_the_range_of_the_model_is_not_diagnosed(window, panel_w
 def test_a_diagnosis_runs_in_the_background_and_shows_its_progress(
     qtbot, window, panel_with_record, stepwise_diagnosis, record, monkeypatch
 ):
+    standings = Standings("thx")
+    standings.begin(101.0)
+    standings.add([AxisEffect(axis="thx", id="creep")], 31.0, Grade.LOOK)
+    stepwise_diagnosis.rankings.append(standings.ranking())
+    coupling = AxisEffect(axis="thx", id="cross_coupling", from_axis="thy")
+    standings.add([AxisEffect(axis="thx", id="hysteresis"), coupling], 2.0, Grade.UNSEEN)
+    stepwise_diagnosis.rankings.append(standings.ranking())
     lowered = []
     monkeypatch.setattr(DiagnosisProcess, "lower_priority", lambda process: lowered.append(process))
     click(qtbot, panel_with_record.start)
@@ -239,6 +243,9 @@ def test_a_diagnosis_runs_in_the_background_and_shows_its_progress(
     assert panel_with_record.progress.value() == 100
     assert not panel_with_record.start.isEnabled()
     assert stepwise_diagnosis.threads[0] is not threading.main_thread()
+    rankings = panel_with_record.result.running.rankings
+    qtbot.waitUntil(lambda: list(rankings) == ["thx"], timeout=LONG_MS)
+    assert rankings["thx"].accessibleName() == "θx: 1 candidate tried: Creep 70 %"
     assert not lowered
     # Meanwhile a file is saved and an axis moves.
     window.workbench.record = record
@@ -249,34 +256,17 @@ def test_a_diagnosis_runs_in_the_background_and_shows_its_progress(
     qtbot.waitUntil(lambda: snapshot().command["thx"] == pytest.approx(6e-4), timeout=LONG_MS)
     window.workbench.go_to({"x": 0.02})
     qtbot.waitUntil(lambda: bool(lowered), timeout=LONG_MS)  # motion has priority
-    stepwise_diagnosis.steps.release(2)
-    qtbot.waitUntil(lambda: panel_with_record.answer is not None, timeout=LONG_MS)
-    assert panel_with_record.answer.diagnosis is stepwise_diagnosis.diagnosis
-    assert panel_with_record.start.isEnabled()
-    assert panel_with_record.progress.isHidden()
-
-
-def test_candidates_are_ranked_while_a_diagnosis_runs(qtbot, panel_with_record, stepwise_diagnosis):
-    standings = Standings("thx")
-    standings.begin(101.0)
-    standings.add([AxisEffect(axis="thx", id="creep")], 31.0, Grade.LOOK)
-    stepwise_diagnosis.rankings.append(standings.ranking())
-    coupling = AxisEffect(axis="thx", id="cross_coupling", from_axis="thy")
-    standings.add([AxisEffect(axis="thx", id="hysteresis"), coupling], 2.0, Grade.UNSEEN)
-    stepwise_diagnosis.rankings.append(standings.ranking())
-    click(qtbot, panel_with_record.start)
-    qtbot.waitUntil(
-        lambda: list(panel_with_record.result.running.rankings) == ["thx"], timeout=LONG_MS
-    )
-    view = panel_with_record.result.running.rankings["thx"]
-    assert view.accessibleName() == "θx: 1 candidate tried: Creep 70 %"
     stepwise_diagnosis.steps.release()
+    view = rankings["thx"]
     qtbot.waitUntil(lambda: "θx: 2 candidates tried" in view.accessibleName(), timeout=LONG_MS)
     first, second = (name_causes(standing) for standing in view.ranking.standings)
     assert (first, second) == ("Cross coupling from θy + Hysteresis", "Creep")
     assert not view.grab().toImage().isNull()
     stepwise_diagnosis.steps.release()
     qtbot.waitUntil(lambda: panel_with_record.answer is not None, timeout=LONG_MS)
+    assert panel_with_record.answer.diagnosis is stepwise_diagnosis.diagnosis
+    assert panel_with_record.start.isEnabled()
+    assert panel_with_record.progress.isHidden()
     assert panel_with_record.result.running.isHidden()
 
 
@@ -354,81 +344,20 @@ def test_the_time_left_is_estimated_and_counts_down():
     assert describe_progress(replace(progress, share=0.0), 10.0, 10.0) == "fitting θx: creep, 10 s"
 
 
-def test_the_where_tab_lists_axes_and_taps_with_a_map_of_the_selected_one(panel_with_answer):
-    rows = panel_with_answer.result.distribution.places.read_texts()
+def test_the_where_tab_lists_axes_and_taps_with_a_map_whose_cells_open_traces(
+    qtbot, panel_with_answer
+):
+    distribution = panel_with_answer.result.distribution
+    rows = distribution.places.read_texts()
     assert rows[0][0] == "θx ref"
     assert [row[1] for row in rows if row[0].startswith("θy")] == ["noise", "noise"]
-    heat = panel_with_answer.result.distribution.heat.read_texts()
-    assert "Click a cell" in panel_with_answer.result.distribution.heat_title.text()
+    heat = distribution.heat.read_texts()
+    assert "Click a cell" in distribution.heat_title.text()
     assert {"reversal", "forward", "backward"} <= {row[0] for row in heat}
     shares = {row[0]: float(row[1].removesuffix(" %").removeprefix("< ")) for row in heat}
     assert shares["fast"] + shares["slow"] + shares["reversal"] == pytest.approx(100.0, abs=3.0)
-    panel_with_answer.result.distribution.places.selectRow(1)
-    assert panel_with_answer.result.distribution.heat_title.text().startswith("θx meas")
 
-
-def test_warmth_rises_from_zero_to_one():
-    assert compute_warmth(0.0) == 0.0
-    assert 0.0 < compute_warmth(1.0) < compute_warmth(100.0) < 1.0
-    assert compute_warmth(1e6) == 1.0
-
-
-def test_the_which_tab_ranks_candidates_and_names_indistinguishable_ones(panel_with_answer):
-    panel_with_answer.result.tabs.setCurrentIndex(WHICH_TAB)
-    assert panel_with_answer.result.views.currentWidget() is panel_with_answer.result.causes
-    assert panel_with_answer.result.causes.ranking.read_texts()[0] == [
-        "Hysteresis (prandtl ishlinskii)",
-        "91 %",
-        "1.2",
-        "1.1 … 1.3",
-    ]
-    text = panel_with_answer.result.causes.text.toPlainText()
-    assert "These records cannot distinguish it from creep." in text
-    assert "width: 120 µrad (110 µrad … 130 µrad), at its high bound" in text
-    assert (
-        panel_with_answer.result.headline.sentence.text()
-        == "θx: hysteresis or creep (these records cannot distinguish them)."
-    )
-
-
-def test_the_how_far_tab_shows_the_gap_before_and_after(qtbot, panel_with_answer):
-    panel_with_answer.result.tabs.setCurrentIndex(HOW_FAR_TAB)
-    assert [(bar.name, bar.text) for bar in panel_with_answer.result.shrinkage.bars.bars] == [
-        ("nominal", "33 µrad"),
-        ("re-tuned", "32 µrad"),
-        ("+ Hysteresis", "0.78 µrad, 42.3 × smaller"),
-        ("corrected", "0.77 µrad, 42.9 × smaller"),
-    ]
-    assert [line.text for line in panel_with_answer.result.shrinkage.bars.lines] == ["0.4 µrad"]
-    assert not panel_with_answer.result.shrinkage.bars.grab().toImage().isNull()
-    assert panel_with_answer.result.shrinkage.traces.choice.currentText() == "day one.csv: meas"
-    before, after = (
-        np.asarray(panel_with_answer.result.shrinkage.traces.plot._curves[name].getData()[1])
-        for name in ("before", "after")
-    )
-    assert np.std(before) > 10 * np.std(after) > 0.0
-    click(qtbot, panel_with_answer.result.cells.cards[1])
-    assert panel_with_answer.result.shrinkage.bars.bars == ()
-    assert panel_with_answer.result.shrinkage.title.text() == "This axis has no gap to close."
-
-
-def test_another_theme_recolours_everything(window, panel_with_answer):
-    for theme in ("light", "dark"):
-        window.use_theme(theme)
-        for tab in (WHERE_TAB, WHICH_TAB, HOW_FAR_TAB, PROOF_TAB):
-            panel_with_answer.result.tabs.setCurrentIndex(tab)
-            assert not panel_with_answer.grab().toImage().isNull()
-    quiet_colour = panel_with_answer.workbench.theme.quiet
-    assert (
-        panel_with_answer.result.causes.ranking.item(1, 0).foreground().color().name()
-        == quiet_colour
-    )
-
-
-def test_a_click_on_a_map_cell_opens_its_traces(qtbot, panel_with_answer):
-    distribution = panel_with_answer.result.distribution
-    texts = distribution.heat.read_texts()
-    row = next(index for index, texts_of_row in enumerate(texts) if texts_of_row[0] == "reversal")
+    row = [texts[0] for texts in heat].index("reversal")
     position = distribution.heat.visualItemRect(distribution.heat.item(row, 2)).center()
     qtbot.mouseClick(distribution.heat.viewport(), Qt.MouseButton.LeftButton, pos=position)
     assert distribution.right.currentWidget() is distribution.cell
@@ -439,6 +368,61 @@ def test_a_click_on_a_map_cell_opens_its_traces(qtbot, panel_with_answer):
     assert distribution.right.currentIndex() == 0
     distribution.open_cell(row, 1)  # the column of shares has no traces
     assert distribution.right.currentIndex() == 0
+    distribution.places.selectRow(1)
+    assert distribution.heat_title.text().startswith("θx meas")
+
+
+def test_warmth_rises_from_zero_to_one():
+    assert compute_warmth(0.0) == 0.0
+    assert 0.0 < compute_warmth(1.0) < compute_warmth(100.0) < 1.0
+    assert compute_warmth(1e6) == 1.0
+
+
+def test_the_other_tabs_rank_candidates_and_show_the_gap_before_and_after(
+    qtbot, window, panel_with_answer
+):
+    result = panel_with_answer.result
+    result.tabs.setCurrentIndex(WHICH_TAB)
+    assert result.views.currentWidget() is result.causes
+    assert result.causes.ranking.read_texts()[0] == [
+        "Hysteresis (prandtl ishlinskii)",
+        "91 %",
+        "1.2",
+        "1.1 … 1.3",
+    ]
+    text = result.causes.text.toPlainText()
+    assert "These records cannot distinguish it from creep." in text
+    assert "width: 120 µrad (110 µrad … 130 µrad), at its high bound" in text
+    assert (
+        result.headline.sentence.text()
+        == "θx: hysteresis or creep (these records cannot distinguish them)."
+    )
+
+    result.tabs.setCurrentIndex(HOW_FAR_TAB)
+    assert [(bar.name, bar.text) for bar in result.shrinkage.bars.bars] == [
+        ("nominal", "33 µrad"),
+        ("re-tuned", "32 µrad"),
+        ("+ Hysteresis", "0.78 µrad, 42.3 × smaller"),
+        ("corrected", "0.77 µrad, 42.9 × smaller"),
+    ]
+    assert [line.text for line in result.shrinkage.bars.lines] == ["0.4 µrad"]
+    assert result.shrinkage.traces.choice.currentText() == "day one.csv: meas"
+    before, after = (
+        np.asarray(result.shrinkage.traces.plot._curves[name].getData()[1])
+        for name in ("before", "after")
+    )
+    assert np.std(before) > 10 * np.std(after) > 0.0
+
+    for theme in ("light", "dark"):
+        window.use_theme(theme)
+        for tab in (WHERE_TAB, WHICH_TAB, HOW_FAR_TAB, PROOF_TAB):
+            result.tabs.setCurrentIndex(tab)
+            assert not panel_with_answer.grab().toImage().isNull()
+        colour = result.causes.ranking.item(1, 0).foreground().color().name()
+        assert colour == window.workbench.theme.quiet
+    click(qtbot, result.cells.cards[1])
+    assert result.shrinkage.bars.bars == ()
+    assert result.shrinkage.title.text() == "This axis has no gap to close."
 
 
 def show_suggested_experiment(panel, diagnosis, record):
@@ -498,67 +482,37 @@ def test_a_run_played_after_an_answer_shows_its_gap_reduction(window, qtbot, pan
     assert panel_with_answer.result.tabs.currentIndex() == WHERE_TAB  # no tab is opened unasked
 
 
-def test_a_new_motion_stays_within_the_records_and_needs_a_confirmation(
-    qtbot, window, panel_with_answer, diagnosis, record
-):
+def test_a_new_motion_needs_a_confirmation(qtbot, window, panel_with_answer):
     click(qtbot, panel_with_answer.result.motion)
     qtbot.waitUntil(lambda: find_question(window) is not None, timeout=LONG_MS)
     click(qtbot, find_question(window).button(QMessageBox.StandardButton.No))
-    motion = make_new_motion(diagnosis, [record], ["thx", "thy"])
-    assert dry_run(ROBOT, motion).allowed
-    for axis in ("thx", "thy"):
-        new_command, old_command = motion.signal(axis, Tap.CMD), record.signal(axis, Tap.CMD)
-        assert old_command.min() <= new_command.min() < new_command.max() <= old_command.max()
+    assert window.workbench.plan is None
 
 
-def test_the_diagnosis_is_saved_as_json(qtbot, window, panel_with_answer, diagnosis, tmp_path):
-    panel_with_answer.exports.save_json(panel_with_answer.answer, tmp_path / "gap.json")
+def test_an_answer_is_saved_as_json_and_as_a_report_that_is_opened(
+    qtbot, window, panel_with_answer, diagnosis, tmp_path, monkeypatch
+):
+    answer, exports, opened = panel_with_answer.answer, panel_with_answer.exports, []
+    exports.save_json(answer, tmp_path / "gap.json")
     wait_until_saved(qtbot, window, tmp_path / "gap.json")
     assert json.loads((tmp_path / "gap.json").read_text("utf-8")) == as_json(diagnosis)
-
-
-def test_the_report_is_written_and_opened(qtbot, window, panel_with_answer, tmp_path, monkeypatch):
-    opened = []
+    exports.save_json(answer, tmp_path)
+    qtbot.waitUntil(lambda: "is a folder" in get_newest_notice(window), timeout=LONG_MS)
 
     def write(_diagnosis, _records, path, names, _run):
         path.write_text(", ".join(names), "utf-8")
 
     monkeypatch.setattr(answer_exports, "write_report", write)  # the report has other tests
-    monkeypatch.setattr(QDesktopServices, "openUrl", lambda url: opened.append(url) or True)
-    panel_with_answer.exports.save_report(panel_with_answer.answer, tmp_path / "gap.html")
+    monkeypatch.setattr(QDesktopServices, "openUrl", lambda url: bool(opened.append(url)))
+    exports.save_report(answer, tmp_path / "gap.html")
     wait_until_saved(qtbot, window, tmp_path / "gap.html")
     assert "day one.csv" in (tmp_path / "gap.html").read_text("utf-8")
     assert [url.toLocalFile() for url in opened] == [str(tmp_path / "gap.html")]
-
-
-def test_a_report_that_cannot_be_opened_is_reported(
-    qtbot, window, panel_with_answer, tmp_path, monkeypatch
-):
-    monkeypatch.setattr(QDesktopServices, "openUrl", lambda _url: False)
-    monkeypatch.setattr(answer_exports, "write_report", lambda *_: None)
-    panel_with_answer.exports.save_report(panel_with_answer.answer, tmp_path / "gap.html")
+    # Here nothing can open a page.
     qtbot.waitUntil(lambda: "open it in a browser" in get_newest_notice(window), timeout=LONG_MS)
 
 
-def test_a_failed_save_becomes_a_notice(qtbot, window, panel_with_answer, tmp_path):
-    panel_with_answer.exports.save_json(panel_with_answer.answer, tmp_path)
-    qtbot.waitUntil(lambda: "is a folder" in get_newest_notice(window), timeout=LONG_MS)
-
-
 def test_the_twin_is_saved_as_a_robot_file_without_changing_the_simulator(
-    qtbot, window, panel_with_answer, diagnosis, tmp_path
-):
-    panel_with_answer.exports.save_twin(panel_with_answer.answer, None, tmp_path / "twin.toml")
-    wait_until_saved(qtbot, window, tmp_path / "twin.toml")
-    twin = load_robot(tmp_path / "twin.toml")
-    assert twin.effects == diagnosis.fitted
-    # The twin is now the model of the page.
-    qtbot.waitUntil(lambda: panel_with_answer.robots.robot == twin, timeout=LONG_MS)
-    assert find_question(window) is None
-    assert window.workbench.session.service.effects == ()
-
-
-def test_the_twin_of_a_robot_file_keeps_its_comments(
     qtbot, window, panel_with_record, diagnosis, record, tmp_path
 ):
     text = "# our machine\n" + format_robot(window.workbench.robot)
@@ -573,3 +527,9 @@ def test_the_twin_of_a_robot_file_keeps_its_comments(
     )
     wait_until_saved(qtbot, window, tmp_path / "twin.toml")
     assert (tmp_path / "twin.toml").read_text("utf-8").startswith("# our machine\n")
+    twin = load_robot(tmp_path / "twin.toml")
+    assert twin.effects == diagnosis.fitted
+    # The twin is now the model of the page.
+    qtbot.waitUntil(lambda: panel_with_record.robots.robot == twin, timeout=LONG_MS)
+    assert find_question(window) is None
+    assert window.workbench.session.service.effects == ()

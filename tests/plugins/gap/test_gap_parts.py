@@ -26,6 +26,7 @@ from rotemina.sim.records import Record, Tap
 from rotemina.sim.robot import AxisEffect
 from rotemina.sim.robot_files import load_robot
 from rotemina.sim.simulation import simulate
+from rotemina.sim.trajectory import dry_run
 
 ROBOT = load_robot("rotemina")
 
@@ -109,6 +110,7 @@ def test_the_new_motion_stays_within_range_speed_and_acceleration_of_the_records
     new_command, old_command = (
         record_with_command.signal("thx", Tap.CMD) for record_with_command in (motion, record)
     )
+    assert dry_run(ROBOT, motion).allowed
     assert old_command.min() <= new_command.min() < new_command.max() <= old_command.max()
     for order in (1, 2):
         old_maximum = (
@@ -130,22 +132,18 @@ def test_no_new_motion_is_made_from_records_at_rest(diagnosis, record):
         make_new_motion(diagnosis, [resting], ["thx"])
 
 
-@pytest.mark.parametrize("verdict", list(GapVerdict))
-def test_every_verdict_is_explained_with_an_action(diagnosis, verdict):
-    axis_diagnosis = replace(diagnosis.axes["thy"], verdict=verdict)
-    meaning, action = explain_verdict(axis_diagnosis, has_experiment=False)
-    assert meaning.startswith("What it means: ")
-    assert action.startswith("What to do: ")
+def test_every_verdict_is_explained_with_an_action(diagnosis):
+    for verdict in GapVerdict:
+        axis_diagnosis = replace(diagnosis.axes["thy"], verdict=verdict)
+        meaning, action = explain_verdict(axis_diagnosis, has_experiment=False)
+        assert meaning.startswith("What it means: ")
+        assert action.startswith("What to do: ")
 
 
 def test_an_undecided_axis_is_explained_with_a_suggested_experiment(diagnosis):
     lines = list(explain_verdict(diagnosis.axes["thx"], has_experiment=True))
     assert lines[1].startswith("Undecided: creep would explain")
     assert "Play next experiment" in lines[2]
-
-
-def test_the_next_step_depends_on_the_number_of_records():
-    assert describe_next_step(0).startswith("1  Choose records")
     assert describe_next_step(1).startswith("One record is chosen.")
     assert describe_next_step(3).startswith("3 records are chosen.")
 

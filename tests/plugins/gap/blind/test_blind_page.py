@@ -7,7 +7,7 @@ import pytest
 from PySide6.QtCore import Qt
 
 from rotemina.plugins.gap.blind import BlindPage, blind_run
-from rotemina.plugins.gap.blind.blind_figures import BlindResult, parse_progress
+from rotemina.plugins.gap.blind.blind_figures import BlindResult
 from rotemina.plugins.gap.blind.blind_page import translate_outcome
 from rotemina.sim.errors import InputError
 
@@ -86,11 +86,6 @@ def test_an_unreadable_result_is_refused(tmp_path):
     (tmp_path / "half.json").write_text("{")
     with pytest.raises(InputError, match=r"half\.json"):
         BlindResult.read(tmp_path / "half.json")
-
-
-def test_progress_is_parsed_from_the_output_of_the_process():
-    assert parse_progress("case_0003: done (4 of 12)") == (4, 12)
-    assert parse_progress("anything else") is None
 
 
 def test_a_blind_test_runs_and_shows_its_result(qtbot, window, page):

@@ -21,12 +21,24 @@ from rotemina.plugins.gap.diagnosing.diagnosis_process import (
     send_message,
 )
 from rotemina.sim.errors import InputError
+from rotemina.sim.gap.compare import effect_candidates
+from rotemina.sim.gap.fit import catalogue
 from rotemina.sim.gap.output import as_json
 from rotemina.sim.gap.pipeline import diagnose
 from rotemina.sim.robot_files import load_robot
 from rotemina.sim.simulation import simulate
 
 ROBOT = load_robot("rotemina")
+EFFECTS = ("gain_error", "hysteresis")
+WORKER = f"""
+from rotemina.plugins.gap.diagnosing.diagnosis_worker import main
+from rotemina.sim.gap.compare import effect_candidates
+from rotemina.sim.gap.fit import catalogue
+
+effects = [effect for effect in catalogue() if effect.id in {EFFECTS}]
+effect_candidates.catalogue = lambda: effects
+main()
+"""
 
 
 class StopListeningError(Exception):
@@ -47,6 +59,14 @@ def started_processes(monkeypatch):
     assert all(worker.poll() is not None for worker in processes)
 
 
+@pytest.fixture(autouse=True)
+def few_effects(monkeypatch):
+    """Search few effects here and in the process, to save time."""
+    effects = [effect for effect in catalogue() if effect.id in EFFECTS]
+    monkeypatch.setattr(effect_candidates, "catalogue", lambda: effects)
+    monkeypatch.setattr(diagnosis_process, "_WORKER_ARGUMENTS", ("-c", WORKER))
+
+
 @pytest.fixture
 def process(started_processes):
     client = DiagnosisProcess()
@@ -54,28 +74,14 @@ def process(started_processes):
     client.close()
 
 
+def stop_at_fitting(progress):
+    if progress.stage == "fitting":
+        raise StopListeningError
+
+
 @pytest.fixture(scope="module")
 def healthy(record):
     return simulate(ROBOT, [], record, np.random.default_rng(5))
-
-
-def test_the_process_gives_the_same_diagnosis_as_a_direct_call(process, record):
-    steps = []
-    answer = process.diagnose(ROBOT, ["one"], [record], steps.append)
-    assert as_json(answer.diagnosis) == as_json(diagnose(ROBOT, [record]))
-    assert answer.records == (record,)  # the same read-only object
-    assert answer.names == ("one",)
-    assert set(answer.traces) == {"thx", "thy"}
-    stages = [step.stage for step in steps]
-    assert {"reading", "where", "screening", "fitting", "deciding", "drawing"} <= set(stages)
-    assert any(step.ranking is not None for step in steps)
-
-
-@pytest.mark.slow
-def test_one_process_serves_several_diagnoses(process, started_processes, healthy):
-    for name in ("one", "two"):
-        assert process.diagnose(ROBOT, [name], [healthy], lambda _: None).names == (name,)
-    assert len(started_processes) == 1
 
 
 @pytest.mark.slow
@@ -121,73 +127,60 @@ def test_an_ended_thread_does_not_keep_others_from_being_lowered(monkeypatch):
     assert calls == earlier_calls
 
 
-def test_invalid_records_are_refused_with_the_message_of_a_direct_call(process, healthy):
+def test_one_process_serves_refused_failed_stopped_and_good_requests(
+    process, started_processes, record, healthy
+):
     short = healthy.select_rows(slice(0, 12))
     with pytest.raises(InputError) as direct_error:
         diagnose(ROBOT, [short])
     with pytest.raises(InputError) as process_error:
         process.diagnose(ROBOT, ["one"], [short], lambda _: None)
     assert str(process_error.value) == str(direct_error.value)
-    assert process.diagnose(ROBOT, ["one"], [healthy], lambda _: None).diagnosis.causes == ()
-
-
-@pytest.mark.slow
-def test_an_exception_of_the_listener_stops_the_work_and_keeps_the_process(
-    process, started_processes, record, healthy
-):
-    def stop_at_fitting(progress):
-        if progress.stage == "fitting":
-            raise StopListeningError
-
+    with pytest.raises(DiagnosisError, match=r"^AttributeError: ") as error:
+        process.diagnose(None, ["one"], [healthy], lambda _: None)
+    assert "Traceback" in error.value.__notes__[0]  # for the log only, not for the notice
     with pytest.raises(StopListeningError):
         process.diagnose(ROBOT, ["one"], [record], stop_at_fitting)
-    assert process.diagnose(ROBOT, ["one"], [healthy], lambda _: None).diagnosis.causes == ()
+
+    steps = []
+    answer = process.diagnose(ROBOT, ["one"], [record], steps.append)
+    assert as_json(answer.diagnosis) == as_json(diagnose(ROBOT, [record]))
+    assert answer.records == (record,)  # the same read-only object
+    assert answer.names == ("one",)
+    assert set(answer.traces) == {"thx", "thy"}
+    stages = [step.stage for step in steps]
+    assert {"reading", "where", "screening", "fitting", "deciding", "drawing"} <= set(stages)
+    assert any(step.ranking is not None for step in steps)
     assert len(started_processes) == 1
 
 
-def test_a_killed_process_is_reported_and_replaced(process, started_processes, record, healthy):
+def test_a_process_that_was_killed_or_ignores_a_stop_is_replaced(
+    process, started_processes, record, healthy, monkeypatch
+):
     def kill(progress):
         if progress.stage == "fitting":
             started_processes[-1].kill()
 
     with pytest.raises(InputError, match=r"ended \(status -9\).*diagnose again"):
         process.diagnose(ROBOT, ["one"], [record], kill)
-    assert process.diagnose(ROBOT, ["one"], [healthy], lambda _: None).diagnosis.causes == ()
-
-
-@pytest.mark.slow
-def test_a_program_error_keeps_its_traceback(process, healthy):
-    with pytest.raises(DiagnosisError, match=r"^AttributeError: ") as error:
-        process.diagnose(None, ["one"], [healthy], lambda _: None)
-    assert "Traceback" in error.value.__notes__[0]  # for the log only, not for the notice
-
-
-def test_an_unpicklable_request_leaves_the_process_usable(process, started_processes, healthy):
+    monkeypatch.setattr(diagnosis_process, "_END_TIMEOUT_S", 0.0)
+    with pytest.raises(StopListeningError):
+        process.diagnose(ROBOT, ["one"], [record], stop_at_fitting)
+    assert started_processes[1].wait(20.0) is not None
     with pytest.raises((TypeError, AttributeError, PicklingError)):
         process.diagnose(lambda: None, ["one"], [healthy], lambda _: None)
     assert process.diagnose(ROBOT, ["one"], [healthy], lambda _: None).diagnosis.causes == ()
 
 
-def test_a_process_that_ignores_a_stop_is_ended(process, started_processes, record, monkeypatch):
-    monkeypatch.setattr(diagnosis_process, "_END_TIMEOUT_S", 0.0)
-
-    def stop_at_fitting(progress):
-        if progress.stage == "fitting":
-            raise StopListeningError
-
-    with pytest.raises(StopListeningError):
-        process.diagnose(ROBOT, ["one"], [record], stop_at_fitting)
-    assert started_processes[0].wait(20.0) is not None
-
-
-def test_the_process_ends_when_its_input_is_closed(record):
+def test_the_process_ends_when_its_input_is_closed(record, monkeypatch):
+    monkeypatch.undo()  # here the process searches all effects
     pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
     with subprocess.Popen(
         [sys.executable, *diagnosis_process._WORKER_ARGUMENTS], **pipes
     ) as worker:
         send_message(DiagnosisRequest(1, ROBOT, ("one",), (record,)), worker.stdin)
         stages = (message.stage for message in receive_messages(worker.stdout))
-        assert "fitting" in stages
+        assert "screening" in stages
         worker.stdin.close()
         *_, last_message = receive_messages(worker.stdout)
         assert worker.wait(20.0) == 0
