@@ -14,7 +14,8 @@ from rotemina.sim.robot_files import load_robot
 pytestmark = pytest.mark.slow
 
 
-@pytest.mark.parametrize("number", range(1, 9))
+# Two effects with a coupling, an unknown gap, a screw, a healthy robot, a backlash.
+@pytest.mark.parametrize("number", [1, 2, 3, 4, 7])
 def test_an_example_is_diagnosed_correctly(shared_dir, number):
     folder = shared_dir / "examples" / f"example_{number}"
     answer = json.loads((folder / "answer.json").read_text(encoding="utf-8"))

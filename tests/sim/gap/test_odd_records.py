@@ -2,7 +2,7 @@
 
 To save time, each test searches only a random selection of the effects.
 
-``ODD_RECORDS=500`` sets the number of tests, which is 40 by default.
+``ODD_RECORDS=500`` sets the number of tests, which is 16 by default.
 """
 
 import os
@@ -20,7 +20,7 @@ from rotemina.sim.robot_files import load_robot
 
 ROBOT = load_robot("rotemina")
 _EFFECT_COUNT = 8
-COUNT = int(os.environ.get("ODD_RECORDS", "40"))
+COUNT = int(os.environ.get("ODD_RECORDS", "16"))
 
 
 def make_times(rng):

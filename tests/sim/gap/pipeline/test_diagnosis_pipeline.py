@@ -69,61 +69,12 @@ def test_a_healthy_robot_has_no_gap():
     assert diagnosis.places == ()
 
 
-# In test_renamed, quick tests diagnose the same effects under another id.
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    "truth",
-    [
-        AxisEffect(axis="zn", id="hysteresis", parameters={"width": 6e-6, "shape": 1.4}),
-        AxisEffect(axis="x", id="delay", parameters={"delay": 0.004}),
-        AxisEffect(axis="x", id="backlash", formulation="screw", parameters={"width": 5e-6}),
-        AxisEffect(axis="zn", id="gain_error", parameters={"error": 0.04}),
-        AxisEffect(axis="zn", id="sensor_outliers", parameters={"size": 5e-6}),
-    ],
-    ids=lambda effect: effect.id,
-)
-def test_a_single_effect_is_named_and_closes_the_gap(truth):
-    diagnosis = diagnose(ROBOT, simulate_records([truth], truth.axis))
-    assert diagnosis.verdict is GapVerdict.EXPLAINED
-    assert get_causes(diagnosis) == {(truth.axis, truth.id, None)}
-    (cause,) = diagnosis.causes
-    assert cause.closed > 0.95
-    assert cause.gap_before > 1.3 * cause.gap_after
-    for parameter in cause.parameters:
-        if parameter.name in truth.parameters:
-            assert parameter.value == pytest.approx(truth.parameters[parameter.name], rel=0.05)
-
-
 def test_without_a_reference_a_gain_error_may_be_of_the_sensor():
     truth = AxisEffect(axis="zn", id="gain_error", parameters={"error": 0.04})
     readings = simulate_readings([truth], "zn")
     (cause,) = diagnose(ROBOT, readings).causes
     assert cause.effect == "gain_error"
     assert "sensor_gain" in cause.ambiguous_with
-
-
-def test_an_amplifier_that_saturates_far_inside_the_range_is_found():
-    parameters = {"low_margin": 20.0, "high_margin": 55.0, "softness": 0.12}
-    truth = AxisEffect(axis="zn", id="saturation", formulation="soft", parameters=parameters)
-    diagnosis = diagnose(ROBOT, simulate_records([truth], "zn"))
-    assert get_causes(diagnosis) == {("zn", "saturation", None)}
-    assert diagnosis.causes[0].closed > 0.98
-
-
-@pytest.mark.slow
-def test_an_effect_that_couples_into_another_axis_is_found_on_both():
-    truth = [
-        AxisEffect(axis="y", id="delay", parameters={"delay": 0.01}),
-        AxisEffect(
-            axis="x",
-            id="cross_coupling",
-            formulation="static",
-            from_axis="y",
-            parameters={"k": 0.08},
-        ),
-    ]
-    diagnosis = diagnose(ROBOT, simulate_records(truth, "x", "y"))
-    assert get_causes(diagnosis) == {("y", "delay", None), ("x", "cross_coupling", "y")}
 
 
 @pytest.mark.slow
@@ -238,26 +189,19 @@ def test_one_slow_sine_is_enough_to_name_hysteresis():
 
 
 @pytest.mark.slow
-def test_order_of_records_and_number_of_jobs_do_not_matter():
-    truth = [AxisEffect(axis="zn", id="hysteresis")]
-    records = simulate_records(truth, "zn")
-    first = diagnose(ROBOT, records, seed=3)
-    reordered = diagnose(ROBOT, records[::-1], seed=3, jobs=2)
-    assert first.axes == reordered.axes
-    assert first.axes == diagnose(ROBOT, records, seed=3).axes
-
-
-@pytest.mark.slow
-def test_candidates_are_ranked_during_the_search(monkeypatch):
+def test_candidates_are_ranked_during_the_search_and_order_and_jobs_do_not_matter(monkeypatch):
     selected, steps = [], []
 
     def select(*arguments, **options):
         selected.append(forward_selection.select(*arguments, **options))
         return selected[-1]
 
-    monkeypatch.setattr(repeated_search, "select", select)
     truth = AxisEffect(axis="zn", id="hysteresis", parameters={"width": 6e-6, "shape": 1.4})
-    diagnosis = diagnose(ROBOT, simulate_records([truth], "zn"), listener=steps.append)
+    records = simulate_records([truth], "zn")
+    with monkeypatch.context() as patch:
+        patch.setattr(repeated_search, "select", select)
+        diagnosis = diagnose(ROBOT, records, seed=3, listener=steps.append)
+    assert diagnose(ROBOT, records[::-1], seed=3, jobs=2).axes == diagnosis.axes
     rankings = [step.ranking for step in steps if step.ranking is not None]
     tried = [ranking.tried for ranking in rankings]
     assert tried == sorted(tried)
@@ -310,21 +254,6 @@ def test_records_without_measured_channels_are_refused():
         diagnose(ROBOT, [make_commands("sines", "x")])
 
 
-@pytest.mark.slow
-def test_another_cause_is_found_despite_a_coarse_sensor():
-    coarse = AxisEffect(axis="zn", id="sensor_quantization", parameters={"step": 6e-7})
-    gain_error = AxisEffect(axis="zn", id="gain_error", parameters={"error": 0.01})
-    readings = simulate_readings([coarse, gain_error], "zn")
-    diagnosis = diagnose(ROBOT, readings)
-    assert diagnosis.verdict is GapVerdict.EXPLAINED
-    assert get_causes(diagnosis) == {
-        ("zn", "sensor_quantization", None),
-        ("zn", "gain_error", None),
-    }
-    (quantization,) = [cause for cause in diagnosis.causes if cause.effect == "sensor_quantization"]
-    assert quantization.gap_before == pytest.approx(6e-7 / np.sqrt(12.0), rel=0.1)
-
-
 def test_a_coarse_sensor_at_rest_is_not_stuck():
     coarse = AxisEffect(axis="zn", id="sensor_quantization", parameters={"step": 2e-6})
     # The records contain steps: rest, followed by a jump.
@@ -338,7 +267,7 @@ def test_a_small_cause_is_named_in_addition_to_increased_noise():
         AxisEffect(axis="zn", id="sensor_noise", parameters={"rms": 6e-7}),
         AxisEffect(axis="zn", id="delay", parameters={"delay": 2e-3}),
     ]
-    diagnosis = diagnose(ROBOT, simulate_readings(effects, "zn"))
+    diagnosis = diagnose(ROBOT, simulate_readings(effects, "zn")[1:])
     assert get_causes(diagnosis) == {("zn", "sensor_noise", None), ("zn", "delay", None)}
 
 
