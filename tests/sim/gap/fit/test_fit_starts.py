@@ -70,9 +70,9 @@ def test_a_fit_finds_minima_that_a_descent_from_the_preset_misses(truth, axes):
 @pytest.mark.slow
 def test_the_grid_of_a_thousand_steps_is_found_to_a_fraction_of_a_step():
     truth = AxisEffect(axis="x", id="quantization", parameters={"step": 2.713e-6, "shift": 0.31})
-    slow_sweep = simulate_sweep([truth], seconds=40.0, share=0.002)
+    slow_sweep = simulate_sweep([truth], seconds=20.0, share=0.002)
     evidence = Evidence.of(
-        ROBOT, "x", [slow_sweep, simulate_sweep([truth], seconds=40.0, share=0.02, seed=1)]
+        ROBOT, "x", [slow_sweep, simulate_sweep([truth], seconds=20.0, share=0.02, seed=1)]
     )
     candidate = AxisEffect(axis="x", id="quantization")
     start_effects = starts(evidence, fit(evidence, []), candidate)
