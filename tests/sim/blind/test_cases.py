@@ -8,11 +8,7 @@ import numpy as np
 import pytest
 
 from rotemina.sim.blind import draw_case, draw_force_case, draw_kinds, write_case
-from rotemina.sim.blind.case import (
-    _draw_additional_size,
-    round_significant,
-    simulate_record,
-)
+from rotemina.sim.blind.case import simulate_record
 from rotemina.sim.blind.catalogue import CATALOGUE
 from rotemina.sim.blind.effect_sizing import (
     MIN_EFFECT_TO_REMAINDER_RATIO,
@@ -50,17 +46,15 @@ def test_a_case_of_each_effect_has_a_visible_gap(effect):
     assert present_effect.part.sizes[0] <= present_effect.part.size <= present_effect.part.sizes[1]
 
 
-@pytest.mark.parametrize("seed", [9])
-def test_both_effects_of_a_double_case_exceed_the_noise_floor(seed):
-    case = draw_case(ROBOT, "double", seed)
+def test_both_effects_of_a_double_case_exceed_the_noise_floor():
+    case = draw_case(ROBOT, "double", 9)
     assert len(case.present_effects) == 2
     assert all(present_effect.floors >= MIN_FLOORS for present_effect in case.present_effects)
     assert case.label()["verdict"] == "explained"
 
 
-@pytest.mark.parametrize("seed", [9, 13])
-def test_half_of_the_faulty_machines_have_a_remainder_outside_the_catalogue(seed):
-    case = draw_case(ROBOT, "single", seed, "gain_error")
+def test_half_of_the_faulty_machines_have_a_remainder_outside_the_catalogue():
+    case = draw_case(ROBOT, "single", 9, "gain_error")
     assert MIN_REMAINDER_SHARE <= case.remainder.share <= MAX_REMAINDER_SHARE
     assert all(
         present_effect.floors >= MIN_EFFECT_TO_REMAINDER_RATIO * case.remainder.floors
@@ -68,21 +62,14 @@ def test_half_of_the_faulty_machines_have_a_remainder_outside_the_catalogue(seed
     )
     assert case.label()["verdict"] == "explained"
     assert case.label()["remainder"]["axis"] == case.present_effects[0].part.axis.name
-    assert draw_case(ROBOT, "single", seed + 1, "gain_error").remainder is None
+    assert draw_case(ROBOT, "single", 10, "gain_error").remainder is None
     # The same motion leaves the same remainder, so it is not noise.
     first, again = (case.machine.respond(case.training[0], chance).reading for chance in (1, 2))
     assert np.array_equal(first, again)
 
 
-def test_a_further_effect_may_be_small_compared_with_the_first():
-    rng = np.random.default_rng(0)
-    sizes = [_draw_additional_size(200.0, rng) for _ in range(500)]
-    assert MIN_FLOORS_IF_SEVERAL < min(sizes) < 8.0
-    assert max(sizes) > 300.0
-
-
 def test_a_healthy_machine_stays_within_its_noise_floor():
-    for seed in (1, 2, 5):
+    for seed in (1, 5):
         case = draw_case(ROBOT, "healthy", seed)
         nominal = case.machine.with_parts([])
         assert case.label() == {
@@ -118,17 +105,13 @@ def test_a_robot_with_one_axis_gets_only_effects_of_one_axis():
     assert case.present_effects[0].part.effect not in {"backlash", "cross_coupling"}
 
 
-def test_the_label_lists_an_effect_under_poor_excitation_as_hidden():
-    label = draw_case(ROBOT, "poor", 2).label()
-    assert label["verdict"] == "insufficient_excitation"
-    assert label["effects"] == []
-    assert len(label["hidden"]) == 1
-
-
-def test_an_effect_outside_the_catalogue_is_unknown():
-    label = draw_case(ROBOT, "unknown", 4).label()
-    assert label["verdict"] == "unknown"
-    assert [effect["effect"] for effect in label["effects"]] == ["unknown"]
+def test_labels_of_poor_excitation_and_of_an_effect_outside_the_catalogue():
+    poor = draw_case(ROBOT, "poor", 2).label()
+    assert (poor["verdict"], poor["effects"]) == ("insufficient_excitation", [])
+    assert len(poor["hidden"]) == 1
+    unknown = draw_case(ROBOT, "unknown", 4).label()
+    assert unknown["verdict"] == "unknown"
+    assert [effect["effect"] for effect in unknown["effects"]] == ["unknown"]
 
 
 def test_files_contain_the_applied_commands_and_the_readings(tmp_path):
@@ -161,11 +144,8 @@ def test_an_axis_under_force_is_recorded_in_closed_loop(tmp_path):
     assert record.has("q", Tap.U)
 
 
-@pytest.mark.parametrize(
-    "seed", [1, *(pytest.param(s, marks=pytest.mark.slow) for s in (17, 19, 23))]
-)
-def test_each_effect_under_force_exceeds_the_noise_floor(seed):
-    case = draw_force_case(load_robot("emps"), seed)
+def test_each_effect_under_force_exceeds_the_noise_floor():
+    case = draw_force_case(load_robot("emps"), 1)
     assert case.kind == "double"
     assert min(floors for _, floors in case.present_effects) >= MIN_FLOORS_IF_SEVERAL
 
@@ -181,14 +161,6 @@ def test_no_size_is_found_for_a_part_out_of_bounds():
     case = draw_case(ROBOT, "single", 11, "sensor_noise")
     trial = SizingTrial(case.machine.with_parts([]), case.training, 0)
     assert trial.find_size(case.present_effects[0].part, 1e-3) is None
-
-
-def test_values_are_rounded_to_the_digits_that_files_show():
-    assert round_significant(np.array([581.77512345, -0.0012345678, 0.0])).tolist() == [
-        581.7751,
-        -0.001234568,
-        0.0,
-    ]
 
 
 def test_parts_with_the_same_shape_are_not_distinct():

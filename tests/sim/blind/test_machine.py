@@ -7,7 +7,7 @@ import pytest
 
 from rotemina.sim.blind import SimulationRun, build_machine
 from rotemina.sim.blind.actuator import draw_creep, draw_hysteresis, draw_lost_steps
-from rotemina.sim.blind.filters import apply_low_pass, compute_mode_poles, delay_smooth_signal
+from rotemina.sim.blind.filters import delay_smooth_signal
 from rotemina.sim.blind.force import ForceLoop, run_loop
 from rotemina.sim.blind.loads import (
     draw_backlash,
@@ -111,18 +111,7 @@ def test_a_preisach_plane_forgets_turning_points_that_were_passed():
     assert out[8] == pytest.approx(0.0, abs=1e-12)
 
 
-def test_a_preisach_plane_lags_independently_of_the_rate():
-    plane = draw_plane(np.random.default_rng(2))
-    slow = np.concatenate([np.linspace(0, 0.9, 901), np.linspace(0.9, 0.1, 801)])
-    fast = slow[::10]
-    out = run_plane(plane, slow)
-    assert np.allclose(run_plane(plane, fast), out[::10], atol=1e-12)
-    up, down = out[500], out[901 + 400]
-    assert slow[500] == pytest.approx(slow[901 + 400])
-    assert down > up + 0.01
-
-
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", range(3))
 def test_a_flexure_hardens_over_its_whole_range(piezo_axis, seed):
     part = draw_stiffness_nonlinearity(piezo_axis, np.random.default_rng(seed))
     row = part.act(np.zeros(1), SimulationRun(1e-4, 1, 0, 0), 0.3)
@@ -133,7 +122,7 @@ def test_a_flexure_hardens_over_its_whole_range(piezo_axis, seed):
     assert np.all(curvature >= -1e-9 * np.ptp(force))
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", range(2))
 def test_hysteresis_has_the_width_of_its_size_at_any_rate(piezo_axis, seed):
     part = draw_hysteresis(piezo_axis, np.random.default_rng(seed))
     ramp = np.concatenate([np.linspace(0, 1, 801), np.linspace(1, 0, 801)])
@@ -164,7 +153,7 @@ def test_lost_steps_are_multiples_of_four_full_steps(stepper_axis):
     assert np.array_equal(part.act(values, run, 2.0), part.act(values, run, 2.0))
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 def test_the_axis_lags_by_half_the_backlash_width(seed):
     commands = make_stepper_commands(30.0, 30.02, 30.0, 30.02)
     nominal = make_machine(("x", "y", "z"), commands)
@@ -175,7 +164,7 @@ def test_the_axis_lags_by_half_the_backlash_width(seed):
     assert lag[1790] == pytest.approx(2e-6, rel=0.25)
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 def test_a_dither_within_the_play_does_not_move_the_axis(stepper_axis, seed):
     rise = np.linspace(0.0, 30e-6, 2000)
     dither = 0.8e-6 * np.sin(np.linspace(0.0, 60.0 * np.pi, 6000))
@@ -189,7 +178,7 @@ def test_a_dither_within_the_play_does_not_move_the_axis(stepper_axis, seed):
     assert abs(offset) < 4e-6
 
 
-@pytest.mark.parametrize("speed", [1e-5, 1e-4, 1e-3, 1e-2])
+@pytest.mark.parametrize("speed", [1e-5, 2e-4, 1e-2])
 def test_slip_elements_resist_with_their_stribeck_force_at_any_speed(speed):
     row, memory = np.zeros(LOAD_ROW_LENGTH), np.zeros(12)
     row[0], row[2:9] = SLIP, (40.0, 44.0, 1.4, 2e-4, 3e-7, 3e3, 0.0)
@@ -201,7 +190,7 @@ def test_slip_elements_resist_with_their_stribeck_force_at_any_speed(speed):
     assert force == pytest.approx(44.0 * (1.0 + 0.4 / (1.0 + (speed / 2e-4) ** 2)), rel=1e-6)
 
 
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(2))
 def test_friction_deflects_the_axis_at_most_by_force_over_stiffness(stepper_axis, seed):
     commands = make_stepper_commands(30.0, 30.02, 30.0, 30.02)
     nominal = make_machine(("x", "y", "z"), commands)
@@ -236,7 +225,7 @@ def test_a_flexible_mode_rings_and_keeps_the_static_gain(piezo_axis):
     assert np.abs(gap[2000:2100]).max() > 100.0 * np.abs(gap[-50:]).max()
 
 
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", range(3))
 def test_a_sensor_lags_a_ramp_by_its_lag_time(stepper_axis, seed):
     part = draw_sensor_lag(stepper_axis, np.random.default_rng(seed))
     ramp = np.arange(60_000) * 1e-8
@@ -250,13 +239,6 @@ def test_the_encoder_error_has_the_period_of_the_grating(stepper_axis):
     error = part.act(position, SimulationRun(1e-3, 1, 0, 0), 0.1) - position
     assert np.allclose(error[:40_000], error[40_000:80_000], atol=1e-12)
     assert 1e-8 < np.abs(error).max() < 3e-6
-
-
-def test_a_filter_begins_at_rest_and_ends_at_its_input():
-    values = np.concatenate([np.full(500, 2.0), np.full(30_000, 3.0)])
-    out = apply_low_pass(values, compute_mode_poles(20.0, 0.5), 5e-5)
-    assert np.allclose(out[:500], 2.0, atol=1e-9)
-    assert out[-1] == pytest.approx(3.0, rel=1e-6)
 
 
 def test_a_delay_distorts_a_resonance_by_less_than_the_noise():

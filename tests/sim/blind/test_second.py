@@ -55,7 +55,7 @@ def test_each_effect_changes_the_reading(effect):
 
 @pytest.mark.slow
 def test_cases_are_drawn_labelled_and_written(tmp_path):
-    cases = [draw_second_case(ROBOT, seed) for seed in (0, 1, 3)]
+    cases = [draw_second_case(ROBOT, seed) for seed in (0, 1)]
     for number, case in enumerate(cases):
         label = case.label()
         assert (label["verdict"] == "none") == (label["effects"] == [])
@@ -75,8 +75,7 @@ def test_noise_is_the_same_whichever_other_effects_are_added():
     rng = np.random.default_rng(0)
     noise, gain = (draw_effect(name, axis, [], rng) for name in ("sensor_noise", "sensor_gain"))
     noise = noise.with_size(noise.usual_size)
-    alone = machine.with_effects([noise]).run(motion, 1).reading - machine.run(motion, 1).reading
-    with_gain = (
-        machine.with_effects([gain, noise]).run(motion, 1).reading - machine.run(motion, 1).reading
+    alone, with_gain = (
+        machine.with_effects(effects).run(motion, 1).reading for effects in ([noise], [gain, noise])
     )
     assert with_gain == pytest.approx(alone, abs=1e-6 * axis.floor)

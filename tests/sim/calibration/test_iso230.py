@@ -25,13 +25,6 @@ def test_figures_of_two_targets_match_a_hand_calculation():
     assert figures.accuracy == pytest.approx(5.0 - (-2.0 - 2.0 * root))
 
 
-def test_figures_ignore_a_common_shift_and_scale_with_the_deviations():
-    deviations = np.random.default_rng(3).normal(size=(7, 5, 2))
-    figures = np.array(compute_positioning(deviations))
-    assert np.array(compute_positioning(deviations + 4.0)) == pytest.approx(figures)
-    assert np.array(compute_positioning(3.0 * deviations)) == pytest.approx(3.0 * figures)
-
-
 def test_a_single_run_or_no_target_is_refused():
     with pytest.raises(SensorCalibrationError, match="approached 1 times"):
         compute_positioning(np.zeros((5, 1, 2)))

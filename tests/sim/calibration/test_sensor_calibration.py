@@ -56,8 +56,8 @@ def test_nonlinearity_is_found_as_the_bend_between_the_ends(robot, simulate_cali
     assert _get_figure(calibration, "gain error").value == pytest.approx(0.0, abs=5e-5)
 
 
-@pytest.mark.parametrize("lag_s", [1e-3, pytest.param(4e-3, marks=pytest.mark.slow)])
-def test_lag_is_found(robot, simulate_calibration, lag_s):
+def test_lag_is_found(robot, simulate_calibration):
+    lag_s = 1e-3
     record = simulate_calibration(
         "zn", ("sensor_lag", "first_order", {"time_constant": lag_s}), rate_hz=1e3
     )

@@ -8,7 +8,13 @@ import pytest
 from rotemina.sim.blind import build_machine
 from rotemina.sim.blind.actuator import draw_creep, draw_hysteresis
 from rotemina.sim.blind.machine import SampledCommands
-from rotemina.sim.compensate import TrainingSamples, compute_stops, read_samples, train
+from rotemina.sim.compensate import (
+    InverseModel,
+    TrainingSamples,
+    compute_stops,
+    read_samples,
+    train,
+)
 from rotemina.sim.compensate.anfis import AnfisSettings
 from rotemina.sim.records import Record, Tap
 from rotemina.sim.robot import AxisEffect
@@ -93,6 +99,31 @@ def build_foreign_plant(axis, seed):
 @pytest.fixture(scope="session")
 def robot():
     return ROBOT
+
+
+@pytest.fixture(scope="session")
+def make_inverse_model():
+    """Return a function that returns an inverse for zn made of two plays, with changed fields."""
+
+    def make(**changes):
+        fields = {
+            "axis": "zn",
+            "unit": "m",
+            "kind": "prandtl_ishlinskii",
+            "sample_s": 1e-3,
+            "origin": 0.0,
+            "command_origin": 0.0,
+            "span": 65e-6,
+            "desired_range": (2e-6, 60e-6),
+            "command_range": (0.0, 65e-6),
+            "speed": 1.0,
+            "consequents": np.array([[0.0, 0.9, 0.1, 0.05]]),
+            "radii": np.array([0.1, 0.03]),
+            "initial": np.zeros(2),
+        }
+        return InverseModel(**(fields | changes))
+
+    return make
 
 
 @pytest.fixture(scope="session")

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rotemina.sim.compensate import Inverse, InverseModel, anfis
+from rotemina.sim.compensate import Inverse, anfis
 from rotemina.sim.compensate.anfis import AnfisSettings, train
 from rotemina.sim.errors import ConvergenceError
 
@@ -53,25 +53,20 @@ def test_anfis_learns_a_slope_that_changes_along_the_range():
     assert fit.history[:, 1].min() < fit.history[0, 1]
 
 
-def test_kernel_and_training_infer_the_same_commands():
+def test_kernel_and_training_infer_the_same_commands(make_inverse_model):
     columns = make_rows(400)
     goals = columns[:, 1] ** 2 + 0.3 * columns[:, 2]
     fit = train(columns, RADII, goals, mark_validation_rows(400), AnfisSettings(3, (0.5,), 3))
     z = np.linspace(0.0, 1.0, 50)  # rising, so plays are at z − r or still at rest
-    model = InverseModel(
-        axis="p",
-        unit="m",
+    model = make_inverse_model(
         kind="anfis",
         sample_s=1.0,
-        origin=0.0,
-        command_origin=0.0,
         span=1.0,
         desired_range=(0.0, 1.0),
         command_range=(-9.0, 9.0),
         speed=9.0,
         consequents=fit.consequents,
         radii=RADII,
-        initial=np.zeros(2),
         premises=fit.premises,
     )
     stops = np.minimum(z[:, None], RADII)

@@ -5,25 +5,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rotemina.sim.compensate import Inverse, InverseExceedance, InverseModel, SetpointInverse
+from rotemina.sim.compensate import Inverse, InverseExceedance, SetpointInverse
 from rotemina.sim.errors import CompensationError
 
-SPAN = 65e-6
-MODEL = InverseModel(
-    axis="zn",
-    unit="m",
-    kind="prandtl_ishlinskii",
-    sample_s=1e-3,
-    origin=0.0,
-    command_origin=0.0,
-    span=SPAN,
-    desired_range=(2e-6, 60e-6),
-    command_range=(0.0, SPAN),
-    speed=1.0,
-    consequents=np.array([[0.0, 0.9, 0.1, 0.05]]),
-    radii=np.array([0.1, 0.03]),
-    initial=np.zeros(2),
-)
+
+@pytest.fixture
+def model(make_inverse_model):
+    return make_inverse_model()
+
+
 STEP = 1e-9  # m, resolution of the device's set-points
 
 
@@ -38,9 +28,9 @@ def move_to_target(held_inverse, target):
     )
 
 
-def test_a_sequence_of_targets_gives_the_commands_of_the_plain_inverse():
-    held_inverse = SetpointInverse(MODEL, 20e-6)
-    inverse = Inverse(MODEL, 1e-3)
+def test_a_sequence_of_targets_gives_the_commands_of_the_plain_inverse(model):
+    held_inverse = SetpointInverse(model, 20e-6)
+    inverse = Inverse(model, 1e-3)
     inverse.step(held_inverse.desired)
     for target in (50e-6, 10e-6, 11e-6, 9e-6, 55e-6, 30e-6, 30.5e-6):
         start = held_inverse.desired
@@ -52,12 +42,12 @@ def test_a_sequence_of_targets_gives_the_commands_of_the_plain_inverse():
     assert held_inverse.exceedance == InverseExceedance(0)
 
 
-def test_the_position_of_a_device_that_halts_early_matches_the_inverse():
-    held_inverse = SetpointInverse(MODEL, 20e-6)
+def test_the_position_of_a_device_that_halts_early_matches_the_inverse(model):
+    held_inverse = SetpointInverse(model, 20e-6)
     start = held_inverse.desired
     set_points = make_line(20e-6, held_inverse.add_setpoint(50e-6))[:120]
     held_inverse.advance(set_points[1:])
-    inverse = Inverse(MODEL, 1e-3)
+    inverse = Inverse(model, 1e-3)
     inverse.step(start)
     assert inverse.run(make_line(start, held_inverse.desired))[-1] == pytest.approx(
         set_points[-1], abs=5 * STEP
@@ -69,8 +59,8 @@ def test_the_position_of_a_device_that_halts_early_matches_the_inverse():
     )
 
 
-def test_the_axis_is_never_faster_than_the_desired_speed():
-    held_inverse = SetpointInverse(MODEL, 20e-6)
+def test_the_axis_is_never_faster_than_the_desired_speed(model):
+    held_inverse = SetpointInverse(model, 20e-6)
     start = held_inverse.desired
     factor = held_inverse.compute_speed_factor(50e-6)
     positions = move_to_target(held_inverse, 50e-6)
@@ -81,20 +71,20 @@ def test_the_axis_is_never_faster_than_the_desired_speed():
     assert 0.5 < factor * (50e-6 - start) / (held_inverse._sent - 20e-6) <= 1.0
 
 
-def test_after_a_played_path_the_inverse_continues_from_its_end():
+def test_after_a_played_path_the_inverse_continues_from_its_end(model):
     path = 30e-6 + 20e-6 * np.sin(np.linspace(0.0, 12.0, 900))
-    commands = Inverse(MODEL, 1e-3, preview=True).run(path)
-    held_inverse = SetpointInverse(MODEL, 20e-6).resume_after(path, commands[-1])
+    commands = Inverse(model, 1e-3, preview=True).run(path)
+    held_inverse = SetpointInverse(model, 20e-6).resume_after(path, commands[-1])
     assert held_inverse.desired == path[-1]
-    plain_inverse = Inverse(MODEL, 1e-3, preview=True)
+    plain_inverse = Inverse(model, 1e-3, preview=True)
     plain_inverse.run(path)
     expected = plain_inverse.run(make_line(path[-1], 45e-6))[-1]
     assert held_inverse.add_setpoint(45e-6) == pytest.approx(expected, abs=1e-12)
 
 
-def test_slow_creep_remains_as_an_offset_after_a_path():
+def test_slow_creep_remains_as_an_offset_after_a_path(model):
     creep_model = replace(
-        MODEL, creep_times_s=np.array([0.03, 30.0]), creep_weights=np.full(2, 0.02)
+        model, creep_times_s=np.array([0.03, 30.0]), creep_weights=np.full(2, 0.02)
     )
     path = np.concatenate([make_line(20e-6, 50e-6), np.full(20_000, 50e-6)])
     commands = Inverse(creep_model, 1e-3, preview=True).run(path)
@@ -105,9 +95,9 @@ def test_slow_creep_remains_as_an_offset_after_a_path():
     )  # it stays where it is
 
 
-def test_targets_out_of_range_are_clamped_and_reported_and_such_a_start_is_refused():
-    held_inverse = SetpointInverse(MODEL, 20e-6)
+def test_targets_out_of_range_are_clamped_and_reported_and_such_a_start_is_refused(model):
+    held_inverse = SetpointInverse(model, 20e-6)
     assert held_inverse.add_setpoint(61e-6) == held_inverse.add_setpoint(60e-6)
     assert held_inverse.exceedance == InverseExceedance.HIGH
     with pytest.raises(CompensationError, match="move the axis there first"):
-        SetpointInverse(MODEL, 64e-6)
+        SetpointInverse(model, 64e-6)

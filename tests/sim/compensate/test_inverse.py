@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rotemina.sim.compensate import Inverse, InverseExceedance, InverseModel
+from rotemina.sim.compensate import Inverse, InverseExceedance
 from rotemina.sim.compensate.inverse_parameters import RulePremises
 from rotemina.sim.errors import CompensationError
 
@@ -13,23 +13,15 @@ SAMPLE_S = 1e-3
 
 
 @pytest.fixture(scope="module")
-def model():
+def model(make_inverse_model):
     """Model with every stage: rules over position and a stop, plays, a bend, creep and a lag."""
     rng = np.random.default_rng(0)
     plays = 6
     centres = np.tile(np.linspace(0.0, 1.0, 3), (2, 1))
     consequents = rng.normal(0.0, 0.03, (9, 2 + plays))
     consequents[:, 1] += 1.0
-    return InverseModel(
-        axis="zn",
-        unit="m",
+    return make_inverse_model(
         kind="anfis",
-        sample_s=SAMPLE_S,
-        origin=0.0,
-        command_origin=0.0,
-        span=65e-6,
-        desired_range=(2e-6, 60e-6),
-        command_range=(0.0, 65e-6),
         speed=5e-3,
         consequents=consequents,
         radii=np.linspace(0.02, 0.4, plays),
@@ -50,22 +42,20 @@ def make_motion(rows=3000):
     return 31e-6 + 25e-6 * np.sin(turn) * np.cos(0.21 * turn)
 
 
-def make_linear_model(**changes):
-    """Return the simplest model, with changed fields."""
-    model = InverseModel(
-        axis="p",
-        unit="m",
-        kind="linear",
-        sample_s=SAMPLE_S,
-        origin=0.0,
-        command_origin=0.0,
-        span=1e-5,
-        desired_range=(0.0, 1e-5),
-        command_range=(0.0, 1e-5),
-        speed=1.0,
-        consequents=np.array([[0.0, 1.0]]),
-    )
-    return replace(model, **changes)
+@pytest.fixture
+def make_linear_model(make_inverse_model):
+    """Return a function that returns the simplest model, with changed fields."""
+    simplest = {
+        "axis": "p",
+        "kind": "linear",
+        "span": 1e-5,
+        "desired_range": (0.0, 1e-5),
+        "command_range": (0.0, 1e-5),
+        "consequents": np.array([[0.0, 1.0]]),
+        "radii": np.zeros(0),
+        "initial": np.zeros(0),
+    }
+    return lambda **changes: make_inverse_model(**(simplest | changes))
 
 
 @pytest.mark.parametrize("preview", [False, True])
@@ -94,7 +84,7 @@ def test_an_inverse_begins_at_rest(model):
     assert commands == pytest.approx(commands[0], rel=1e-12)
 
 
-def test_positions_out_of_range_are_clamped_and_reported():
+def test_positions_out_of_range_are_clamped_and_reported(make_linear_model):
     inverse = Inverse(make_linear_model(), SAMPLE_S)
     assert inverse.step(5e-6) == pytest.approx(5e-6)
     assert inverse.exceedance == InverseExceedance(0)
@@ -109,13 +99,13 @@ def test_positions_out_of_range_are_clamped_and_reported():
     assert limited.exceedance == InverseExceedance.FAST
 
 
-def test_a_command_stays_within_the_limits_of_the_machine():
+def test_a_command_stays_within_the_limits_of_the_machine(make_linear_model):
     inverse = Inverse(make_linear_model(consequents=np.array([[0.0, 2.0]])), SAMPLE_S)
     assert inverse.step(8e-6) == 1e-5
     assert inverse.exceedance == InverseExceedance.COMMAND
 
 
-def test_positions_out_of_range_are_refused_with_row_and_value():
+def test_positions_out_of_range_are_refused_with_row_and_value(make_linear_model):
     inverse = Inverse(make_linear_model(), SAMPLE_S)
     inverse.check_range(np.array([0.0, 1e-5]))
     with pytest.raises(CompensationError, match="axis p: desired position 20 µm at sample 1 lies"):
@@ -124,7 +114,7 @@ def test_positions_out_of_range_are_refused_with_row_and_value():
         inverse.check_range(np.array([np.nan]))
 
 
-def test_a_position_that_is_no_number_is_refused_and_leaves_the_state():
+def test_a_position_that_is_no_number_is_refused_and_leaves_the_state(make_linear_model):
     inverse = Inverse(make_linear_model(), SAMPLE_S)
     inverse.step(3e-6)
     before = inverse.state
@@ -137,13 +127,13 @@ def test_a_position_that_is_no_number_is_refused_and_leaves_the_state():
 
 
 @pytest.mark.parametrize("sample_s", [0.0, -1.0, np.nan, np.inf])
-def test_a_sampling_time_that_makes_no_sense_is_refused(sample_s):
+def test_a_sampling_time_that_makes_no_sense_is_refused(sample_s, make_linear_model):
     with pytest.raises(CompensationError, match="sample_s = "):
         Inverse(make_linear_model(), sample_s)
 
 
 @pytest.mark.parametrize("sample_s", [1e-3, 5e-4])
-def test_a_lag_is_compensated_at_any_rate(sample_s):
+def test_a_lag_is_compensated_at_any_rate(sample_s, make_linear_model):
     """The axis lags by 2 ms, and a command held for a sample lags by half of it."""
     lag_s = 2e-3 + 0.5 * SAMPLE_S
     time_s = np.arange(0.0, 1.0, sample_s)
@@ -157,7 +147,7 @@ def test_a_lag_is_compensated_at_any_rate(sample_s):
     ) == pytest.approx(desired)
 
 
-def test_creep_is_compensated():
+def test_creep_is_compensated(make_linear_model):
     """``y = x + w (z − x₀)``, ``τ ż = x − z``: its inverse relaxes faster by ``1 + w``."""
     weight, tau_s = 0.1, 0.5
     model = make_linear_model(

@@ -1,4 +1,7 @@
-"""How closely an axis with feed-forward only follows references that were not trained on."""
+"""How closely an axis with feed-forward only follows references that were not trained on.
+
+The page on compensation also shows zn and thx Preisach, which are easier than these plants.
+"""
 
 import numpy as np
 import pytest
@@ -10,10 +13,7 @@ pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("compensation")]  # trai
 
 PLANTS = {
     "thx": ("robot", "thx", "prandtl_ishlinskii"),
-    "thy": ("robot", "thy", "prandtl_ishlinskii"),
-    "zn": ("robot", "zn", "prandtl_ishlinskii"),
     "zn bent": ("robot", "zn", "modified_prandtl_ishlinskii"),
-    "thx Preisach": ("foreign", "thx", 3),
     "thy Preisach": ("foreign", "thy", 8),
     "zn Preisach": ("foreign", "zn", 9),
 }

@@ -39,8 +39,7 @@ def measure_loop_width(command, path, nominal):
 
 
 @every_formulation
-@pytest.mark.parametrize("amplitude", [3e-5, 1e-4, 1e-3])
-@pytest.mark.parametrize("frequency_hz", [0.2, 1.0, 3.0])
+@pytest.mark.parametrize(("amplitude", "frequency_hz"), [(3e-5, 3.0), (1e-4, 1.0), (1e-3, 0.2)])
 def test_the_width_depends_on_neither_amplitude_nor_speed(formulation, amplitude, frequency_hz):
     command = make_swing(amplitude, frequency_hz)
     nominal = simulate_position(command, formulation)
@@ -51,35 +50,12 @@ def test_the_width_depends_on_neither_amplitude_nor_speed(formulation, amplitude
 
 
 @every_formulation
-def test_a_run_starts_as_after_a_rise(formulation):
-    position = simulate_position(np.full(5, 0.02), formulation, width=WIDTH)
-    np.testing.assert_allclose(0.02 - position, WIDTH / 2, rtol=1e-9)
-
-
-@every_formulation
-def test_continuing_upwards_meets_no_play(formulation):
+def test_a_run_starts_as_after_a_rise_and_meets_no_play_upwards(formulation):
     command = 0.02 + 1e-3 * np.linspace(0, 1, 2000)
     gap = simulate_position(command, formulation, width=WIDTH) - simulate_position(
         command, formulation
     )
     np.testing.assert_allclose(gap, -WIDTH / 2, rtol=1e-6)
-
-
-@every_formulation
-def test_zero_width_is_the_nominal_axis(formulation):
-    command = make_swing(1e-4, 2.0)
-    gap = simulate_position(command, formulation, width=0.0) - simulate_position(
-        command, formulation
-    )
-    assert np.abs(gap).max() < 1e-14
-
-
-@every_formulation
-def test_the_path_is_the_same_at_any_speed(formulation):
-    path = np.concatenate([np.linspace(0.02, 0.0201, 2000), np.linspace(0.0201, 0.02003, 2000)])
-    slow = simulate_position(path, formulation, rate_hz=20.0, width=WIDTH)
-    fast = simulate_position(path, formulation, rate_hz=200.0, width=WIDTH)
-    assert np.abs(slow - fast).max() < 0.02 * WIDTH
 
 
 def test_zero_softness_is_rigid():

@@ -8,7 +8,7 @@ import pytest
 from rotemina.sim.records import Record, Tap
 from rotemina.sim.robot import AxisEffect
 from rotemina.sim.robot_files import load_robot
-from rotemina.sim.simulation import SimulatedMachine, simulate
+from rotemina.sim.simulation import simulate
 
 ROBOT = load_robot("rotemina")
 
@@ -21,8 +21,7 @@ def simulate_sine(skew, frequency_hz=7.0, seconds=20.0, rate_hz=1000.0, start_s=
     return record, simulate(ROBOT, [effect], record, rng)
 
 
-@pytest.mark.parametrize("skew", [-300.0, -20.0, 20.0, 300.0, 2500.0])
-@pytest.mark.parametrize("start_s", [0.0, 1000.0])
+@pytest.mark.parametrize(("skew", "start_s"), [(-300.0, 0.0), (20.0, 1000.0), (2500.0, 0.0)])
 def test_the_lag_grows_at_the_skew_rate(skew, start_s):
     """The lag ranges from a fraction of a sample to fifty samples since the start of the run."""
     record, response = simulate_sine(skew, start_s=start_s)
@@ -49,17 +48,6 @@ def test_lags_of_a_fraction_of_a_sample_are_exact():
     expected = np.interp(record.time_s * (1 - 137e-6), fine_s, true)
     gap = response.signal("thx", Tap.MEAS) - expected
     assert np.abs(gap).max() < 5e-8
-
-
-def test_a_live_run_equals_the_run_at_once():
-    record, whole = simulate_sine(5000.0, seconds=4.0)
-    effect = AxisEffect(axis="thx", id="clock_skew", parameters={"skew": 5000.0})
-    live = SimulatedMachine(ROBOT, [effect], record)
-    readings = [
-        live.follow(record.select_rows(slice(row, row + 20))).signal("thx", Tap.MEAS)
-        for row in range(0, 4000, 20)
-    ]
-    np.testing.assert_allclose(np.concatenate(readings), whole.signal("thx", Tap.MEAS), atol=1e-15)
 
 
 def test_noise_and_resolution_of_the_reading_stay_the_same():

@@ -3,12 +3,7 @@
 import numpy as np
 import pytest
 
-from rotemina.sim.effects import AttachedEffect
-from rotemina.sim.effects.contact import (
-    block_motion,
-    compute_progressive_force,
-    compute_spring_force,
-)
+from rotemina.sim.effects.contact import compute_progressive_force, compute_spring_force
 from rotemina.sim.records import Record, Tap
 from rotemina.sim.robot import AxisEffect
 from rotemina.sim.robot_files import load_robot, parse_robot
@@ -44,8 +39,7 @@ def make_swing(centre, amplitude, axis="zn"):
 
 
 @every_formulation
-@pytest.mark.parametrize("axis", ["zn", "x"])
-@pytest.mark.parametrize("side", [1, -1])
+@pytest.mark.parametrize(("axis", "side"), [("zn", 1), ("x", -1)])
 def test_the_axis_is_nominal_before_the_place(formulation, axis, side):
     command = make_swing(0.5, 1e-3, axis)
     parameters = make_strength(formulation, 0.9 * side)
@@ -70,7 +64,7 @@ def test_the_axis_is_held_back_beyond_the_place(formulation, side):
 
 
 @every_force
-@pytest.mark.parametrize("stiffness", [0.1, 1.0, 10.0, 30.0, -10.0])
+@pytest.mark.parametrize("stiffness", [0.1, 30.0, -10.0])
 def test_the_axis_rests_where_the_forces_balance(formulation, stiffness):
     """With κ times the stiffness of the axis, the push is ``κ D (δ/D)ⁿ`` times that stiffness."""
     place = SPAN["zn"] * (0.8 if stiffness > 0 else 0.2)
@@ -83,8 +77,8 @@ def test_the_axis_rests_where_the_forces_balance(formulation, stiffness):
     assert abs(path[1] - path[0]) < 1e-8 * SPAN["zn"]
 
 
-@pytest.mark.parametrize("stiffness", [1.0, 10.0])
-def test_the_resonance_in_contact_is_that_of_both_springs(stiffness):
+def test_the_resonance_in_contact_is_that_of_both_springs():
+    stiffness = 10.0
     command = np.concatenate([[0.8 * SPAN["zn"]], np.full(4000, 0.801 * SPAN["zn"])])
     path = simulate_contact(
         command, place=0.5, stiffness=stiffness, damping_ratio=0.0, rate_hz=40_000.0
@@ -106,21 +100,6 @@ def test_a_membrane_of_exponent_one_is_a_spring():
     np.testing.assert_allclose(
         path, simulate_contact(command, **parameters), atol=2e-3 * SPAN["zn"]
     )
-
-
-@every_formulation
-def test_the_response_is_continuous_at_zero_strength(formulation):
-    command = make_swing(0.5, 0.3)
-    nominal = simulate_contact(command, formulation, has_contact=False)
-    without_strength = simulate_contact(
-        command, formulation, place=0.5, **make_strength(formulation, 0.0)
-    )
-    np.testing.assert_allclose(without_strength, nominal, rtol=0, atol=2e-11 * SPAN["zn"])
-    for value in (1e-4, -1e-4):
-        path = simulate_contact(
-            command, formulation, place=0.5, **make_strength(formulation, value)
-        )
-        assert 0 < np.abs(path - nominal).max() < 2e-4 * SPAN["zn"]
 
 
 def test_a_stop_blocks_its_share_of_the_motion():
@@ -146,22 +125,6 @@ def test_the_push_is_stable_at_any_stiffness_and_never_pulls(step_s, stiffness):
         q, v = q + v * step_s + a * push, v + b * push
         assert abs(v) < 0.7 * 1.001
     assert v == pytest.approx(-0.7, rel=1e-3) or step_s == 1e-6 or stiffness == 1.0
-
-
-@every_force
-def test_plain_python_is_symmetric_for_both_sides(formulation):
-    step = compute_spring_force if formulation == "spring" else compute_progressive_force
-    effect = AxisEffect(axis="zn", id="contact", formulation=formulation)
-    attached = AttachedEffect.of(ROBOT, effect)
-    numbers = list(attached.formulation.compute_numbers(attached.values, attached.facts))
-    mirrored = [-1.0, -numbers[1], *numbers[2:]]
-    for x, v in ((4.4e-5, 0.1), (4.6e-5, 0.1), (4.6e-5, -0.1), (6e-5, 0.0)):
-        push = step(x, v, 0.0, 1e-5, 3e-10, 6e-5, numbers, [])
-        mirrored_push = step(-x, -v, 0.0, 1e-5, 3e-10, 6e-5, mirrored, [])
-        assert push == pytest.approx(-mirrored_push)
-        assert push <= 0.0
-    assert block_motion(3.0, 0.0, 0.0, 0.0, 0.0, 0.0, [1.0, 2.0, 0.75], []) == 2.25
-    assert block_motion(-3.0, 0.0, 0.0, 0.0, 0.0, 0.0, [-1.0, -2.0, 0.75], []) == -2.25
 
 
 @every_force

@@ -14,6 +14,8 @@ TIME_S = np.arange(0.0, 2.0, SAMPLE_S)
 WAVE = 0.45 * np.sin(2 * np.pi * 1.3 * TIME_S) + 0.05 * np.sign(np.sin(2 * np.pi * 2.7 * TIME_S))
 STEP_COUNTS = np.array([4, 8, 16, 32])
 FINE_STEP_COUNT = 1024
+# Minimum numbers of steps per sample that the formulations request on this axis.
+PRESET_STEP_COUNTS = {"friction": 3, "stiffness_nonlinearity": 2, "contact": 4}
 
 FADING = {"static_ratio": 2.0, "stribeck_speed": 1e-2, "viscous_forward": 20.0}
 DRY = {"coulomb_forward": 0.6, "coulomb_backward": 0.5}
@@ -68,27 +70,12 @@ def simulate_deviations(effect_id, formulation, parameters, amplitude, counts):
 
 
 @pytest.mark.parametrize("case", CASES.values(), ids=CASES)
-def test_the_order_of_convergence_reaches_its_minimum(case):
+def test_errors_converge_with_their_order_and_preset_steps_are_fine_enough(case):
     *case, min_order, max_first_error = case
-    *coarse, fine = simulate_deviations(*case, (*STEP_COUNTS, FINE_STEP_COUNT))
-    error = np.array([np.linalg.norm(path - fine) for path in coarse]) / np.linalg.norm(fine)
-    order = -np.polyfit(np.log(STEP_COUNTS), np.log(error), 1)[0]
-    assert order > min_order, error
-    assert error[0] < max_first_error
-
-
-@pytest.mark.parametrize("case", CASES.values(), ids=CASES)
-def test_the_preset_steps_are_fine_enough(case):
-    effect_id, formulation, parameters, amplitude, *_ = case
-    preset, fine = (
-        path
-        for path in simulate_deviations(
-            effect_id, formulation, parameters, amplitude, (get_preset_count(case), FINE_STEP_COUNT)
-        )
-    )
-    assert np.linalg.norm(preset - fine) < 0.06 * np.linalg.norm(fine)
-
-
-def get_preset_count(case):
-    """Return the minimum number of steps that the formulation requests on this axis."""
-    return {"friction": 3, "stiffness_nonlinearity": 2, "contact": 4}[case[0]]
+    counts = (PRESET_STEP_COUNTS[case[0]], *STEP_COUNTS, FINE_STEP_COUNT)
+    *coarse, fine = simulate_deviations(*case, counts)
+    preset_error, *errors = (np.linalg.norm(path - fine) / np.linalg.norm(fine) for path in coarse)
+    order = -np.polyfit(np.log(STEP_COUNTS), np.log(errors), 1)[0]
+    assert order > min_order, errors
+    assert errors[0] < max_first_error
+    assert preset_error < 0.06

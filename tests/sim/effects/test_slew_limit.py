@@ -40,8 +40,8 @@ def test_the_mean_of_the_hard_limit_is_exact(x, h):
     assert limit_rate(9.0, 0, 0, 0.0, 0, 0, [2.0], s) == s[0]
 
 
-@pytest.mark.parametrize("x", [1e-3, -0.5, 3.0, 30.0, -1000.0])
-@pytest.mark.parametrize("h", [1e-4, 1e-2, 0.1])
+@pytest.mark.parametrize("x", [1e-3, -0.5, 30.0, -1000.0])
+@pytest.mark.parametrize("h", [1e-4, 0.1])
 def test_the_soft_limit_and_its_mean_follow_their_differential_equation(x, h):
     p, s = [100.0, 1e-2], [0.0]
     mean = limit_rate_softly(x, 0, 0, h, 0, 0, p, s)
@@ -59,12 +59,12 @@ def test_the_soft_limit_and_its_mean_follow_their_differential_equation(x, h):
 def test_there_is_no_effect_below_the_rate():
     command = make_sine(5e-4, 1.0)
     fastest = 2 * np.pi * 1.0 * 5e-4 / ROBOT.axes["thx"].gain
-    gap = simulate_axis(command, 20_000.0, "hard", rate=1.05 * fastest).signal("thx", Tap.REF)
-    gap = gap - simulate_axis(command, 20_000.0).signal("thx", Tap.REF)
-    assert np.abs(gap).max() < 1e-3 * 5e-4
-    gap = simulate_axis(command, 20_000.0, "hard", rate=0.8 * fastest).signal("thx", Tap.REF)
-    gap = gap - simulate_axis(command, 20_000.0).signal("thx", Tap.REF)
-    assert np.abs(gap).max() > 1e-2 * 5e-4
+    without_limit, above, below = (
+        simulate_axis(command, 20_000.0, formulation, rate=ratio * fastest).signal("thx", Tap.REF)
+        for formulation, ratio in ((None, 0.0), ("hard", 1.05), ("hard", 0.8))
+    )
+    assert np.abs(above - without_limit).max() < 1e-3 * 5e-4
+    assert np.abs(below - without_limit).max() > 1e-2 * 5e-4
 
 
 @pytest.mark.parametrize("formulation", ["hard", "soft"])
@@ -79,14 +79,6 @@ def test_far_above_the_rate_a_sine_becomes_a_triangle(formulation):
     assert np.ptp(u) < 0.3 * 1e-3 / gain
 
 
-def test_the_soft_limit_is_a_lag_for_small_changes():
-    p, s, lag = [100.0, 1e-2], [0.0], 1.0
-    for _ in range(5):
-        limit_rate_softly(1e-3, 0, 0, 2e-3, 0, 0, p, s)
-        lag *= np.exp(-0.2)
-        assert s[0] == pytest.approx(1e-3 * (1 - lag), rel=1e-5)
-
-
 @pytest.mark.parametrize("formulation", ["hard", "soft"])
 def test_the_motion_does_not_depend_on_the_sample_rate(formulation):
     command = np.repeat([1e-4, 6e-4, 3e-4], 40)
@@ -94,18 +86,3 @@ def test_the_motion_does_not_depend_on_the_sample_rate(formulation):
     coarse = simulate_axis(command, 200.0, formulation, rate=5e4)
     gap = coarse.signal("thx", Tap.REF) - fine.signal("thx", Tap.REF)[::200]
     assert np.abs(gap).max() < 2.5e-3 * 5e-4
-
-
-def test_a_high_rate_has_no_effect_and_a_run_starts_at_rest():
-    command = np.repeat([1e-4, 6e-4], 50)
-    clean = simulate_axis(command, 1000.0).signal("thx", Tap.REF)
-    high_rate = 1e6 * 130.0
-    gap = simulate_axis(command, 1000.0, "hard", rate=high_rate).signal("thx", Tap.REF) - clean
-    assert np.abs(gap).max() < 1e-3 * 5e-4
-    gap = simulate_axis(command, 1000.0, "soft", rate=high_rate, time_constant=1e-9).signal(
-        "thx", Tap.REF
-    )
-    assert np.abs(gap - clean).max() < 1e-3 * 5e-4
-    np.testing.assert_allclose(
-        simulate_axis(command, 1000.0, "hard").signal("thx", Tap.REF)[0], 1e-4
-    )

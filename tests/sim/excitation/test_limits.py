@@ -33,29 +33,13 @@ common_fields = {
     "amplitude": st.none() | st.floats(1e-3, 2.0).map(CapabilityShare),
     "offset": st.none() | st.floats(0.05, 0.95).map(CapabilityShare),
 }
-frequency = st.floats(0.2, 60.0)
 duration = st.floats(0.05, 3.0)
+wave_fields = {**common_fields, "frequency_hz": st.floats(0.2, 60.0), "duration_s": duration}
 STRATEGIES = {
-    "sine": st.builds(
-        SineExcitation,
-        **common_fields,
-        frequency_hz=frequency,
-        duration_s=duration,
-        periodic=st.booleans(),
-    ),
-    "triangle": st.builds(
-        TriangleExcitation,
-        **common_fields,
-        frequency_hz=frequency,
-        duration_s=duration,
-        periodic=st.booleans(),
-    ),
+    "sine": st.builds(SineExcitation, **wave_fields, periodic=st.booleans()),
+    "triangle": st.builds(TriangleExcitation, **wave_fields, periodic=st.booleans()),
     "decaying-triangle": st.builds(
-        DecayingTriangleExcitation,
-        **common_fields,
-        frequency_hz=frequency,
-        duration_s=duration,
-        growing=st.booleans(),
+        DecayingTriangleExcitation, **wave_fields, growing=st.booleans()
     ),
     "staircase": st.builds(
         StaircaseExcitation, **common_fields, levels=st.integers(2, 9), hold_s=st.floats(1e-3, 0.2)
@@ -129,12 +113,11 @@ def test_defaults_suit_each_axis_and_all_axes_together(kind, robot):
             )
 
 
-@pytest.mark.parametrize("robot", ROBOTS)
 @pytest.mark.parametrize("kind", EXCITATION_KINDS)
-@settings(max_examples=15)
+@settings(max_examples=25)
 @given(data=st.data())
-def test_any_request_stays_within_all_limits(kind, robot, data):
-    model = ROBOTS[robot]
+def test_any_request_stays_within_all_limits(kind, data):
+    model = ROBOTS[data.draw(st.sampled_from(list(ROBOTS)))]
     specification = data.draw(STRATEGIES[kind])
     axis = data.draw(st.sampled_from(list(model.axes)))
     rate = data.draw(st.sampled_from([1000.0, 1333.3, 2000.0, 20_000.0]))
@@ -162,7 +145,7 @@ def _check_ends(excitation, axis, specification):
         assert command[-1] == pytest.approx(command[0], abs=1e-9 * (high - low))
 
 
-@settings(max_examples=60)
+@settings(max_examples=40)
 @given(data=st.data())
 def test_any_request_stays_within_the_limits_of_other_axes(data):
     speed = data.draw(st.none() | st.floats(1e-4, 10.0))
@@ -182,17 +165,10 @@ def test_any_request_stays_within_the_limits_of_other_axes(data):
     assert find_violations(robot, excitation.record) == ()
 
 
-@pytest.mark.parametrize("kind", EXCITATION_KINDS)
+@pytest.mark.parametrize("kind", ["sine", "staircase", "prbs"])
 def test_an_excitation_stays_within_limits_after_writing_and_reading(kind, tmp_path):
     robot = ROBOTS["rotemina"]
-    excitation = excite(
-        robot,
-        {
-            "x": EXCITATION_KINDS[kind](),
-            "thx": EXCITATION_KINDS[kind](),
-            "zn": EXCITATION_KINDS[kind](),
-        },
-    )
+    excitation = excite(robot, {axis: EXCITATION_KINDS[kind]() for axis in ("x", "thx", "zn")})
     units = {"x": "um", "thx": "urad", "zn": "nm"}
     write_record(excitation.record, tmp_path / "it.csv", units=units)
     record_of_file = read_record(tmp_path / "it.csv", robot=robot)
@@ -237,46 +213,19 @@ def test_the_period_of_several_axes_is_their_common_one():
     assert unequal.period_samples is None
 
 
+SPEED, ACCELERATION = "speed limit 10 mm/s", "acceleration limit 200"
+
+
 @pytest.mark.parametrize(
     ("specification", "parameter", "used", "cause"),
     [
-        (
-            SineExcitation(amplitude=5e-3, frequency_hz=1.0),
-            "amplitude",
-            1.5915e-3,
-            "speed limit 10 mm/s",
-        ),
-        (
-            SineExcitation(amplitude=5e-5, frequency_hz=20.0),
-            "amplitude",
-            1.267e-5,
-            "acceleration limit 200",
-        ),
-        (
-            SineExcitation(amplitude=0.04, frequency_hz=0.01),
-            "amplitude",
-            0.0275,
-            "range 0 mm to 55 mm",
-        ),
-        (
-            TriangleExcitation(amplitude=5e-3, frequency_hz=1.0),
-            "amplitude",
-            2.25e-3,
-            "speed limit 10 mm/s",
-        ),
-        (
-            SweepsExcitation(amplitude=5e-3, speeds=(0.02,)),
-            "speed",
-            0.01,
-            "speed limit 10 mm/s",
-        ),
-        (StepsExcitation(amplitude=1e-3, rise_s=0.1), "rise", 0.1875, "speed limit 10 mm/s"),
-        (
-            PrbsExcitation(amplitude=1e-3, frequency_hz=25.0),
-            "amplitude",
-            4e-5,
-            "acceleration limit 200",
-        ),
+        (SineExcitation(amplitude=5e-3, frequency_hz=1.0), "amplitude", 1.5915e-3, SPEED),
+        (SineExcitation(amplitude=5e-5, frequency_hz=20.0), "amplitude", 1.267e-5, ACCELERATION),
+        (SineExcitation(amplitude=0.04, frequency_hz=0.01), "amplitude", 0.0275, "0 mm to 55 mm"),
+        (TriangleExcitation(amplitude=5e-3, frequency_hz=1.0), "amplitude", 2.25e-3, SPEED),
+        (SweepsExcitation(amplitude=5e-3, speeds=(0.02,)), "speed", 0.01, SPEED),
+        (StepsExcitation(amplitude=1e-3, rise_s=0.1), "rise", 0.1875, SPEED),
+        (PrbsExcitation(amplitude=1e-3, frequency_hz=25.0), "amplitude", 4e-5, ACCELERATION),
     ],
 )
 def test_a_request_beyond_a_limit_is_reduced_with_a_message_or_refused(

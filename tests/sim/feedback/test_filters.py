@@ -13,17 +13,10 @@ def compute_response_at(biquad, *frequency_hz):
     return biquad.compute_response(np.exp(2j * np.pi * np.array(frequency_hz) / RATE_HZ))
 
 
-def test_a_notch_has_its_depth_at_its_frequency_and_gain_one_elsewhere():
-    gains = np.abs(
-        compute_response_at(design_notch(420.0, 0.7, 0.05, RATE_HZ), 1e-3, 420.0, 2500.0)
-    )
-    np.testing.assert_allclose(gains, [1.0, 0.05, 1.0], rtol=1e-9)
-
-
-def test_a_notch_does_not_shift_the_phase_at_its_frequency():
-    assert (
-        abs(np.angle(compute_response_at(design_notch(420.0, 0.7, 0.05, RATE_HZ), 420.0)[0])) < 1e-9
-    )
+def test_a_notch_has_its_depth_without_phase_at_its_frequency_and_gain_one_elsewhere():
+    response = compute_response_at(design_notch(420.0, 0.7, 0.05, RATE_HZ), 1e-3, 420.0, 2500.0)
+    np.testing.assert_allclose(np.abs(response), [1.0, 0.05, 1.0], rtol=1e-9)
+    assert abs(np.angle(response[1])) < 1e-9
 
 
 def test_a_low_pass_is_three_decibels_down_at_its_frequency():

@@ -114,14 +114,6 @@ def test_deviations_of_arx_are_correct_for_equation_noise():
     assert model.prediction_percent > model.fit_percent
 
 
-def test_sensor_noise_biases_arx_but_not_output_error():
-    noisy = make_experiment(4000, 0.1)
-    arx, oe = identify_arx(noisy, ORDERS), identify_oe(noisy, ORDERS)
-    assert np.abs(get_coefficients(arx) - TRUE_COEFFICIENTS).max() > 0.2
-    assert np.abs(get_coefficients(oe) - TRUE_COEFFICIENTS).max() < 0.02
-    assert oe.fit_percent > arx.fit_percent
-
-
 def test_a_model_is_validated_on_another_record():
     model = identify_oe(make_experiment(noise=0.05), ORDERS).transfer_function
     validation = simulate(model, make_experiment(seed=9, offset=2.0))

@@ -8,7 +8,6 @@ from hypothesis import given, strategies as st
 
 from rotemina.sim.errors import OutOfLimitsError
 from rotemina.sim.kinematics import (
-    JOINTS,
     KinematicChain,
     StageSplit,
     TipWorkspace,
@@ -17,7 +16,6 @@ from rotemina.sim.kinematics import (
     solve_tip,
 )
 from rotemina.sim.robot_files import load_robot
-from rotemina.sim.trajectory import check_target
 
 ROBOT = load_robot("rotemina")
 CHAIN = KinematicChain.of(ROBOT)
@@ -55,13 +53,6 @@ def test_round_trip_over_the_workspace(share, start_share, split, wide):
     joints = solve_tip(chain, target, start, split)
     np.testing.assert_allclose(compute_tip_position(chain, joints), target, rtol=0, atol=1e-15)
     assert chain.is_inside(joints)
-
-
-@given(share=shares)
-def test_solutions_stay_within_the_limits_of_the_robot(share):
-    joints = solve_tip(CHAIN, compute_core_point(CHAIN, share), START)
-    for name, position in zip(JOINTS, joints, strict=True):
-        check_target(ROBOT, name, float(position))
 
 
 @given(share=shares, start_share=shares, wide=st.booleans())
@@ -155,12 +146,15 @@ def test_many_targets_at_once_give_the_same_as_single_targets():
             np.testing.assert_allclose(together[i, j], alone, rtol=0, atol=1e-16)
 
 
-@pytest.mark.parametrize("split", StageSplit)
 @pytest.mark.parametrize(
-    ("target", "axis"),
-    [([0.1, 0.02, 0.0], "x"), ([0.02, -0.01, 0.0], "y"), ([0.02, 0.02, 0.06], "z")],
+    ("target", "axis", "split"),
+    [
+        ([0.1, 0.02, 0.0], "x", StageSplit.HYBRID),
+        ([0.02, -0.01, 0.0], "y", StageSplit.NANO_FIRST),
+        ([0.02, 0.02, 0.06], "z", StageSplit.MICRO_ONLY),
+    ],
 )
-def test_a_target_out_of_reach_is_refused_with_the_axis(split, target, axis):
+def test_a_target_out_of_reach_is_refused_with_the_axis(target, axis, split):
     with pytest.raises(OutOfLimitsError, match=rf"axis {axis}: position .* is outside"):
         solve_tip(CHAIN, np.array(target), START, split)
 

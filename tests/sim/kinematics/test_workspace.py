@@ -48,6 +48,8 @@ def is_reachable(tip):
 def test_the_cylinder_of_the_paper_lies_inside_the_workspace():
     """A cylinder of diameter 50 mm and height 50 mm is reachable at the worst nano poses."""
     assert compute_cylinder_margin(0.050, 0.050) == pytest.approx(2.4767e-3, rel=1e-4)
+    assert compute_cylinder_margin(0.056, 0.050) < 0.0
+    assert compute_cylinder_margin(0.050, 0.081) < 0.0
     angle, height = np.meshgrid(np.linspace(0, 2 * np.pi, 73), np.linspace(-0.025, 0.025, 11))
     surface = np.stack([0.025 * np.cos(angle), 0.025 * np.sin(angle), height], axis=-1)
     surface += 0.5 * (WORKSPACE.core.low + WORKSPACE.core.high)
@@ -57,18 +59,13 @@ def test_the_cylinder_of_the_paper_lies_inside_the_workspace():
         np.testing.assert_allclose(compute_tip_position(CHAIN, joints), surface, atol=1e-15)
 
 
-def test_a_cylinder_that_is_too_large_is_not_inside():
-    assert compute_cylinder_margin(0.056, 0.050) < 0.0
-    assert compute_cylinder_margin(0.050, 0.081) < 0.0
-
-
 @pytest.mark.parametrize(
     "chain", [CHAIN, make_chain(thx=(-0.5, 0.3), thy=(-0.2, 0.6)), make_chain(thx=(0.2, 0.5))]
 )
 def test_the_hull_is_the_bounding_box_of_all_tips(chain):
-    joints = draw_joints(40_000, chain)
+    joints = draw_joints(10_000, chain)
     level = np.clip(0.0, chain.lower[3:5], chain.upper[3:5])
-    joints[::2, 3:5] = np.where(np.arange(20_000)[:, None] % 3 == 0, level, joints[::2, 3:5])
+    joints[::2, 3:5] = np.where(np.arange(5_000)[:, None] % 3 == 0, level, joints[::2, 3:5])
     joints[1::4, 3] = level[0]
     tips, hull = compute_tip_position(chain, joints), TipWorkspace.of(chain).hull
     np.testing.assert_allclose(tips.min(axis=0), hull.low, rtol=0, atol=1e-15)
@@ -82,7 +79,7 @@ def test_the_hull_is_the_bounding_box_of_all_tips(chain):
 def test_the_margin_is_conservative_by_at_most_its_error(chain):
     workspace, tips = (
         TipWorkspace.of(chain),
-        compute_tip_position(chain, draw_joints(40_000, chain)),
+        compute_tip_position(chain, draw_joints(10_000, chain)),
     )
     worst = float(workspace.margin_at(tips).min())
     assert -workspace.max_margin_error - 1e-15 <= worst < -0.9 * workspace.max_margin_error

@@ -42,6 +42,15 @@ def test_a_long_value_is_cut_but_not_the_message():
     assert str(nested) == "at x, " + "long " * 300 + "y is wrong; correct it"
 
 
+def test_the_length_of_a_cut_value_is_translated():
+    class GermanWording(MessageWording):
+        def localize_text(self, context, template):
+            return template.replace("characters", "Zeichen")
+
+    text = message("a", "{value}").fill(value="d" * 300)
+    assert GermanWording().format_message(text).endswith("(300 Zeichen)")
+
+
 def test_a_value_is_not_cut_up_to_its_maximum_length():
     names = ", ".join(f"name_{number}" for number in range(100))
     assert len(names) < MAX_VALUE_LENGTH
@@ -66,12 +75,3 @@ def test_control_characters_of_a_value_are_escaped(value):
 def test_joined_lines_are_not_cut():
     sentences = ["one " * 500, "two"]
     assert str(join_lines(sentences)) == "\n".join(sentences)
-
-
-def test_the_length_of_a_cut_value_is_translated():
-    class GermanWording(MessageWording):
-        def localize_text(self, context, template):
-            return template.replace("characters", "Zeichen")
-
-    text = message("a", "{value}").fill(value="d" * 300)
-    assert GermanWording().format_message(text).endswith("(300 Zeichen)")

@@ -40,12 +40,9 @@ def test_the_membrane_follows_the_tip_until_it_breaks_and_springs_back():
     assert np.linalg.norm(dimple_displacement(CELL, state)) == pytest.approx(0.2 * 4e-6)
 
 
-def test_a_retreat_before_the_membrane_breaks_leaves_no_trace():
-    state = move_tip(60.0, 19.0, 60.0)
-    assert (state.entry_m, state.hole_m) == (None, None)
-
-
-def test_the_hole_stays_after_the_retreat():
+def test_a_hole_stays_after_the_retreat_but_a_dent_leaves_no_trace():
+    dented = move_tip(60.0, 19.0, 60.0)
+    assert (dented.entry_m, dented.hole_m) == (None, None)
     state = move_tip(60.0, 10.0, 60.0)
     assert state.is_pierced
     assert state.entry_m is None
@@ -60,13 +57,10 @@ def test_the_entry_is_where_the_path_crosses_the_membrane():
     assert state.entry_m[0] > 0.0
 
 
-def test_a_thrust_through_the_cell_between_two_samples_leaves_a_hole():
-    state = move_tip(60.0, -60.0)
-    assert state.is_pierced
-    np.testing.assert_allclose(state.hole_m, EDGE, atol=1e-12)
-
-
-def test_grazing_the_cell_between_two_samples_leaves_no_hole():
+def test_between_two_samples_a_thrust_leaves_a_hole_and_grazing_leaves_none():
+    thrust = move_tip(60.0, -60.0)
+    assert thrust.is_pierced
+    np.testing.assert_allclose(thrust.hole_m, EDGE, atol=1e-12)
     state = advance_cell_state(CELL, UNTOUCHED_CELL_STATE, np.array([60e-6, 17.99e-6, 0.0]))
     assert not advance_cell_state(CELL, state, np.array([-60e-6, 17.99e-6, 0.0])).is_pierced
 

@@ -47,7 +47,7 @@ def measure_dark_offset(light, tip):
     return np.array([(darkness * columns).sum(), (darkness * rows).sum()]) / darkness.sum() - tip
 
 
-@pytest.mark.parametrize("shift_m", [(0.0, 0.0, 0.0), (3.21e-6, -1.77e-6, 0.0), (-7.5e-6, 4e-6, 0)])
+@pytest.mark.parametrize("shift_m", [(0.0, 0.0, 0.0), (3.21e-6, -1.77e-6, 0.0)])
 def test_an_upright_pin_appears_where_the_optics_project_it(shift_m):
     scene = make_scene(pin=TaperedPin(approach_rad=pi / 2), rotation_rad=0.3, mirrored=True)
     tip = TIP + np.array(shift_m)
@@ -252,7 +252,7 @@ def test_invalid_approach_angles_are_refused(angle):
 
 def test_the_image_does_not_depend_on_the_position_of_blocks():
     rng = np.random.default_rng(0)
-    for _ in range(40):
+    for _ in range(15):
         angle, shape = rng.uniform(0.0, 2.0 * np.pi), tuple(rng.integers(50, 300, 2))
         tip = rng.uniform(-200.0, 500.0, 2)
         shape_arguments = (

@@ -61,12 +61,6 @@ def test_velocity_and_acceleration_are_derivatives_of_position():
     np.testing.assert_allclose(acceleration, rate**2 * position, rtol=1e-7, atol=1e-10)
 
 
-def test_static_gain_is_that_of_the_axes():
-    static_response = make_state_space(ROBOT).response(np.array(0.0))
-    gain = [1.0, 1.0, 1.0, 8.9503846e-6, 8.9503846e-6, 5e-7]
-    np.testing.assert_allclose(static_response, np.diag(gain), rtol=1e-12, atol=1e-15)
-
-
 def test_static_axes_have_only_direct_feedthrough():
     robot = parse_robot(
         "[robot]\nname='two'\naxes=['s','a','p']\n"

@@ -49,8 +49,10 @@ def simulate_stepwise(robot, time_s, command, add, delay_s):
     return np.array(positions), np.array(efforts)
 
 
-@pytest.mark.parametrize("velocity", ["state", "backward"])
-@pytest.mark.parametrize("delay_s", [0.0, 3e-4, 1e-3, 2.4e-3])
+@pytest.mark.parametrize(
+    ("velocity", "delay_s"),
+    [("state", 0.0), ("backward", 3e-4), ("state", 1e-3), ("backward", 2.4e-3)],
+)
 def test_the_loop_is_sampled_exactly(velocity, delay_s):
     robot = replace_controller_fields(velocity=velocity, delay_s=delay_s, kp=60.0)
     time_s = np.arange(400) * 1e-3
@@ -80,7 +82,7 @@ def test_effort_stays_within_the_limit_and_reaches_it():
     assert effort.min() >= -10.0
 
 
-@pytest.mark.parametrize("delay_s", [0.0, 3.3e-4, 1.7e-3])
+@pytest.mark.parametrize("delay_s", [0.0, 1.7e-3])
 def test_a_loop_in_pieces_equals_the_loop_at_once(delay_s):
     plant = Plant.of(replace_controller_fields(delay_s=delay_s), closed_loop=True)
     rng = np.random.default_rng(3)

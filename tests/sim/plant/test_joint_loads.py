@@ -290,8 +290,7 @@ def test_rates_of_a_static_axis_are_differences():
         assert not getattr(loads, name)[:, 0].any()
 
 
-@pytest.mark.parametrize("rows", [1, 2, 7, 60])
-@pytest.mark.parametrize("is_perturbed", [False, True])
+@pytest.mark.parametrize(("rows", "is_perturbed"), [(1, True), (7, False), (60, True)])
 def test_loads_of_pieces_equal_those_of_the_run(rows, is_perturbed):
     time_s = np.cumsum(np.random.default_rng(2).uniform(3e-4, 6e-4, 60))
     static = replace(ROBOT.axes["x"], static=True, mass=None, damping=None, stiffness=None)

@@ -129,25 +129,6 @@ def test_the_acceleration_of_the_table_moves_the_nano_z_axis():
     np.testing.assert_allclose(travels[[0, 1, 3, 4]], 0.0, atol=1e-14)
 
 
-@pytest.mark.slow
-@given(st.lists(st.integers(1, 40), min_size=1, max_size=6), st.integers(0, 2**32 - 1))
-def test_a_run_in_pieces_equals_the_run_at_once(pieces, seed):
-    rng = np.random.default_rng(seed)
-    count = sum(pieces)
-    time_s = np.cumsum(rng.uniform(2e-4, 2e-3, count))
-    command = CENTRE * (1 + 0.01 * rng.standard_normal((count, 6)).cumsum(axis=0) / count)
-    plant = Plant.of(ROBOT)
-    whole, _ = plant.advance(plant.find_rest_state(time_s[0], command[0]), time_s, command)
-    state, parts, start = plant.find_rest_state(time_s[0], command[0]), [], 0
-    for length in pieces:
-        piece = slice(start, start + length)
-        motion, state = plant.advance(state, time_s[piece], command[piece])
-        parts.append(motion.position)
-        start += length
-    spans = np.array([axis.span for axis in ROBOT.axes.values()])
-    assert np.abs((np.concatenate(parts) - whole.position) / spans).max() < 1e-11
-
-
 def test_static_axes_follow_immediately():
     robot = load_robot("picma")
     time_s = np.arange(5) / 200
@@ -156,29 +137,6 @@ def test_static_axes_follow_immediately():
     response = simulate_nominal_response(robot, record)
     np.testing.assert_allclose(response.signal("p", Tap.MEAS), command, rtol=1e-14)
     np.testing.assert_allclose(response.signal("p", Tap.U), command / 12.53e-6, rtol=1e-14)
-
-
-def test_a_measured_voltage_can_drive_the_plant():
-    time_s = np.arange(200) / 2000
-    command = np.full(200, 3e-4)
-    voltage = command / ROBOT.axes["thx"].gain + np.where(time_s > 0.02, 1.0, 0.0)
-    record = Record.from_signals(
-        time_s, {("thx", Tap.CMD): command, ("thx", Tap.U): voltage}, {"thx": "rad"}
-    )
-    by_command = simulate_nominal_response(ROBOT, record).signal("thx", Tap.REF)
-    by_voltage = simulate_nominal_response(ROBOT, record, drive=Tap.U).signal("thx", Tap.REF)
-    assert np.ptp(by_command) < 1e-15
-    assert np.ptp(by_voltage) > ROBOT.axes["thx"].gain
-
-
-def test_a_periodic_record_starts_in_its_steady_state():
-    period = 400
-    time_s = np.arange(2 * period) / 2000
-    command = 5e-4 + 2e-4 * np.sin(2 * np.pi * np.arange(2 * period) / period * 7)
-    meta = {"history": "periodic", "period_samples": str(period)}
-    record = Record.from_signals(time_s, {("thx", Tap.CMD): command}, {"thx": "rad"}, meta)
-    response = simulate_nominal_response(ROBOT, record).signal("thx", Tap.MEAS)
-    np.testing.assert_allclose(response[:period], response[period:], atol=1e-11 * 2e-4)
 
 
 def test_an_unknown_history_starts_from_the_first_measured_samples():

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from scipy.linalg import expm
-from scipy.signal import lsim
 
 from rotemina.sim.errors import PlantError
 from rotemina.sim.plant import Perturbation, Plant
@@ -61,36 +60,6 @@ def simulate_motion(plant, time_s, perturbation, command=None):
     return plant.advance(state, time_s, command, perturbation=perturbation)[0]
 
 
-def test_the_motion_of_a_shaken_axis_matches_lsim():
-    plant, time_s = Plant.of(parse_robot(ONE_AXIS_TEXT)), np.arange(2000) / 1000
-    acceleration = np.sin(2.0 * np.pi * 20.0 * time_s) + 0.3
-    motion = simulate_motion(
-        plant, time_s, Perturbation(acceleration[:, None], np.zeros((1, 1)), [[-MASS]])
-    )
-    system = (
-        np.array([[0.0, 1.0], [-STIFFNESS / MASS, -DAMPING / MASS]]),
-        np.array([[0.0], [-1.0]]),
-        np.eye(2),
-        np.zeros((2, 1)),
-    )
-    _, exact, _ = lsim(system, acceleration, time_s, interp=False)
-    assert np.abs(motion.position[:, 0] - exact[:, 0]).max() < 1e-10 * np.abs(exact[:, 0]).max()
-    assert np.abs(motion.velocity[:, 0] - exact[:, 1]).max() < 1e-10 * np.abs(exact[:, 1]).max()
-
-
-def test_a_constant_acceleration_settles_like_the_closed_form():
-    plant, time_s = Plant.of(parse_robot(ONE_AXIS_TEXT)), np.arange(500) / 700
-    motion = simulate_motion(
-        plant, time_s, Perturbation(np.ones((500, 1)), np.zeros((1, 1)), [[3.0]])
-    )
-    rate = np.sqrt(STIFFNESS / MASS)
-    decay = DAMPING / (2.0 * MASS)
-    damped = np.sqrt(rate**2 - decay**2)
-    oscillation = np.cos(damped * time_s) + decay / damped * np.sin(damped * time_s)
-    exact = 3.0 / STIFFNESS * (1.0 - np.exp(-decay * time_s) * oscillation)
-    assert motion.position[:, 0] == pytest.approx(exact, abs=1e-10 * exact.max())
-
-
 def test_a_change_of_q_is_an_impulse():
     """After q̇ jumps by A/M the axis vibrates freely, and the sample precedes the jump."""
     plant, time_s = Plant.of(parse_robot(ONE_AXIS_TEXT)), np.arange(500) / 700
@@ -141,22 +110,6 @@ def test_the_motion_of_coupled_axes_matches_the_matrix_exponential():
     exact = solve_by_matrix_exponential(time_s, acceleration, command)
     assert np.abs(motion.position - exact[:, :2]).max() < 1e-9 * np.abs(exact[:, :2]).max()
     assert np.abs(motion.velocity - exact[:, 2:]).max() < 1e-9 * np.abs(exact[:, 2:]).max()
-
-
-@pytest.mark.parametrize("rows", [1, 2, 77])
-def test_a_perturbed_run_in_pieces_equals_the_run_at_once(rows):
-    time_s, acceleration, command = make_uneven_samples()
-    plant, perturbation = Plant.of(parse_robot(TWO_AXIS_TEXT)), Perturbation(acceleration, A, B)
-    at_once = simulate_motion(plant, time_s, perturbation, command)
-    state, position = plant.find_rest_state(time_s[0], command[0]), []
-    for first in range(0, 300, rows):
-        piece = slice(first, first + rows)
-        motion, state = plant.advance(
-            state, time_s[piece], command[piece], perturbation=perturbation.part(piece)
-        )
-        position.append(motion.position)
-    gap = np.concatenate(position) - at_once.position
-    assert np.abs(gap).max() < 1e-10 * np.abs(at_once.position).max()
 
 
 def test_impulses_of_a_ramp_converge_to_the_force_of_its_slope():

@@ -6,14 +6,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from rotemina.sim.effects import (
-    Effect,
-    EffectParameter,
-    EffectStage,
-    Formulation,
-    InputFunction,
-    attachment,
-)
+from rotemina.sim.effects import EffectParameter, EffectStage, InputFunction
 from rotemina.sim.records import Record, Tap
 from rotemina.sim.robot import AxisEffect
 from rotemina.sim.robot_files import parse_robot
@@ -31,26 +24,15 @@ def subtract_deviation(x, other, t, h, a, b, p, s):
 
 
 @pytest.fixture
-def position_feedback(monkeypatch):
+def position_feedback(install_effect):
     """An effect that subtracts a share of the deviation from the middle from the input."""
-    formulation = Formulation(
-        name="one",
-        equation="y = x − k (q − 1/2)",
-        source="none",
-        parameters=(EffectParameter("k", "share", "", 0.0, 1.0, 0.5),),
-        acts=InputFunction(step=subtract_deviation, timed=True),
+    install_effect(
+        InputFunction(step=subtract_deviation, timed=True),
+        EffectParameter("k", "share", "", 0.0, 1.0, 0.5),
+        stage=EffectStage.ACTUATOR,
         inner_step_s=lambda values, facts: 1e-4,
     )
-    effect = Effect(
-        id="pull",
-        title="Pull",
-        summary="None",
-        stage=EffectStage.ACTUATOR,
-        kinds=frozenset({"stepper"}),
-        formulations=(formulation,),
-    )
-    monkeypatch.setattr(attachment, "load_effect", lambda name: effect)
-    return [AxisEffect(axis="a", id="pull")]
+    return [AxisEffect(axis="a", id="push")]
 
 
 def make_record(repeats=1):

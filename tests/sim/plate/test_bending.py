@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.sparse.linalg import LinearOperator, eigsh, spsolve
+from scipy.sparse.linalg import LinearOperator, eigsh
 from scipy.spatial import Delaunay
 from skfem import Basis, ElementTriMorley, LinearForm, MeshTri
 
@@ -177,12 +177,3 @@ def test_frequency_parameters_match_leissa():
         2.0 * np.pi * value for _, value in thin_plates.compute_frequencies_hz(1.0, 1.0, 1.0, 4)
     ]
     assert parameters == pytest.approx([10.2158, 21.26, 34.88, 39.771], rel=2e-4)
-
-
-def test_the_factorization_solves_like_scipy():
-    mesh = MeshTri().refined(3)
-    bending = assemble_bending(mesh, 1.0, 1.0, RATIO, 1.0)
-    free = np.setdiff1d(np.arange(bending.basis.N), bending.basis.get_dofs().all())
-    matrix = bending.stiffness[free][:, free].tocsc()
-    right = np.random.default_rng(0).standard_normal(free.size)
-    assert factorize(matrix).solve(right) == pytest.approx(spsolve(matrix, right), rel=1e-8)

@@ -72,7 +72,7 @@ def test_hub_and_rim_are_circles():
     assert radius[mesh.rim] == pytest.approx(PLATE.rim_radius)
 
 
-@pytest.mark.parametrize("start", [0.0, 0.15, 2 * np.pi - 0.15, -1e-12])
+@pytest.mark.parametrize("start", [0.15, 2 * np.pi - 0.15, -1e-12])
 def test_a_slot_may_begin_anywhere(start):
     mesh = make_mesh(replace(PLATE, cutout=(replace(SLOT, start=start),)), 48)
     assert compute_triangle_areas(mesh).sum() == pytest.approx(

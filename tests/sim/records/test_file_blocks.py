@@ -21,7 +21,7 @@ def format_rows(count: int) -> str:
     return "".join(f"{second},1\n" for second in range(count))
 
 
-@pytest.mark.parametrize("block_bytes", [1, 7, 50, 10_000])
+@pytest.mark.parametrize("block_bytes", [1, 50, 10_000])
 def test_blocks_contain_whole_lines(write_file: WriteFile, block_bytes: int) -> None:
     content = (HEAD + format_rows(30)).encode()
     with open_blocks(write_file(content[:-1]), FileLimits(block_bytes=block_bytes)) as blocks:
@@ -39,8 +39,9 @@ def test_a_block_converts_offsets_to_line_numbers() -> None:
     assert [block.line_of(offset) for offset in range(6)] == [7, 7, 7, 8, 8, 8]
 
 
-@pytest.mark.parametrize("line_bytes", [20, 21, 40])
-@pytest.mark.parametrize("block_bytes", [1, 10, 64, 1000])
+@pytest.mark.parametrize(
+    ("line_bytes", "block_bytes"), [(20, 1), (21, 10), (40, 10), (21, 64), (20, 1000)]
+)
 def test_a_line_may_have_at_most_its_maximum_length(
     write_file: WriteFile, line_bytes: int, block_bytes: int
 ) -> None:
@@ -58,7 +59,7 @@ def test_a_line_may_have_at_most_its_maximum_length(
 def test_a_line_without_end_needs_little_memory(tmp_path: Path, is_compressed: bool) -> None:
     path = tmp_path / "long.csv"
     with (gzip.open if is_compressed else open)(path, "wb") as file:  # type: ignore[operator]
-        for _ in range(100):
+        for _ in range(80):
             file.write(b"1" * 1_000_000)
     tracemalloc.start()
     try:
@@ -80,11 +81,11 @@ def test_a_compressed_file_may_expand_to_its_maximum_size(write_file: WriteFile)
         read_record(path, limits=short_limits)
 
 
-@pytest.mark.parametrize("filler", [b"\n", b"# \n", b"#a:b\n", b" " * 1000 + b"\n"])
+@pytest.mark.parametrize("filler", [b"\n", b"#a:b\n", b" " * 1000 + b"\n"])
 def test_a_file_that_expands_too_much_is_abandoned_early(tmp_path: Path, filler: bytes) -> None:
     path = tmp_path / "bomb.csv.gz"
     with gzip.open(path, "wb") as file:
-        for _ in range(30):
+        for _ in range(10):
             file.write(filler * (1_000_000 // len(filler)))
     limits = FileLimits(expanded_bytes=2_000_000, comment_bytes=100_000, block_bytes=100_000)
     tracemalloc.start()
@@ -97,7 +98,7 @@ def test_a_file_that_expands_too_much_is_abandoned_early(tmp_path: Path, filler:
     assert peak_bytes < 3_000_000
 
 
-@pytest.mark.parametrize("block_bytes", [1, 100, 10_000])
+@pytest.mark.parametrize("block_bytes", [1, 10_000])
 def test_the_size_of_comments_is_limited(write_file: WriteFile, block_bytes: int) -> None:
     path = write_file("# a: b\n" * 10 + HEAD + "0,1\n# end")
     sufficient_limits = FileLimits(comment_bytes=76, block_bytes=block_bytes)

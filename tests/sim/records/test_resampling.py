@@ -77,8 +77,9 @@ def test_the_grid_lies_within_the_record(
     assert np.allclose(np.diff(grid_s), 1 / rate_hz, rtol=1e-5, atol=1e-11)
 
 
-@pytest.mark.parametrize("method", ["hold", "linear", "cubic"])
-@pytest.mark.parametrize("rows", [1, 2, 3])
+@pytest.mark.parametrize(
+    ("method", "rows"), [("hold", 1), ("linear", 1), ("cubic", 1), ("cubic", 2), ("cubic", 3)]
+)
 def test_short_records_are_resampled(method: Method, rows: int) -> None:
     time_s = np.arange(rows) * 0.5
     resampled = resample(make_record(time_s, time_s, 2 * time_s), 2.0, method)

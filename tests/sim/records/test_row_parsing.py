@@ -151,25 +151,21 @@ def test_small_blocks_are_parsed_without_pyarrow(monkeypatch: pytest.MonkeyPatch
     assert parser.parse(LineBlock(1, b"0,1,2\n")).tolist() == [[0.0, 1e-6, 2.0]]
 
 
-def test_a_byte_order_mark_between_rows_is_refused() -> None:
-    blocks = [LineBlock(1, b"0,0,0\n"), LineBlock(2, b"\xef\xbb\xbf1,0,0\n")]
-    fast, strict = parse_both_ways(blocks, ",")
+@pytest.mark.parametrize(
+    ("first", "second", "separator", "message"),
+    [
+        (b"0,0,0\n", b"\xef\xbb\xbf1,0,0\n", ",", "t: value '\\ufeff1'"),
+        (b"5,0,0\n", b"5,0,0\n", ",", "t: time 0.005 s does not increase after 0.005 s"),
+        (b"0;0,5;0\n", b"1;0.5;0\n", ";", "x.cmd: value '0.5' has '.'"),
+    ],
+    ids=["byte-order mark", "time", "decimal sign"],
+)
+def test_rules_apply_across_blocks(
+    first: bytes, second: bytes, separator: str, message: str
+) -> None:
+    fast, strict = parse_both_ways([LineBlock(1, first), LineBlock(2, second)], separator)
     assert fast == strict
-    assert str(fast).startswith("run.csv:2:t: value '\\ufeff1'")
-
-
-def test_time_must_increase_across_blocks() -> None:
-    blocks = [LineBlock(1, b"0,0,0\n5,0,0\n"), LineBlock(3, b"5,0,0\n")]
-    fast, strict = parse_both_ways(blocks, ",")
-    assert fast == strict
-    assert str(fast).startswith("run.csv:3:t: time 0.005 s does not increase after 0.005 s")
-
-
-def test_the_decimal_sign_applies_across_blocks() -> None:
-    blocks = [LineBlock(1, b"0;0,5;0\n"), LineBlock(2, b"1;0.5;0\n")]
-    fast, strict = parse_both_ways(blocks, ";")
-    assert fast == strict
-    assert str(fast).startswith("run.csv:2:x.cmd: value '0.5' has '.'")
+    assert str(fast).startswith(f"run.csv:2:{message}")
 
 
 def test_invalid_named_columns_are_refused_without_a_file(tmp_path: Path) -> None:

@@ -3,7 +3,7 @@
 import pytest
 
 from rotemina.sim.errors import RobotFileError
-from rotemina.sim.robot import ForceAxis, PiezoAxis, StepperAxis
+from rotemina.sim.robot import ForceAxis
 from rotemina.sim.robot_files import (
     list_nominal_robots,
     list_shipped_robots,
@@ -67,17 +67,6 @@ kp = 100.0
 kv = 200.0
 limit = 10.0
 """
-
-
-def test_the_shipped_robot_is_the_machine_of_the_paper():
-    robot = load_robot("rotemina")
-    assert list(robot.axes) == ["x", "y", "z", "thx", "thy", "zn"]
-    assert robot.stages["micro"] == ("x", "y", "z")
-    assert isinstance(robot.axes["x"], StepperAxis)
-    assert isinstance(robot.axes["zn"], PiezoAxis)
-    assert robot.unit("thx") == "rad"
-    assert robot.unit("zn") == "m"
-    assert robot.axes["x"].sensor.noise_floor == pytest.approx(3.51e-8, rel=1e-3)
 
 
 def test_every_shipped_robot_loads():

@@ -51,7 +51,7 @@ def make_perturbation(rows, axes):
     return Perturbation(rng.normal(size=(rows, axes)), *matrices)
 
 
-@pytest.mark.parametrize("rows", [1, 7, 100, 599])
+@pytest.mark.parametrize("rows", [1, 100, 599])
 @pytest.mark.parametrize("effects", [(), EFFECTS], ids=["nominal", "effects"])
 def test_a_run_in_pieces_equals_the_run_at_once(effects, rows):
     commands = make_commands()
@@ -77,14 +77,13 @@ def test_pieces_of_the_default_size_equal_the_run_bit_for_bit():
     assert pieces.time_s.tobytes() == whole.time_s.tobytes()
 
 
-@pytest.mark.parametrize("rows", [100, 300])
-def test_a_lagging_clock_can_be_simulated_in_pieces(rows):
+def test_a_lagging_clock_can_be_simulated_in_pieces():
     """Ends of pieces change the interpolation between samples, by less than 1e-3 of the lag."""
     commands = make_commands()
     effects = [AxisEffect(axis="thx", id="clock_skew", parameters={"skew": 1e4})]
     whole, pieces = (
         simulate(ROBOT, effects, commands),
-        simulate_in_pieces(commands, effects, None, rows),
+        simulate_in_pieces(commands, effects, None, 100),
     )
     lag = np.ptp(whole.signal("thx", Tap.MEAS) - whole.signal("thx", Tap.REF))
     gap = np.abs(pieces.signal("thx", Tap.MEAS) - whole.signal("thx", Tap.MEAS))

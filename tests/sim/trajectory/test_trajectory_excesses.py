@@ -38,7 +38,8 @@ def get_violations(robot, record):
     return {violation.quantity: violation for violation in find_violations(robot, record)}
 
 
-def test_a_ramp_at_exactly_both_bounds_is_allowed():
+def test_a_single_row_and_a_ramp_at_exactly_both_bounds_are_allowed():
+    assert find_violations(ROBOT, make_trajectory("x", [0.01])) == ()
     assert find_violations(ROBOT, make_trajectory("x", make_ramp(0.01, 0.010, 0.20))) == ()
 
 
@@ -65,13 +66,6 @@ def test_the_speed_bound_tolerates_one_resolution():
     assert set(get_violations(robot, make_trajectory("x", beyond))) == {LimitedQuantity.SPEED}
 
 
-def test_excess_acceleration_is_reported():
-    violations = get_violations(ROBOT, make_trajectory("x", make_ramp(0.01, 0.009, 0.40)))
-    assert set(violations) == {LimitedQuantity.ACCELERATION}
-    assert abs(violations[LimitedQuantity.ACCELERATION].value) == pytest.approx(0.40)
-    assert "m/s²" in violations[LimitedQuantity.ACCELERATION].message
-
-
 @pytest.mark.parametrize("direction", [1, -1])
 def test_starting_and_ending_in_motion_counts_as_acceleration(direction):
     positions = 0.02 + 0.005 * np.arange(300) / RATE_HZ
@@ -87,7 +81,7 @@ def test_rounding_to_the_resolution_does_not_count_as_acceleration(rate_hz):
     assert find_violations(ROBOT, make_trajectory("x", rounded, rate_hz=rate_hz)) == ()
 
 
-def test_the_acceleration_bound_tolerates_rounding():
+def test_excess_acceleration_is_reported_but_rounding_is_tolerated():
     resolution = ROBOT.axes["x"].sensor.resolution
 
     def make_rounded_ramp(acceleration):
@@ -95,6 +89,10 @@ def test_the_acceleration_bound_tolerates_rounding():
         return make_trajectory("x", np.rint(smooth / resolution) * resolution)
 
     assert find_violations(ROBOT, make_rounded_ramp(0.1999)) == ()
+    violations = get_violations(ROBOT, make_trajectory("x", make_ramp(0.01, 0.009, 0.40)))
+    assert set(violations) == {LimitedQuantity.ACCELERATION}
+    assert abs(violations[LimitedQuantity.ACCELERATION].value) == pytest.approx(0.40)
+    assert "m/s²" in violations[LimitedQuantity.ACCELERATION].message
     assert set(get_violations(ROBOT, make_rounded_ramp(0.22))) == {LimitedQuantity.ACCELERATION}
 
 
@@ -131,14 +129,10 @@ def test_a_jump_between_distant_rows_happens_within_a_millisecond():
         assert word in speed.message
     assert "stretch" not in speed.message
     assert "1000 Hz" in violations[LimitedQuantity.ACCELERATION].message
-
-
-def test_the_message_also_suggests_stretching_if_resampling_is_not_enough():
-    message = get_violations(ROBOT, make_rows([0.0, 1.0], [0.0, 0.05]))[
-        LimitedQuantity.SPEED
-    ].message
-    assert "1000 Hz" in message
-    assert "stretch its time by a factor of 5 " in message
+    # For this jump, resampling is not enough.
+    faster = get_violations(ROBOT, make_rows([0.0, 1.0], [0.0, 0.05]))[LimitedQuantity.SPEED]
+    assert "1000 Hz" in faster.message
+    assert "stretch its time by a factor of 5 " in faster.message
 
 
 @pytest.mark.parametrize("method", ["linear", "cubic"])
@@ -151,7 +145,7 @@ def test_resampling_makes_a_slow_trajectory_playable(method):
     assert get_violations(robot, resample(trajectory, 1000.0, method)) == {}
 
 
-@pytest.mark.parametrize("interval_s", [0.002, 0.01, 0.5, 100.0])
+@pytest.mark.parametrize("interval_s", [0.002, 100.0])
 def test_the_acceleration_of_a_jump_does_not_depend_on_the_hold_time(interval_s):
     """A step of s from rest to rest is ±s/w² over a window w of seven periods."""
     robot, step = replace_axis_fields("x", max_speed=None), 2e-5
@@ -212,10 +206,6 @@ def test_a_check_in_blocks_equals_the_whole(monkeypatch, rate_hz):
 def test_undeclared_bounds_are_not_checked():
     jump = make_trajectory("m1", [0.0, 4e-6, -4e-6])
     assert find_violations(load_robot("fsm"), jump) == ()
-
-
-def test_a_single_row_is_a_trajectory():
-    assert find_violations(ROBOT, make_trajectory("x", [0.01])) == ()
 
 
 def test_all_violations_are_in_the_refusal():

@@ -11,7 +11,7 @@ RATE_HZ = 5000.0
 ROBOT = load_robot("rotemina")
 
 
-@pytest.mark.parametrize("name", list(ROBOT.axes))
+@pytest.mark.parametrize("name", ["x", "thx", "zn"])
 @pytest.mark.parametrize("make_scenario", [make_step, make_triangle])
 def test_speed_and_acceleration_stay_within_the_limits(name, make_scenario):
     axis = ROBOT.axes[name]

@@ -21,8 +21,7 @@ def make_matrix(rotation, handedness, skew, pixel_sizes):
     )
 
 
-@pytest.mark.parametrize("handedness", [1, -1])
-@pytest.mark.parametrize("rotation", [-3.0, -0.4, 0.0, 1.2, 3.1])
+@pytest.mark.parametrize(("rotation", "handedness"), [(-3.0, 1), (-0.4, -1), (0.0, 1), (3.1, -1)])
 def test_the_geometry_of_an_exact_map_is_recovered(rotation, handedness):
     matrix = make_matrix(rotation, handedness, 0.02, (0.16e-6, 0.17e-6))
     fit = fit_stage(GRID, GRID @ matrix.T + [3.0, -2.0])
@@ -45,25 +44,10 @@ def test_uncertainties_match_the_spread_of_repeated_calibrations():
         ).map.geometry
         for _ in range(120)
     ]
-    for values, uncertainties in (
-        (
-            [geometry.rotation for geometry in geometries],
-            [geometry.rotation_uncertainty for geometry in geometries],
-        ),
-        (
-            [geometry.skew for geometry in geometries],
-            [geometry.skew_uncertainty for geometry in geometries],
-        ),
-        (
-            [geometry.pixel_size[0] for geometry in geometries],
-            [geometry.pixel_size_uncertainty[0] for geometry in geometries],
-        ),
-        (
-            [geometry.pixel_size[1] for geometry in geometries],
-            [geometry.pixel_size_uncertainty[1] for geometry in geometries],
-        ),
-    ):
-        assert np.std(values) == pytest.approx(np.mean(uncertainties), rel=0.25)
+    for name in ("rotation", "skew", "pixel_size"):
+        spread = np.std([getattr(geometry, name) for geometry in geometries], axis=0)
+        uncertainty = np.mean([getattr(g, f"{name}_uncertainty") for g in geometries], axis=0)
+        assert spread == pytest.approx(uncertainty, rel=0.25)
 
 
 def test_displacements_are_restored_from_shifts():
@@ -90,21 +74,11 @@ def get_refusal(displacements, shifts, **options):
 MATRIX = make_matrix(0.3, 1, 0.0, (0.16e-6, 0.16e-6))
 
 
-def test_moves_along_one_line_are_refused():
-    line = np.outer(np.linspace(-1, 1, 9), [30e-6, 30e-6])
-    assert "do not span the plane" in get_refusal(line, line @ MATRIX.T)
-    assert "do not span the plane" in get_refusal(0.0 * GRID, 0.0 * GRID)
-
-
 def test_large_residuals_are_refused_with_the_worst_move():
     shifts = GRID @ MATRIX.T + 2.0 * np.random.default_rng(3).standard_normal(GRID.shape)
     message = get_refusal(GRID, shifts, requirements=CalibrationRequirements(outliers=1.0))
     assert "px rms" in message
     assert "at most 0.5 px" in message
-
-
-def test_an_axis_that_does_not_move_the_image_is_refused():
-    assert "same direction" in get_refusal(GRID, GRID @ np.array([[6e6, 0.0], [0.0, 0.0]]).T)
 
 
 def test_small_moves_are_refused_for_their_uncertainty():
@@ -116,10 +90,9 @@ def test_small_moves_are_refused_for_their_uncertainty():
     )
 
 
-def test_many_outliers_are_refused():
-    shifts = GRID @ MATRIX.T
-    shifts[[0, 4, 8]] += [[90.0, 5.0], [-80.0, 33.0], [10.0, 60.0]]
-    assert "do not fit" in get_refusal(GRID, shifts)
+LINE = np.outer(np.linspace(-1, 1, 9), [30e-6, 30e-6])
+OUTLIERS = np.zeros((9, 2))
+OUTLIERS[[0, 4, 8]] = [[90.0, 5.0], [-80.0, 33.0], [10.0, 60.0]]
 
 
 @pytest.mark.parametrize(
@@ -128,7 +101,11 @@ def test_many_outliers_are_refused():
         (GRID[:4], GRID[:4], "at least 5"),
         (GRID, GRID[:, :1], "shape"),
         (GRID, np.full(GRID.shape, np.nan), "finite"),
+        (LINE, LINE @ MATRIX.T, "do not span the plane"),
+        (0.0 * GRID, 0.0 * GRID, "do not span the plane"),
+        (GRID, GRID @ np.array([[6e6, 0.0], [0.0, 0.0]]), "same direction"),
+        (GRID, GRID @ MATRIX.T + OUTLIERS, "do not fit"),
     ],
 )
-def test_invalid_moves_are_refused(moves, shifts, message):
+def test_moves_that_determine_no_map_are_refused(moves, shifts, message):
     assert message in get_refusal(moves, shifts)
