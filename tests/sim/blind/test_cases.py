@@ -87,10 +87,14 @@ def test_a_healthy_machine_stays_within_its_noise_floor():
                 assert np.std(gap[:, axis.index]) < 1.15 * axis.floor
 
 
-def test_the_same_seed_makes_the_same_case_and_another_seed_a_different_one():
-    first, repeated, other = (
-        draw_case(ROBOT, "single", seed, "sensor_noise") for seed in (6, 6, 7)
-    )
+@pytest.fixture(scope="module")
+def noisy_case():
+    return draw_case(ROBOT, "single", 6, "sensor_noise")
+
+
+def test_the_same_seed_makes_the_same_case_and_another_seed_a_different_one(noisy_case):
+    first = noisy_case
+    repeated, other = (draw_case(ROBOT, "single", seed, "sensor_noise") for seed in (6, 7))
     assert first.label() == repeated.label() != other.label()
     first_reading, second_reading = (
         simulate_record(case, case.training[0], 0)[1] for case in (first, repeated)
@@ -157,8 +161,8 @@ def test_a_longer_series_of_a_seed_begins_with_the_shorter_one():
     assert {"poor", "unknown", "triple", "parameter", "double", "force"} <= set(kinds)
 
 
-def test_no_size_is_found_for_a_part_out_of_bounds():
-    case = draw_case(ROBOT, "single", 11, "sensor_noise")
+def test_no_size_is_found_for_a_part_out_of_bounds(noisy_case):
+    case = noisy_case
     trial = SizingTrial(case.machine.with_parts([]), case.training, 0)
     assert trial.find_size(case.present_effects[0].part, 1e-3) is None
 
