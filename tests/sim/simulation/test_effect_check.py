@@ -18,6 +18,9 @@ INSTALLED = [
     for name in registry.load_all_effects()[0]
 ]
 
+# Formulations that no value of their parameters removes.
+LASTING_FORMULATIONS = {("slew_limit", "hard"), ("slew_limit", "soft"), ("lost_steps", "overload")}
+
 MODULE = """
 import numpy as np
 from rotemina.sim.effects import Effect, Formulation
@@ -218,6 +221,12 @@ def test_an_installed_effect_passes_the_check(effect_id):
     assert report.passed, "\n".join(map(str, report.failures))
     names = {check.name for check in report.checks}
     assert {"stays finite at presets and bounds", "gives the same in pieces"} <= names
+    not_removed = {
+        (effect_id, check.formulation)
+        for check in report.checks
+        if check.name == "is absent at zero" and check.passed is None
+    }
+    assert not_removed <= LASTING_FORMULATIONS
 
 
 def test_an_effect_is_found_by_the_entry_point_of_another_package(other_package, monkeypatch):

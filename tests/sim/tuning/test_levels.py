@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from rotemina.sim.compensate import Inverse, make_excitation, read_samples, train
+from rotemina.sim.compensate.anfis import AnfisSettings
 from rotemina.sim.feedback import (
     AxisLoop,
     AxisRegulation,
@@ -102,7 +103,9 @@ def trained():
         robot = make_worn_robot(formulation)
         commands = make_excitation(robot, "zn", np.random.default_rng(1))
         record = simulate(robot, None, commands, np.random.default_rng(2))
-        result = train(robot, [read_samples(robot, "zn", record)])
+        # ANFIS is not used here, so one epoch is enough.
+        settings = AnfisSettings(epochs=1)
+        result = train(robot, [read_samples(robot, "zn", record)], settings=settings)
         models[formulation] = result.models["modified_prandtl_ishlinskii"]
     return models
 
