@@ -35,6 +35,14 @@ class UnrulySimulator(Simulator):
         self.before = {}
         self.stops = 0
 
+    def fail(self, hook, error):
+        """Raise this error in every call of a hook."""
+
+        def raise_error():
+            raise error
+
+        self.before[hook] = raise_error
+
     def _run_before(self, hook):
         self.before.get(hook, lambda: None)()
 
@@ -86,6 +94,18 @@ class SessionHarness:
 
     def step_until_idle(self):
         return self.step_until(DeviceState.IDLE)
+
+    def settle(self):
+        """Step until the machine is at rest, and then 0.1 s more."""
+        self.step(0.02, 2)
+        while not self.session.at_rest:
+            self.step(0.02)
+        return self.step(0.05, 2)
+
+    def holds_position(self, seconds=0.4):
+        """Return whether no command changes from now on."""
+        before = dict(self.session.snapshot().command)
+        return dict(self.step(0.02, round(seconds / 0.02)).command) == before
 
     def list_events(self, kind):
         return [event for event in self.events if isinstance(event, kind)]

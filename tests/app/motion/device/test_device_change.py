@@ -3,6 +3,8 @@
 import threading
 
 import pytest
+from tests.app.conftest import UnrulySimulator
+from tests.app.motion.event_log import WAIT_S, EventLog
 
 from rotemina.app.errors import RequestRefusedError
 from rotemina.app.motion.session import MotionSession
@@ -26,80 +28,50 @@ from rotemina.sim.robot_files import load_robot
 from rotemina.sim.trajectory import make_example
 
 ROBOT = load_robot("rotemina")
-WAIT_S = 20.0
 HOOKS = ("open", "close", "read", "move_to")
 
 
-class FailingDevice(Simulator):
-    """A machine whose driver fails or hangs in the calls of ``actions``."""
+class FailingDevice(UnrulySimulator):
+    """A machine whose driver fails or hangs in the calls of ``before``."""
 
     name = "device"
     built_in_kind = None
 
     def __init__(self, *args, **kwargs):
         super().__init__(*args, **kwargs)
-        self.actions = {}
         self.calls, self.has_closed = [], threading.Event()
 
-    def _act(self, hook):
+    def _run_before(self, hook):
         self.calls.append(hook)
-        self.actions.get(hook, lambda: None)()
-
-    def _open(self):
-        self._act("open")
-        super()._open()
+        super()._run_before(hook)
 
     def _close(self):
         super()._close()
-        self._act("close")
+        self._run_before("close")
         self.has_closed.set()
-
-    def _read(self):
-        self._act("read")
-        return super()._read()
-
-    def _move_to(self, targets, speeds, permit):
-        self._act("move_to")
-        super()._move_to(targets, speeds, permit)
-
-    def _stop(self):
-        self.calls.append("stop")
-        super()._stop()
-
-
-def make_failure(error):
-    def fail():
-        raise error
-
-    return fail
-
-
-def never_connect(_harness):
-    pass
 
 
 def fail_to_open(harness):
-    harness.driver.actions["open"] = make_failure(DriverTimeoutError("nobody answers"))
+    harness.driver.fail("open", DriverTimeoutError("nobody answers"))
     harness.connect()
 
 
 def lose_connection(harness):
     harness.connect()
-    harness.driver.actions["read"] = make_failure(ConnectionLostError("the port has disappeared"))
+    harness.driver.fail("read", ConnectionLostError("the port has disappeared"))
     harness.step()
 
 
 def unplug(harness):
     harness.connect()
-    failure = make_failure(ConnectionLostError("the port has disappeared"))
-    harness.driver.actions = {"read": failure, "close": failure}
+    for hook in ("read", "close"):
+        harness.driver.fail(hook, ConnectionLostError("the port has disappeared"))
 
 
 def break_driver(harness):
     harness.connect()
-    harness.driver.actions = dict.fromkeys(
-        HOOKS, make_failure(RuntimeError("a mistake of a plugin"))
-    )
+    for hook in HOOKS:
+        harness.driver.fail(hook, RuntimeError("a mistake of a plugin"))
     harness.step()
 
 
@@ -111,7 +83,7 @@ def enter_fault(harness):
 
 def enter_doubt(harness):
     lose_connection(harness)
-    del harness.driver.actions["read"]
+    del harness.driver.before["read"]
     harness.session.reconnect()
     assert harness.step().doubt is not None
 
@@ -152,6 +124,10 @@ def disconnect(harness):
 
 def begin_connecting(harness):
     harness.session.connect()
+
+
+def never_connect(_harness):
+    pass
 
 
 PREPARATIONS = (
@@ -228,39 +204,21 @@ def test_a_new_driver_of_the_same_machine_keeps_the_doubt(make_harness):
     assert harness.step().lock_reason is None
 
 
-# Devices that hang
+def test_the_driver_of_another_robot_is_refused(harness):
+    with pytest.raises(RequestRefusedError, match="start the program with that robot"):
+        harness.session.use_driver(Simulator(load_robot("picma"), clock=harness.clock))
+    assert harness.step().lock_reason is None
 
 
-class WatchedSession:
-    """A session on its own threads, with its events; every wait is for an event."""
-
-    def __init__(self, driver, **options):
-        self.session = MotionSession(driver, **options)
-        self.events = []
-        self._news = threading.Condition()
-        self.session.subscribe(self._note)
-
-    def _note(self, event):
-        with self._news:
-            self.events.append(event)
-            self._news.notify_all()
-
-    def list_events(self, kind):
-        return [event for event in self.events if isinstance(event, kind)]
-
-    def wait_until(self, condition):
-        """Wait until a condition holds; it is checked after every event."""
-        with self._news:
-            assert self._news.wait_for(lambda: condition(self), WAIT_S), self.session.snapshot()
-
-    def wait_for_connection(self, connection):
-        """Wait until the worker of the present driver is in a connection state."""
-        self.wait_until(
-            lambda watched_session: (
-                watched_session.session._link.worker.driver is watched_session.session.driver
-                and watched_session.session.reported.connection is connection
-            )
+def wait_for_connection(log, connection):
+    """Wait until the worker of the present driver is in a connection state."""
+    session = log.session
+    log.wait_until(
+        lambda: (
+            session._link.worker.driver is session.driver
+            and session.reported.connection is connection
         )
+    )
 
 
 @pytest.fixture
@@ -284,119 +242,108 @@ def make_hanging(release_event):
             is_hanging.set()
             release_event.wait(WAIT_S)
 
-        device.actions[hook] = hang
-        watched_session = WatchedSession(device, **{"max_release_s": 0.0, **options})
-        created.append(watched_session)
-        watched_session.session.start()
+        device.before[hook] = hang
+        log = EventLog(MotionSession(device, **{"max_release_s": 0.0, **options}))
+        created.append(log)
+        log.session.start()
         if hook == "close":
-            device.actions["read"] = make_failure(ConnectionLostError("the port has disappeared"))
+            device.fail("read", ConnectionLostError("the port has disappeared"))
         elif hook == "move_to":
-            watched_session.wait_for_connection(ConnectionState.CONNECTED)
-            watched_session.session.go_to({"x": 0.03})
+            wait_for_connection(log, ConnectionState.CONNECTED)
+            log.session.go_to({"x": 0.03})
         assert is_hanging.wait(WAIT_S)
-        watched_session.events.clear()
-        return watched_session, device
+        log.events.clear()
+        return log, device
 
     yield make
     release_event.set()
-    for watched_session in created:
-        watched_session.session.close()
+    for log in created:
+        log.session.close()
 
 
 @pytest.mark.parametrize("hook", HOOKS)
 def test_a_hanging_device_does_not_prevent_using_another_one(make_hanging, release_event, hook):
-    watched_session, device = make_hanging(hook)
-    session = watched_session.session
+    log, device = make_hanging(hook)
+    session = log.session
     new = Simulator(ROBOT)
     session.use_driver(new)
-    watched_session.wait_for_connection(ConnectionState.CONNECTED)
+    wait_for_connection(log, ConnectionState.CONNECTED)
     state = session.snapshot()
     assert (state.fault, state.doubt, state.lock_reason) == (None, None, None)
-    (alarm,) = watched_session.list_events(AlarmRaised)
+    (alarm,) = log.list_events(AlarmRaised)
     assert "device has not answered" in alarm.message
-    assert watched_session.list_events(FaultRaised) == []
+    assert log.list_events(FaultRaised) == []
     # That of the change; the hanging thread reported none.
-    assert len(watched_session.list_events(StopRequested)) == 1
+    assert len(log.list_events(StopRequested)) == 1
 
     session.go_to({"x": 0.028})
-    watched_session.wait_until(
-        lambda _: session.reported.activity is DeviceState.IDLE and _at(session, 0.028)
-    )
-    watched_session.events.clear()
+    log.wait_until(lambda: rests_at(session, 0.028))
+    log.events.clear()
     epoch = session.epoch
-    device.actions.clear()
+    device.before.clear()
     release_event.set()
     assert device.has_closed.wait(WAIT_S)  # closed as soon as the call returned
     session.go_to({"x": 0.029})
-    watched_session.wait_until(
-        lambda _: session.reported.activity is DeviceState.IDLE and _at(session, 0.029)
-    )
+    log.wait_until(lambda: rests_at(session, 0.029))
     assert session.epoch == epoch
     assert session.snapshot().connection is ConnectionState.CONNECTED
-    assert (
-        watched_session.list_events(FaultRaised) == watched_session.list_events(AlarmRaised) == []
-    )
-    assert {event.state.connection for event in watched_session.list_events(StateChanged)} == {
+    assert log.list_events(FaultRaised) == log.list_events(AlarmRaised) == []
+    assert {event.state.connection for event in log.list_events(StateChanged)} == {
         ConnectionState.CONNECTED
     }
     assert session.driver is new
 
 
-def _at(session, position):
-    return session.reported.command.get("x") == position
+def rests_at(session, position):
+    state = session.reported
+    return state.activity is DeviceState.IDLE and state.command.get("x") == position
 
 
 def test_a_stop_still_reaches_an_abandoned_device(make_hanging):
-    watched_session, device = make_hanging("read")
-    watched_session.session.use_driver(Simulator(ROBOT))
-    watched_session.wait_for_connection(ConnectionState.CONNECTED)
+    log, device = make_hanging("read")
+    log.session.use_driver(Simulator(ROBOT))
+    wait_for_connection(log, ConnectionState.CONNECTED)
     device.calls.clear()
-    watched_session.session.stop()
+    log.session.stop()
     assert device.calls == ["stop"]
 
 
 def test_a_hanging_device_is_disconnected_and_cannot_be_reconnected(make_hanging):
-    watched_session, device = make_hanging("read")
-    watched_session.session.disconnect()
-    watched_session.wait_until(
-        lambda watched_session: (
-            watched_session.session.snapshot().connection is ConnectionState.DISCONNECTED
-        )
-    )
+    log, device = make_hanging("read")
+    log.session.disconnect()
+    log.wait_until(lambda: log.session.snapshot().connection is ConnectionState.DISCONNECTED)
     with pytest.raises(RequestRefusedError, match="device still hangs in an earlier call"):
-        watched_session.session.reconnect()
-    watched_session.session.use_driver(FailingDevice(ROBOT, {"seed": 1}))
-    watched_session.wait_for_connection(ConnectionState.CONNECTED)
+        log.session.reconnect()
+    log.session.use_driver(FailingDevice(ROBOT, {"seed": 1}))
+    wait_for_connection(log, ConnectionState.CONNECTED)
     assert device.calls[-1] != "close"
 
 
 def test_the_playback_of_a_hanging_device_ends(make_hanging, release_event):
     device = FailingDevice(ROBOT)
-    watched_session = WatchedSession(device, max_release_s=0.0)
-    watched_session.session.start()
-    watched_session.wait_for_connection(ConnectionState.CONNECTED)
-    watched_session.session.play(make_example(ROBOT))
-    watched_session.wait_until(
-        lambda watched: watched.session.reported.activity is DeviceState.PLAYING
-    )
+    log = EventLog(MotionSession(device, max_release_s=0.0))
+    log.session.start()
+    wait_for_connection(log, ConnectionState.CONNECTED)
+    log.session.play(make_example(ROBOT))
+    log.wait_until(lambda: log.session.reported.activity is DeviceState.PLAYING)
     is_hanging = threading.Event()
-    device.actions["read"] = lambda: (is_hanging.set(), release_event.wait(WAIT_S))
+    device.before["read"] = lambda: (is_hanging.set(), release_event.wait(WAIT_S))
     assert is_hanging.wait(WAIT_S)
-    watched_session.session.use_driver(Simulator(ROBOT))
-    watched_session.wait_for_connection(ConnectionState.CONNECTED)
-    (finished,) = watched_session.list_events(PlaybackFinished)
+    log.session.use_driver(Simulator(ROBOT))
+    wait_for_connection(log, ConnectionState.CONNECTED)
+    (finished,) = log.list_events(PlaybackFinished)
     assert not finished.completed
     release_event.set()
-    assert watched_session.session.close()
+    assert log.session.close()
 
 
 def test_the_session_waits_for_a_device_that_is_only_slow(make_hanging, release_event):
-    watched_session, device = make_hanging("close", max_release_s=WAIT_S)
-    watched_session.session.use_driver(Simulator(ROBOT))
-    assert watched_session.session.snapshot().connection is ConnectionState.CONNECTING
+    log, device = make_hanging("close", max_release_s=WAIT_S)
+    log.session.use_driver(Simulator(ROBOT))
+    assert log.session.snapshot().connection is ConnectionState.CONNECTING
     release_event.set()
-    watched_session.wait_for_connection(ConnectionState.CONNECTED)
-    assert watched_session.list_events(AlarmRaised) == []
+    wait_for_connection(log, ConnectionState.CONNECTED)
+    assert log.list_events(AlarmRaised) == []
     assert device.has_closed.is_set()
 
 

@@ -27,9 +27,3 @@ def test_a_fault_between_two_segments_is_a_fault(driver):
     status = DeviceStatus(DeviceState.FAULT, fault="axis x: lost steps")
     state = with_status(SessionState(), driver, status, between_segments=True)
     assert (state.activity, state.fault) == (DeviceState.FAULT, "axis x: lost steps")
-
-
-def test_a_fault_stays_until_it_is_cleared(driver):
-    before = SessionState(fault="axis x: lost steps")
-    status = DeviceStatus(DeviceState.IDLE)
-    assert with_status(before, driver, status, between_segments=False).fault == before.fault

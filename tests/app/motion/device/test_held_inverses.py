@@ -3,46 +3,31 @@
 The simulator acts as this device; its ability to compensate is hidden.
 """
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
+from tests.app.motion.session.test_compensation import (
+    MODEL,
+    NAMED,
+    PATH,
+    TICK_S,
+    ZN,
+    check_refusals_with_an_inverse,
+    make_trajectory,
+    read_commands,
+)
 
 from rotemina.app.motion.device import executor
-from rotemina.app.motion.session import NamedInverse, compensation
+from rotemina.app.motion.session import compensation
 from rotemina.app.motion.state import (
     AlarmRaised,
     CommandRefused,
     PlaybackFinished,
 )
 from rotemina.drivers.abilities import MotionProfile, ProfileSegment
-from rotemina.drivers.contract import DeviceState
-from rotemina.sim.compensate import Inverse, InverseModel, SetpointInverse
-from rotemina.sim.records import Record, Tap
+from rotemina.sim.compensate import Inverse, SetpointInverse
+from rotemina.sim.records import Tap
 from rotemina.sim.robot import AxisEffect
-from rotemina.sim.robot_files import load_robot
 
-ROBOT = load_robot("rotemina")
-ZN = ROBOT.axes["zn"]
-COLUMN = tuple(ROBOT.axes).index("zn")
-TICK_S = 1e-3
-MODEL = InverseModel(
-    axis="zn",
-    unit="m",
-    kind="prandtl_ishlinskii",
-    sample_s=TICK_S,
-    origin=0.0,
-    command_origin=0.0,
-    span=ZN.span,
-    desired_range=(2e-6, 60e-6),
-    command_range=ZN.range,
-    speed=1.0,
-    consequents=np.array([[0.0, 0.9, 0.1]]),
-    radii=np.array([0.1]),
-    initial=np.zeros(1),
-)
-NAMED = NamedInverse(MODEL, ROBOT.name, "PI, zn.json")
-PATH = 30e-6 + 15e-6 * np.sin(2.0 * np.pi * 2.0 * TICK_S * np.arange(500))
 GAINS = ("gain_error", "sensor_gain")
 
 
@@ -72,20 +57,6 @@ def machine(machine_without_inverses):
     return machine_without_inverses
 
 
-def read_commands(harness):
-    """Return the wanted and the sent commands (n,), m, of all samples."""
-    command = np.concatenate([samples.command[:, COLUMN] for samples in harness.portions])
-    return command, np.concatenate(
-        [samples.inputs[:, COLUMN] for samples in harness.portions]
-    ) * ZN.gain
-
-
-def settle(harness):
-    harness.step(0.05, 4)
-    while harness.session.snapshot().activity is not DeviceState.IDLE:
-        harness.step(0.05)
-
-
 def read_wanted_command(harness):
     return harness.session.snapshot().command["zn"]
 
@@ -98,14 +69,14 @@ def test_jogs_and_targets_end_as_commanded_without_a_jump(machine):
     assert read_wanted_command(machine) == pytest.approx(inverse.desired, abs=1e-12)
     for target in (50e-6, 12e-6):
         session.go_to({"zn": target})
-        settle(machine)
+        machine.settle()
         assert read_wanted_command(machine) == pytest.approx(target, abs=1e-12)
         assert read_commands(machine)[1][-1] == pytest.approx(
             inverse.add_setpoint(target), abs=1e-12
         )
         inverse.advance(np.array([inverse.add_setpoint(target)]))
     session.jog("zn", -2e-6)
-    settle(machine)
+    machine.settle()
     assert read_wanted_command(machine) == pytest.approx(10e-6, abs=1e-12)
     assert read_commands(machine)[1][-1] == pytest.approx(inverse.add_setpoint(10e-6), abs=1e-12)
     command = read_commands(machine)[0]
@@ -114,7 +85,7 @@ def test_jogs_and_targets_end_as_commanded_without_a_jump(machine):
 
 def test_removing_the_inverse_causes_no_motion(machine):
     machine.session.go_to({"zn": 40e-6})
-    settle(machine)
+    machine.settle()
     sent = read_commands(machine)[1][-1]
     machine.session.inverses.remove("zn")
     machine.step(0.05, 2)
@@ -128,7 +99,7 @@ def test_after_a_stop_the_next_target_is_reached(machine):
     session.go_to({"zn": 50e-6}, speeds={"zn": 20e-6})
     machine.step(0.05, 8)
     session.stop()
-    settle(machine)
+    machine.settle()
     halted = read_wanted_command(machine)
     assert 33e-6 < halted < 45e-6
     sent = read_commands(machine)[1]
@@ -136,7 +107,7 @@ def test_after_a_stop_the_next_target_is_reached(machine):
     inverse = SetpointInverse(MODEL, sent[0])
     inverse.advance(sent[1:])
     session.go_to({"zn": 20e-6})
-    settle(machine)
+    machine.settle()
     assert read_wanted_command(machine) == pytest.approx(20e-6, abs=1e-12)
     assert read_commands(machine)[1][-1] == pytest.approx(inverse.add_setpoint(20e-6), abs=5e-9)
 
@@ -147,19 +118,19 @@ def test_a_speed_is_not_exceeded_and_ends_inside_the_training_range(machine):
     for _ in range(60):
         session.move_velocity({"zn": 100e-6}, 0.15)
         machine.step(0.05)
-    settle(machine)
+    machine.settle()
     command = read_commands(machine)[0]
     assert 59e-6 < command[-1] <= 60e-6
     assert np.diff(command).max() <= 100e-6 * TICK_S * (1.0 + 1e-6)
     session.move_velocity({"zn": -100e-6}, 0.15)  # it reverses at once
-    settle(machine)
+    machine.settle()
     assert read_wanted_command(machine) < 59e-6
 
 
 def test_a_profile_ends_as_commanded(machine):
     session = machine.session
     session.go_to({"zn": 50e-6})
-    settle(machine)
+    machine.settle()
     down_segments = (
         ProfileSegment(0.05, 0.0, -8e-6, 4e-6),
         ProfileSegment(0.05, -4e-6, 4e-6, -4e-6 / 3),
@@ -170,7 +141,7 @@ def test_a_profile_ends_as_commanded(machine):
     machine.step()
     machine.portions.clear()
     session.profiles.trigger()
-    settle(machine)
+    machine.settle()
     command, _ = read_commands(machine)
     lowest = 50e-6 - 4e-6 - 4e-6 / 3
     assert command.min() == pytest.approx(lowest, abs=0.05e-6)
@@ -180,9 +151,8 @@ def test_a_profile_ends_as_commanded(machine):
 
 def test_a_trajectory_is_recorded_as_commanded_and_the_next_motion_starts_from_it(machine):
     session = machine.session
-    time_s = TICK_S * np.arange(len(PATH))
-    session.play(Record.from_signals(time_s, {("zn", Tap.CMD): PATH}, {"zn": "m"}))
-    settle(machine)
+    session.play(make_trajectory())
+    machine.settle()
     (finished,) = machine.list_events(PlaybackFinished)
     assert finished.completed
     assert np.allclose(finished.record.signal("zn", Tap.CMD), PATH, atol=1e-15)
@@ -192,17 +162,16 @@ def test_a_trajectory_is_recorded_as_commanded_and_the_next_motion_starts_from_i
     assert finished.record.metadata["compensation zn"] == "PI, zn.json"
     assert read_wanted_command(machine) == pytest.approx(PATH[-1], abs=1e-12)
     session.jog("zn", -3e-6)
-    settle(machine)
+    machine.settle()
     assert read_wanted_command(machine) == pytest.approx(PATH[-1] - 3e-6, abs=1e-12)
 
 
 def test_a_stopped_playback_leaves_the_command_at_the_position_of_the_axis(machine):
-    time_s = TICK_S * np.arange(len(PATH))
-    machine.session.play(Record.from_signals(time_s, {("zn", Tap.CMD): PATH}, {"zn": "m"}))
+    machine.session.play(make_trajectory())
     while not 0.3 < machine.step(0.02).progress < 0.9:
         pass
     machine.session.stop()
-    settle(machine)
+    machine.settle()
     command, sent = read_commands(machine)
     assert np.ptp(sent[-50:]) < 1e-15
     assert np.ptp(command[-50:]) < 1e-15
@@ -218,23 +187,12 @@ def test_a_stop_before_an_inverse_is_applied_prevents_it(machine_without_inverse
 
 
 def test_a_too_narrow_inverse_and_a_voltage_past_the_inverse_are_refused(machine):
-    machine.session.set_voltage("zn", 60.0)
-    machine.step(0.05, 2)
-    machine.session.inverses.remove("zn")
-    machine.step(0.05, 2)
-    narrow_model = replace(MODEL, desired_range=(2e-6, 20e-6))
-    machine.session.inverses.apply(replace(NAMED, model=narrow_model))
-    machine.step(0.05, 2)
-    messages = [event.message for event in machine.list_events(CommandRefused)]
-    assert len(messages) == 2
-    assert "sets its voltage" in messages[0]
-    assert "move the axis there first" in messages[1]
-    assert machine.session.inverses.applied == {}
+    check_refusals_with_an_inverse(machine)
 
 
 def test_an_axis_that_is_not_at_its_command_loses_its_inverse_and_locks(machine):
     machine.session.go_to({"zn": 55e-6})
-    settle(machine)
+    machine.settle()
     sent = read_commands(machine)[1][-1]
     gain_effects = [AxisEffect(axis="zn", id=name, parameters={"error": 0.5}) for name in GAINS]
     machine.session.service.set_effects(gain_effects)

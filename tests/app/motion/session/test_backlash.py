@@ -24,22 +24,16 @@ def machine(make_harness):
     harness.session.tap(lambda samples, _: harness.portions.append(samples))
     harness.step(0.05, 3)
     harness.session.go_to({"x": MIDDLE_X})
-    settle(harness)
+    harness.settle()
     harness.session.backlash.set_approach("x", RISING)
     return harness
-
-
-def settle(harness):
-    harness.step(0.02, 2)
-    while not harness.session.at_rest:
-        harness.step(0.02)
 
 
 def record_commands(harness, action):
     """Execute an action and return the commands of x (n,) until the machine is at rest."""
     harness.portions.clear()
     action()
-    settle(harness)
+    harness.settle()
     return np.concatenate([samples.command[:, X_COLUMN] for samples in harness.portions])
 
 
@@ -71,16 +65,16 @@ def test_backlash_does_not_change_the_reading_between_directions(machine):
     session = machine.session
     backlash = AxisEffect(axis="x", id="backlash", parameters={"width": 0.5 * APPROACH_WIDTH_M})
     session.service.set_effects([backlash])
-    settle(machine)
+    machine.settle()
     differences = []
     for approach in (None, RISING):
         session.backlash.set_approach("x", approach)
         readings = []
         for start in (MIDDLE_X + 1e-3, MIDDLE_X - 1e-3):
             session.go_to({"x": start})
-            settle(machine)
+            machine.settle()
             session.go_to({"x": MIDDLE_X})
-            settle(machine)
+            machine.settle()
             machine.step(0.02, 25)
             readings.append(session.snapshot().measured["x"])
         differences.append(abs(readings[0] - readings[1]))
@@ -103,14 +97,14 @@ def test_range_narrowed_range_and_floor_apply_to_the_approach(machine):
     with pytest.raises(OutOfLimitsError, match="one-sided approach to"):
         session.go_to({"x": MIDDLE_X - 1e-3 + 0.5 * APPROACH_WIDTH_M})
     session.go_to({"x": MIDDLE_X - 1e-3 + APPROACH_WIDTH_M})
-    settle(machine)
+    machine.settle()
     session.bounds.teach_floor(5e-6)
     session.backlash.set_approach("z", OneSidedApproach(APPROACH_WIDTH_M, rising=True))
     with pytest.raises(OutOfLimitsError, match=r"floor.*the one-sided approach begins there"):
         session.jog("z", -1e-6)
     session.backlash.set_approach("z", OneSidedApproach(APPROACH_WIDTH_M, rising=False))
     session.jog("z", -1e-6)
-    settle(machine)
+    machine.settle()
 
 
 def test_another_move_does_not_leave_an_axis_beyond_its_target(machine):
@@ -118,11 +112,11 @@ def test_another_move_does_not_leave_an_axis_beyond_its_target(machine):
     session.go_to({"x": MIDDLE_X - 1e-3})
     machine.step(0.02, 3)
     session.jog("y", 1e-4)
-    settle(machine)
+    machine.settle()
     assert session.snapshot().command["x"] == pytest.approx(MIDDLE_X - 1e-3, abs=1e-9)
     session.jog("x", -1e-4)
     session.jog("y", 1e-4)  # before the first jog has begun
-    settle(machine)
+    machine.settle()
     assert session.snapshot().command["x"] == pytest.approx(MIDDLE_X - 1.1e-3, abs=1e-9)
 
 
@@ -131,7 +125,7 @@ def test_a_jog_during_an_approach_counts_from_the_target(machine):
     session.jog("x", -1e-3)
     machine.step(0.02, 3)
     session.jog("x", -1e-3)
-    settle(machine)
+    machine.settle()
     assert session.snapshot().command["x"] == pytest.approx(MIDDLE_X - 2e-3, abs=1e-9)
     assert not session.backlash.is_taken_up("x")
 
@@ -141,7 +135,7 @@ def test_a_stop_ends_an_approach_beyond_the_target(machine):
     session.go_to({"x": MIDDLE_X - 1e-3})
     machine.step(0.02, 3)
     session.stop()
-    settle(machine)
+    machine.settle()
     machine.step(0.05, 10)
     halted = session.snapshot().command["x"]
     assert halted > MIDDLE_X - 1e-3
@@ -168,7 +162,7 @@ def test_an_invalid_approach_is_refused_with_the_bound(machine):
     machine.step(0.02)
     with pytest.raises(RequestRefusedError, match="still moving"):
         session.backlash.set_approach("x", None)
-    settle(machine)
+    machine.settle()
     assert machine.session.snapshot().activity is DeviceState.IDLE
     session.use_driver(type(machine.driver)(ROBOT, clock=machine.clock))
     assert session.backlash.applied == {}

@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 from rotemina.app.errors import RequestRefusedError
-from rotemina.app.motion.session import MotionSession, NamedInverse
+from rotemina.app.motion.session import NamedInverse
 from rotemina.app.motion.state import CommandRefused, PlaybackFinished
 from rotemina.drivers.abilities import MotionProfile, ProfileSegment
-from rotemina.drivers.contract import DeviceState
 from rotemina.sim.compensate import Inverse, InverseExceedance, InverseModel
 from rotemina.sim.errors import CompensationError, InputError, OutOfLimitsError
 from rotemina.sim.records import Record, Tap
@@ -63,16 +62,6 @@ def read_commands(harness):
     ) * ZN.gain
 
 
-def settle(harness):
-    harness.step(0.05, 4)
-    while harness.session.snapshot().activity is not DeviceState.IDLE:
-        harness.step(0.05)
-
-
-def find_record(harness):
-    return next(event.record for event in harness.events if isinstance(event, PlaybackFinished))
-
-
 def test_applying_and_removing_an_inverse_causes_no_jump(machine):
     command, sent = read_commands(machine)
     assert np.ptp(sent) < 1e-15
@@ -80,7 +69,7 @@ def test_applying_and_removing_an_inverse_causes_no_jump(machine):
     assert start != pytest.approx(sent[-1], abs=1e-7)
     assert Inverse(MODEL, TICK_S).step(start) == pytest.approx(sent[-1], abs=1e-12)
     machine.session.jog("zn", 5e-6)  # from the present command
-    settle(machine)
+    machine.settle()
     assert machine.session.snapshot().command["zn"] == pytest.approx(start + 5e-6)
     previous = read_commands(machine)[1][-1]
     machine.session.inverses.remove("zn")
@@ -97,30 +86,24 @@ def test_moves_speeds_profiles_and_trajectories_use_the_inverse(machine):
     start = session.snapshot().command["zn"]
     machine.portions.clear()
     session.go_to({"zn": 50e-6})
-    settle(machine)
+    machine.settle()
     session.move_velocity({"zn": -1e-4}, 0.1)
-    settle(machine)
+    machine.settle()
     session.profiles.upload(MotionProfile("zn", (ProfileSegment(0.05, 0.0, 0.0, -4e-6),)))
     machine.step()
     session.profiles.trigger()
-    settle(machine)
+    machine.settle()
     session.play(make_trajectory())
-    settle(machine)
+    machine.settle()
     command, sent = read_commands(machine)
     inverse = Inverse(MODEL, TICK_S)
     inverse.step(start)
     assert np.allclose(sent, inverse.run(command), rtol=0.0, atol=1e-12)
     assert np.abs(sent - command).max() > 1e-6
-    assert not [event for event in machine.events if isinstance(event, CommandRefused)]
-
-
-def test_a_record_holds_wanted_and_sent_commands_and_the_inverse(machine):
-    machine.session.play(make_trajectory())
-    settle(machine)
-    record = find_record(machine)
+    assert not machine.list_events(CommandRefused)
+    record = machine.list_events(PlaybackFinished)[0].record
     assert np.allclose(record.signal("zn", Tap.CMD), PATH, atol=1e-15)
-    sent = record.signal("zn", Tap.U) * ZN.gain
-    assert np.abs(sent - PATH).max() > 1e-6
+    assert np.abs(record.signal("zn", Tap.U) * ZN.gain - PATH).max() > 1e-6
     assert record.metadata["compensation zn"] == "PI, zn.json"
 
 
@@ -135,7 +118,7 @@ def test_motion_outside_the_training_range_is_refused(machine):
     with pytest.raises(CompensationError, match="which the inverse was trained on"):
         session.play(make_trajectory(PATH + 16e-6))
     session.move_velocity({"zn": 1e-3}, 0.15)  # halts at the end
-    settle(machine)
+    machine.settle()
     assert session.snapshot().command["zn"] <= 60e-6
     assert session.inverses.find_exceedance("zn") == InverseExceedance(0)
 
@@ -160,35 +143,49 @@ def test_the_output_of_the_inverse_is_checked_against_the_limits(machine):
         (replace(NAMED, model=replace(MODEL, axis="q")), "axis q.* is not a piezo in open loop"),
     ],
 )
-def test_a_foreign_inverse_is_refused(machine, inverse, message):
+def test_a_foreign_inverse_is_refused(harness, inverse, message):
     with pytest.raises(CompensationError, match=message):
-        machine.session.inverses.apply(inverse)
+        harness.session.inverses.apply(inverse)
 
 
-def test_inverses_change_only_at_rest(machine):
+def test_inverses_change_only_at_rest_and_not_while_a_stop_is_latched(machine):
+    inverses = machine.session.inverses
     machine.session.jog("zn", 5e-6)
     machine.step(0.002)
     with pytest.raises(RequestRefusedError, match="still moving"):
-        machine.session.inverses.remove("zn")
-    settle(machine)
+        inverses.remove("zn")
+    machine.settle()
     with pytest.raises(RequestRefusedError, match="axis thx has no inverse"):
-        machine.session.inverses.remove("thx")
+        inverses.remove("thx")
+    machine.session.emergency_stop()
+    for request in (lambda: inverses.apply(NAMED), lambda: inverses.remove("zn")):
+        with pytest.raises(RequestRefusedError, match="release it first"):
+            request()
+    assert set(inverses.applied) == {"zn"}
 
 
-def test_an_inverse_that_does_not_cover_the_position_is_refused(make_harness):
-    machine = make_harness()
-    machine.step(0.05, 3)
+def test_a_too_narrow_inverse_and_a_voltage_past_the_inverse_are_refused(machine):
+    check_refusals_with_an_inverse(machine)
+
+
+def check_refusals_with_an_inverse(machine):
+    """Check that a voltage past the inverse, and then a too narrow inverse, are refused."""
+    machine.session.set_voltage("zn", 60.0)
+    machine.step(0.05, 2)
+    machine.session.inverses.remove("zn")
+    machine.step(0.05, 2)
     narrow_model = replace(MODEL, desired_range=(2e-6, 20e-6))
     machine.session.inverses.apply(replace(NAMED, model=narrow_model))
     machine.step(0.05, 2)
-    (refusal,) = [event for event in machine.events if isinstance(event, CommandRefused)]
-    assert "move the axis there first" in refusal.message
+    voltage, inverse = [event.message for event in machine.list_events(CommandRefused)]
+    assert "sets its voltage" in voltage
+    assert "move the axis there first" in inverse
     assert machine.session.inverses.applied == {}
 
 
 def test_a_new_connection_removes_the_inverse_and_keeps_the_position(machine):
     machine.session.go_to({"zn": 50e-6})
-    settle(machine)
+    machine.settle()
     sent = read_commands(machine)[1][-1]
     machine.session.disconnect()
     machine.step(0.05, 2)
@@ -196,30 +193,3 @@ def test_a_new_connection_removes_the_inverse_and_keeps_the_position(machine):
     machine.step(0.05, 3)
     assert machine.session.inverses.applied == {}
     assert machine.session.snapshot().command["zn"] == pytest.approx(sent, abs=1e-12)
-
-
-def test_no_voltage_is_set_past_the_inverse(machine):
-    machine.session.set_voltage("zn", 60.0)
-    machine.step(0.05, 2)
-    (refusal,) = [event for event in machine.events if isinstance(event, CommandRefused)]
-    assert "sets its voltage" in refusal.message
-
-
-def test_sessions_without_an_inverse_send_the_wanted_commands(make_harness):
-    machine = make_harness()
-    assert isinstance(machine.session, MotionSession)
-    assert machine.session.inverses.applied == {}
-    assert machine.session.inverses.convert_trajectory(
-        machine.session.driver.accept(make_trajectory())
-    ) == (None, {})
-
-
-def test_while_a_stop_is_latched_inverses_cannot_change(machine):
-    machine.session.emergency_stop()
-    for request in (
-        lambda: machine.session.inverses.apply(NAMED),
-        lambda: machine.session.inverses.remove("zn"),
-    ):
-        with pytest.raises(RequestRefusedError, match="release it first"):
-            request()
-    assert set(machine.session.inverses.applied) == {"zn"}

@@ -11,6 +11,7 @@ from rotemina.drivers.abilities import MotionProfile, ProfileSegment
 from rotemina.drivers.contract import DeviceState, Driver
 from rotemina.drivers.simulator import Simulator
 from rotemina.sim.errors import InputError, OutOfLimitsError
+from rotemina.sim.records import Record, Tap
 from rotemina.sim.robot import KeepOut
 from rotemina.sim.robot_files import load_robot
 
@@ -91,91 +92,73 @@ def test_a_profile_beyond_the_axis_is_refused_at_once(make_ready, segment, messa
     assert harness.step(0.05).command == harness.session.snapshot().command
 
 
-def test_near_the_floor_only_the_owner_of_all_axes_may_thrust(make_ready):
+def test_near_the_floor_only_the_owner_of_all_axes_may_thrust_and_none_through_it(make_ready):
     harness = make_ready(ROBOT_NEAR_FLOOR)
-    with pytest.raises(OutOfLimitsError, match="only an armed penetration"):
-        harness.session.profiles.upload(DOWN)
-    harness.session.reservations.reserve("penetration")
-    with pytest.raises(OutOfLimitsError, match="only an armed penetration"):
-        harness.session.profiles.upload(DOWN, "operator")
-    harness.session.profiles.upload(DOWN, "penetration")
+    profiles, reservations = harness.session.profiles, harness.session.reservations
+    profiles.upload(MotionProfile("zn", (ProfileSegment(0.1, 0.0, -60e-6, 40e-6),)))  # slow
     harness.step()
-    harness.session.profiles.trigger("penetration")
+    with pytest.raises(OutOfLimitsError, match="only an armed penetration"):
+        profiles.upload(DOWN)
+    reservations.reserve("penetration")
+    with pytest.raises(OutOfLimitsError, match="only an armed penetration"):
+        profiles.upload(DOWN, "operator")
+    profiles.upload(DOWN, "penetration")
+    harness.step()
+    profiles.trigger("penetration")
     assert harness.step(0.01, 10).activity is DeviceState.IDLE
-
-
-def test_no_reservation_permits_a_thrust_through_the_floor(make_ready):
     harness = make_ready(replace(ROBOT, keep_out=KeepOut(floor=20e-6)))
     harness.session.reservations.reserve("penetration")
     with pytest.raises(OutOfLimitsError, match="its floor is"):
         harness.session.profiles.upload(DOWN, "penetration")
 
 
-def test_a_slow_profile_needs_no_permission(make_ready):
-    harness = make_ready(ROBOT_NEAR_FLOOR)
-    slow = MotionProfile("zn", (ProfileSegment(0.1, 0.0, -60e-6, 40e-6),))
-    harness.session.profiles.upload(slow)
-
-
 def test_reserved_axes_keep_their_owner_at_rest(make_ready):
     harness = make_ready()
-    session = harness.session
-    session.reservations.reserve("penetration")
+    session, reservations = harness.session, harness.session.reservations
+    reservations.reserve("penetration")
     assert set(harness.step(0.1, 5).owners.values()) == {"penetration"}
     for request in (
         lambda: session.go_to({"x": 0.03}),
         lambda: session.move_velocity({"y": 1e-3}),
         lambda: session.home(["x"]),
         lambda: session.set_voltage("thx", 60.0),
-        lambda: session.reservations.reserve("another"),
+        lambda: reservations.reserve("another"),
     ):
         with pytest.raises(RequestRefusedError, match="penetration controls axis"):
             request()
     session.stop()
     harness.step_until_idle()
-    assert session.reservations.is_reserved_by("penetration")
-    session.reservations.take_over(["x"], "operator")
-    assert not session.reservations.is_reserved_by("penetration")
+    assert reservations.is_reserved_by("penetration")
+    reservations.take_over(["x"], "operator")
+    assert not reservations.is_reserved_by("penetration")
     session.go_to({"x": 0.028})
+    harness.step()
+    with pytest.raises(RequestRefusedError, match="still moving"):
+        reservations.reserve("operator")
     harness.step_until_idle()
     harness.step(0.1)
     assert "x" not in session.snapshot().owners
-    session.reservations.end_reservations("penetration")
+    reservations.end_reservations("penetration")
     assert harness.step(0.1).owners == {}
 
 
-def test_moving_axes_cannot_be_reserved(make_ready):
+@pytest.mark.parametrize("stopped", [False, True])
+def test_a_capture_comes_in_parts_even_if_a_stop_drops_the_request(make_ready, stopped):
     harness = make_ready()
-    harness.session.go_to({"x": 0.03})
+    captures = harness.session.captures
+    captures.begin(("zn",), 500.0, 40)
+    parts = list(captures.collect())
     harness.step()
-    with pytest.raises(RequestRefusedError, match="still moving"):
-        harness.session.reservations.reserve("penetration")
-
-
-def test_a_capture_comes_in_parts(make_ready):
-    harness = make_ready()
-    harness.session.captures.begin(("zn",), 500.0, 40)
-    parts = []
+    if stopped:
+        parts += captures.collect()
+        harness.session.stop()
     for _ in range(12):
-        parts += harness.session.captures.collect()
         harness.step()
+        parts += captures.collect()
     assert sum(len(part.device_time_s) for part in parts) == 40
     assert [part.complete for part in parts] == [False] * (len(parts) - 1) + [True]
     times = np.concatenate([part.device_time_s for part in parts])
     np.testing.assert_allclose(np.diff(times), 2e-3, atol=1e-9)
-
-
-def test_a_stop_that_drops_the_request_does_not_end_a_capture(make_ready):
-    harness = make_ready()
-    harness.session.captures.begin(("zn",), 500.0, 40)
-    harness.step()
-    harness.session.captures.collect()
-    harness.session.stop()
-    parts = []
-    for _ in range(12):
-        harness.step()
-        parts += harness.session.captures.collect()
-    assert sum(len(part.device_time_s) for part in parts) == 40
 
 
 def test_a_voltage_moves_its_piezo_within_every_limit(make_ready):
@@ -235,6 +218,9 @@ def test_an_unsupported_request_is_refused_with_the_driver_name(make_ready, monk
     ):
         with pytest.raises(RequestRefusedError, match="'plain'"):
             request()
+    trajectory = Record.from_signals([0.0, 1.0], {("zn", Tap.CMD): [3e-5, 3e-5]}, {"zn": "m"})
+    with pytest.raises(RequestRefusedError, match="'plain' cannot play"):
+        session.play(trajectory)
 
 
 def test_the_simulated_tool_is_off_after_reopening(make_ready):

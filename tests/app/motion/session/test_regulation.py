@@ -9,7 +9,6 @@ from rotemina.app.errors import RequestRefusedError
 from rotemina.app.motion.playback import play_offline
 from rotemina.app.motion.session import NamedRegulation, make_regulation
 from rotemina.app.motion.state import CommandRefused, PlaybackFinished
-from rotemina.drivers.contract import DeviceState
 from rotemina.sim.errors import FeedbackError, InputError, OutOfLimitsError, UnstableError
 from rotemina.sim.feedback import AxisRegulation, ControllerGains, NotchFilter
 from rotemina.sim.records import Record, Tap
@@ -46,7 +45,7 @@ def make_trajectory(path=SWING):
     return Record.from_signals(1e-3 * np.arange(len(path)), {("zn", Tap.CMD): path}, {"zn": "m"})
 
 
-def make_tuning_result(gains=GAINS, **changes):
+def make_tuning_result(gains=GAINS, axis="zn", delay=0):
     source = TuningProvenance(
         program="",
         robot=ROBOT.name,
@@ -61,22 +60,15 @@ def make_tuning_result(gains=GAINS, **changes):
         overshoot=0.02,
         spread=0.05,
     )
-    result = TuningResult(
-        axis="zn",
+    return TuningResult(
+        axis=axis,
         rate_hz=5000.0,
-        delay=0,
+        delay=delay,
         recommended=0,
         chosen=0,
         provenance=source,
         points=(FrontPoint(gains=gains, figures=INFINITE_FIGURES),),
     )
-    return replace(result, **changes)
-
-
-def settle(harness):
-    harness.step(0.05, 4)
-    while harness.session.snapshot().activity is not DeviceState.IDLE:
-        harness.step(0.05)
 
 
 @pytest.fixture
@@ -85,7 +77,7 @@ def machine(make_harness):
     harness.step(0.05, 3)
     harness.session.service.set_effects(WORN_ROBOT.effects)
     harness.session.go_to({"zn": 45e-6})
-    settle(harness)
+    harness.settle()
     return harness
 
 
@@ -103,14 +95,14 @@ def test_a_loop_is_applied_moves_the_axis_and_is_removed(machine):
     machine.step(0.004)
     with pytest.raises(RequestRefusedError, match="still moving"):
         session.loops.remove("zn")
-    settle(machine)
+    machine.settle()
     assert session.snapshot().measured["zn"] == pytest.approx(20e-6, abs=6e-8)
     session.loops.remove("zn")
     machine.step(0.05, 2)
     assert session.loops.applied == {}
     with pytest.raises(RequestRefusedError, match="axis zn has no loop"):
         session.loops.remove("zn")
-    assert not [event for event in machine.events if isinstance(event, CommandRefused)]
+    assert not machine.list_events(CommandRefused)
 
 
 def test_a_record_names_the_loop_and_has_a_smaller_error(machine):
@@ -121,10 +113,8 @@ def test_a_record_names_the_loop_and_has_a_smaller_error(machine):
             machine.step(0.05, 2)
         machine.events.clear()
         machine.session.play(make_trajectory())
-        settle(machine)
-        (record,) = [
-            event.record for event in machine.events if isinstance(event, PlaybackFinished)
-        ]
+        machine.settle()
+        record = machine.list_events(PlaybackFinished)[0].record
         assert record.metadata.get("feedback zn") == ("zn.toml, point 0" if with_loop else None)
         errors.append(float(np.std(record.signal("zn", Tap.MEAS) - record.signal("zn", Tap.CMD))))
     assert errors[1] < 0.03 * errors[0]
@@ -133,20 +123,24 @@ def test_a_record_names_the_loop_and_has_a_smaller_error(machine):
     np.testing.assert_allclose(offline.signal("zn", Tap.CMD), SWING, rtol=0.0, atol=1e-15)
 
 
-def test_a_stop_keeps_the_loop_and_a_new_connection_removes_it(machine):
-    session = machine.session
-    session.loops.apply(LOOP)
+def test_a_stop_keeps_the_loop_until_its_release_and_a_new_connection_removes_it(machine):
+    session, loops = machine.session, machine.session.loops
+    loops.apply(LOOP)
     machine.step(0.05)
     session.play(make_trajectory())
     machine.step(0.05, 12)
-    session.stop()
-    settle(machine)
-    assert set(session.loops.applied) == {"zn"}
+    session.emergency_stop()
+    machine.settle()
+    for request in (lambda: loops.apply(LOOP), lambda: loops.remove("zn")):
+        with pytest.raises(RequestRefusedError, match="release it first"):
+            request()
+    machine.step(0.05, 2)
+    assert set(loops.applied) == {"zn"}
     session.disconnect()
     machine.step(0.05, 2)
     session.reconnect()
     machine.step(0.05, 3)
-    assert session.loops.applied == {}
+    assert loops.applied == {}
 
 
 def test_a_device_that_cannot_close_a_loop_refuses(machine, monkeypatch):
@@ -175,15 +169,3 @@ def test_an_unsuitable_loop_is_refused_before_any_motion():
     )
     with pytest.raises(InputError, match="must be a whole multiple"):
         play_offline(ROBOT, make_trajectory(), loop=slow_loop)
-
-
-def test_while_a_stop_is_latched_loops_cannot_change(machine):
-    session = machine.session
-    session.loops.apply(LOOP)
-    machine.step(0.05, 2)
-    session.emergency_stop()
-    for request in (lambda: session.loops.apply(LOOP), lambda: session.loops.remove("zn")):
-        with pytest.raises(RequestRefusedError, match="release it first"):
-            request()
-    machine.step(0.05, 2)
-    assert set(session.loops.applied) == {"zn"}

@@ -20,6 +20,13 @@ def positions(tmp_path):
     return SavedPositions(tmp_path, ROBOT)
 
 
+@pytest.fixture
+def machine(make_harness):
+    harness = make_harness(driver=Simulator)
+    harness.step()
+    return harness
+
+
 def test_saved_positions_are_read_at_the_next_start(tmp_path, positions):
     positions.save("above the dish", ABOVE)
     positions.save("µ-Küvette „A“", MIDDLE)
@@ -37,7 +44,6 @@ def test_saved_positions_are_read_at_the_next_start(tmp_path, positions):
     ("name", "position", "message"),
     [
         ("", MIDDLE, "is not a valid name"),
-        (" a", MIDDLE, "is not a valid name"),
         ("a\nb", MIDDLE, "is not a valid name"),
         ("a" * 41, MIDDLE, "is not a valid name"),
         ("a", {"x": 0.0}, "axis thx is missing"),
@@ -58,7 +64,7 @@ def test_an_invalid_position_is_not_saved(positions, name, position, message):
         (lambda text: text.replace("0.01\n", "0.06\n"), "position 'b': .*x"),
         (lambda text: text.replace("0.01\n", '"0.01"\n'), r"positions\.b\.x.*number"),
         (lambda text: text.replace("zn =", "zm ="), "axis zn is missing"),
-        (lambda text: text.replace('"rotemina"', '"other"'), "to robot 'other'"),
+        (lambda text: text.replace(f'"{ROBOT.name}"', '"other"'), "to robot 'other'"),
         (lambda text: text.replace("robot =", "robots ="), "did you mean 'robot'"),
         (lambda text: text[:-5] + "[", "not valid TOML"),
     ],
@@ -66,10 +72,7 @@ def test_an_invalid_position_is_not_saved(positions, name, position, message):
 def test_a_bad_file_is_neither_used_nor_overwritten(positions, change, message):
     positions.save("a", MIDDLE)
     positions.save("b", ABOVE)
-    bad_text = change(positions.path.read_text("utf-8").replace(f'"{ROBOT.name}"', '"rotemina"'))
-    bad_text = (
-        bad_text if '"other"' in bad_text else bad_text.replace('"rotemina"', f'"{ROBOT.name}"')
-    )
+    bad_text = change(positions.path.read_text("utf-8"))
     positions.path.write_text(bad_text, "utf-8")
     for request in (positions.read, lambda: positions.save("c", MIDDLE)):
         with pytest.raises(SavedPositionError, match=message) as error:
@@ -89,43 +92,34 @@ def test_the_safe_path_lifts_crosses_and_lowers():
     assert plan_safe_path(ROBOT, MIDDLE, {**ABOVE, "z": highest})[0] == {"z": highest}
 
 
-def test_a_session_moves_on_the_safe_path_and_can_undo(make_harness):
-    harness = make_harness(driver=Simulator)
-    harness.step()
-    begin = harness.session.snapshot().command
+def test_a_session_moves_on_the_safe_path_and_can_undo(machine):
+    session = machine.session
+    begin = session.snapshot().command
+    with pytest.raises(OutOfLimitsError, match="y"):
+        session.go_safely({**begin, "x": 0.03, "y": 0.9})
+    assert machine.step(0.1, 5).command == begin
     target = {**begin, "x": begin["x"] + 1e-3, "z": begin["z"] - 2e-4}
-    harness.session.go_safely(target)
-    harness.step()
+    session.go_safely(target)
+    machine.step()
     with pytest.raises(RequestRefusedError, match="before going there"):
-        harness.session.go_safely(target)
-    assert harness.step_until_idle().command == pytest.approx(target, abs=1e-12)
-    window = harness.session.history.tail()
+        session.go_safely(target)
+    assert machine.step_until_idle().command == pytest.approx(target, abs=1e-12)
+    window = session.history.tail()
     x, z = window.command[:, 0], window.command[:, 2]
     is_crossing = (x > begin["x"] + 1e-6) & (x < target["x"] - 1e-6)
     assert is_crossing.any()
     assert z[is_crossing].min() >= begin["z"] + 0.99e-3
-    harness.session.undo()
-    assert harness.step_until_idle().command == pytest.approx(begin, abs=1e-12)
+    session.undo()
+    assert machine.step_until_idle().command == pytest.approx(begin, abs=1e-12)
 
 
-def test_a_position_out_of_range_moves_nothing(make_harness):
-    harness = make_harness(driver=Simulator)
-    harness.step()
-    begin = harness.session.snapshot().command
-    with pytest.raises(OutOfLimitsError, match="y"):
-        harness.session.go_safely({**begin, "x": 0.03, "y": 0.9})
-    assert harness.step(0.1, 5).command == begin
-
-
-def test_the_last_leg_down_is_slow_near_the_floor(make_harness):
+def test_the_last_leg_down_is_slow_near_the_floor(machine):
     """This also holds if the end is higher than the start, because the tip is lifted between."""
-    harness = make_harness(driver=Simulator)
-    harness.step()
-    harness.session.bounds.teach_floor(clearance=1e-4)
-    begin = harness.session.snapshot().command
-    harness.session.go_safely({**begin, "x": begin["x"] + 1e-3, "z": begin["z"] + 1e-4})
-    harness.step_until_idle()
-    window = harness.session.history.tail()
+    machine.session.bounds.teach_floor(clearance=1e-4)
+    begin = machine.session.snapshot().command
+    machine.session.go_safely({**begin, "x": begin["x"] + 1e-3, "z": begin["z"] + 1e-4})
+    machine.step_until_idle()
+    window = machine.session.history.tail()
     speed = np.diff(window.command[:, 2]) / np.diff(window.device_time_s)
     is_near_floor = window.command[1:, 2] < begin["z"] + 3.5e-4
     assert speed[is_near_floor].min() < -1e-4  # it came down
