@@ -21,81 +21,65 @@ ROBOT = replace(load_robot("rotemina"), keep_out=KeepOut(floor=FLOOR, radius=0.0
 
 
 @pytest.fixture
-def session_with_floor(make_harness):
-    return make_harness(ROBOT, driver=Simulator)
+def machine(make_harness):
+    """A session at rest above a floor."""
+    harness = make_harness(ROBOT, driver=Simulator)
+    harness.step()
+    return harness
 
 
 @pytest.fixture
-def session_without_floor(make_harness):
+def free_machine(make_harness):
+    """A session at rest without a floor."""
     harness = make_harness(driver=Simulator)
     harness.step()
     return harness
 
 
-def read_heights(harness):
+def check_descent(harness):
+    """Check that the tip went down slowly near the floor; return height and speed (n,), SI."""
     window = harness.session.history.tail()
-    return window.device_time_s, harness.session.bounds.keep_out.tip_at(window.command)[:, 2]
-
-
-def test_a_move_below_the_floor_is_refused_with_the_reason(session_with_floor):
-    session_with_floor.step()
-    with pytest.raises(OutOfLimitsError, match=r"its floor is -2 mm"):
-        session_with_floor.session.go_to({"z": 0.03})
-    with pytest.raises(OutOfLimitsError, match="from the middle"):
-        session_with_floor.session.go_to({"x": 0.05})
-    with pytest.raises(OutOfLimitsError, match="its floor"):
-        session_with_floor.session.jog("z", -3e-3)
-    assert session_with_floor.step().activity is DeviceState.IDLE
-
-
-def test_a_move_into_the_slow_zone_slows_down_and_arrives(session_with_floor):
-    session_with_floor.step()
-    session_with_floor.session.go_to({"z": 0.0383})
-    session_with_floor.step_until_idle()
-    time_s, height = read_heights(session_with_floor)
-    assert session_with_floor.session.snapshot().command["z"] == 0.0383
-    descent_speed = -np.gradient(height, time_s)
-    assert (
-        descent_speed[height < FLOOR + 0.9 * SLOW_ZONE_HEIGHT_M]
-        <= 1.01 * MAX_SLOW_ZONE_SPEED_M_PER_S
-    ).all()
-    assert descent_speed.max() > 4 * MAX_SLOW_ZONE_SPEED_M_PER_S
+    height = harness.session.bounds.keep_out.tip_at(window.command)[:, 2]
+    descent_speed = -np.gradient(height, window.device_time_s)
+    is_in_slow_zone = height < FLOOR + 0.9 * SLOW_ZONE_HEIGHT_M
+    assert (descent_speed[is_in_slow_zone] <= 1.01 * MAX_SLOW_ZONE_SPEED_M_PER_S).all()
     assert height.min() >= FLOOR
+    return height, descent_speed
 
 
-def test_a_stop_between_the_legs_of_a_move_ends_it(session_with_floor):
-    session_with_floor.step()
-    session_with_floor.session.go_to({"z": 0.0383})
-    session_with_floor.step(0.1)
-    session_with_floor.session.stop()
-    state = session_with_floor.step_until_idle()
-    rest_z = state.command["z"]
-    assert session_with_floor.step(1.0, 3).command["z"] == rest_z
+def test_a_move_below_the_floor_is_refused_with_the_reason(machine):
+    for request, message in (
+        (lambda: machine.session.go_to({"z": 0.03}), r"its floor is -2 mm"),
+        (lambda: machine.session.go_to({"x": 0.05}), "from the middle"),
+        (lambda: machine.session.jog("z", -3e-3), "its floor"),
+    ):
+        with pytest.raises(OutOfLimitsError, match=message):
+            request()
+    assert machine.step().activity is DeviceState.IDLE
 
 
-def test_driving_down_ends_above_the_floor(session_with_floor):
-    session_with_floor.step()
-    refused = False
-    for _ in range(2000):
-        try:
-            session_with_floor.session.move_velocity({"z": -2e-3, "x": 1e-3}, 0.1)
-        except OutOfLimitsError:
-            refused = True
-            break
-        session_with_floor.step(0.02)
-    assert refused
-    session_with_floor.step_until_idle()
-    time_s, height = read_heights(session_with_floor)
-    assert FLOOR <= height.min() <= FLOOR + 2e-4
-    descent_speed = -np.gradient(height, time_s)
-    assert (
-        descent_speed[height < FLOOR + 0.9 * SLOW_ZONE_HEIGHT_M]
-        <= 1.01 * MAX_SLOW_ZONE_SPEED_M_PER_S
-    ).all()
+def test_a_move_into_the_slow_zone_slows_down_and_arrives(machine):
+    machine.session.go_to({"z": 0.0383})
+    machine.step_until_idle()
+    assert machine.session.snapshot().command["z"] == 0.0383
+    _, descent_speed = check_descent(machine)
+    assert descent_speed.max() > 4 * MAX_SLOW_ZONE_SPEED_M_PER_S
 
 
-def test_a_trajectory_below_the_floor_is_refused_and_one_above_plays(session_with_floor):
-    session_with_floor.step()
+def test_driving_down_ends_above_the_floor(machine):
+    def drive_down():
+        for _ in range(2000):
+            machine.session.move_velocity({"z": -2e-3, "x": 1e-3}, 0.1)
+            machine.step(0.02)
+
+    with pytest.raises(OutOfLimitsError):
+        drive_down()
+    machine.step_until_idle()
+    height, _ = check_descent(machine)
+    assert height.min() <= FLOOR + 2e-4
+
+
+def test_a_trajectory_below_the_floor_is_refused_and_one_above_plays(machine):
     time_s = np.linspace(0, 20.0, 20_001)
 
     def make_dive(depth):
@@ -103,111 +87,108 @@ def test_a_trajectory_below_the_floor_is_refused_and_one_above_plays(session_wit
         return Record.from_signals(time_s, {("z", Tap.CMD): command}, {"z": "m"})
 
     with pytest.raises(OutOfLimitsError, match="its floor"):
-        session_with_floor.session.play(make_dive(3e-3))
-    session_with_floor.session.play(make_dive(1e-3))
-    assert session_with_floor.step_until(DeviceState.PLAYING).owners["x"] == "playback"
+        machine.session.play(make_dive(3e-3))
+    machine.session.play(make_dive(1e-3))
+    assert machine.step_until(DeviceState.PLAYING).owners["x"] == "playback"
     with pytest.raises(RequestRefusedError):
-        session_with_floor.session.go_to({"x": 0.03})
+        machine.session.go_to({"x": 0.03})
 
 
-def test_the_floor_is_taught_at_the_tip(session_with_floor):
-    session_with_floor.step()
-    floor = session_with_floor.session.bounds.teach_floor(1e-4)
-    tip = session_with_floor.session.snapshot().tip
+def test_the_floor_is_taught_at_the_tip(machine):
+    floor = machine.session.bounds.teach_floor(1e-4)
+    tip = machine.session.snapshot().tip
     assert floor == pytest.approx(tip[2] - 1e-4, abs=1e-12)
     with pytest.raises(OutOfLimitsError, match="its floor"):
-        session_with_floor.session.jog("z", -2e-4)
-    session_with_floor.session.jog("z", 2e-4)
-    session_with_floor.step_until_idle()
-    session_with_floor.session.bounds.clear_floor()
-    session_with_floor.session.jog("z", -1e-2)
+        machine.session.jog("z", -2e-4)
+    machine.session.jog("z", 2e-4)
+    machine.step_until_idle()
+    machine.session.bounds.clear_floor()
+    machine.session.jog("z", -1e-2)
 
 
-def test_an_expired_lease_halts_the_axis_without_a_fault(session_without_floor):
-    session_without_floor.session.move_velocity({"x": 5e-3}, 0.1)
-    session_without_floor.step(0.02)
-    assert session_without_floor.session.snapshot().phase is SessionPhase.MOVING
-    state = session_without_floor.step_until_idle()
+def test_an_expired_lease_halts_the_axis_without_a_fault(free_machine):
+    free_machine.session.move_velocity({"x": 5e-3}, 0.1)
+    assert free_machine.step(0.02).phase is SessionPhase.MOVING
+    state = free_machine.step_until_idle()
     assert state.fault is None
-    distance = state.command["x"] - 0.0275
-    assert 0.1 * 5e-3 * 0.7 < distance <= 5e-3 * 0.1 + 1e-6
+    assert 0.1 * 5e-3 * 0.7 < state.command["x"] - 0.0275 <= 5e-3 * 0.1 + 1e-6
 
 
-def test_a_speed_that_waited_too_long_is_not_executed(session_without_floor):
-    session_without_floor.session.move_velocity({"x": 5e-3}, 0.1)
-    session_without_floor.clock.advance(0.2)
-    assert session_without_floor.step().activity is DeviceState.IDLE
-    assert session_without_floor.session.snapshot().command["x"] == 0.0275
+def test_a_speed_that_waited_too_long_is_not_executed(free_machine):
+    free_machine.session.move_velocity({"x": 5e-3}, 0.1)
+    free_machine.clock.advance(0.2)
+    state = free_machine.step()
+    assert (state.activity, state.command["x"]) == (DeviceState.IDLE, 0.0275)
 
 
-def test_renewals_of_a_speed_replace_each_other_in_the_queue(session_without_floor):
+def test_renewals_of_a_speed_replace_each_other_in_the_queue(free_machine):
     for speed in np.linspace(1e-3, 5e-3, 50):
-        session_without_floor.session.move_velocity({"x": float(speed)}, 0.5)
-    assert session_without_floor.session.snapshot().queued == 1
+        free_machine.session.move_velocity({"x": float(speed)}, 0.5)
+    assert free_machine.session.snapshot().queued == 1
 
 
-def test_an_axis_has_one_owner_until_it_rests(session_without_floor):
-    session_without_floor.session.go_to({"x": 0.03}, owner="joystick")
-    session_without_floor.step()
-    assert session_without_floor.session.snapshot().owners == {"x": "joystick"}
+def test_an_axis_has_one_owner_until_it_rests(free_machine):
+    session = free_machine.session
+    session.go_to({"x": 0.03}, owner="joystick")
+    assert free_machine.step().owners == {"x": "joystick"}
     with pytest.raises(RequestRefusedError, match="joystick controls axis x"):
-        session_without_floor.session.jog("x", 1e-3)
-    session_without_floor.session.jog("y", 1e-3)
-    session_without_floor.session.reservations.take_over(["x"], "operator")
-    session_without_floor.session.go_to({"x": 0.029})
-    session_without_floor.step_until_idle()
-    assert session_without_floor.step().owners == {}
-    session_without_floor.session.go_to({"x": 0.03}, owner="script")
+        session.jog("x", 1e-3)
+    session.jog("y", 1e-3)
+    session.reservations.take_over(["x"], "operator")
+    session.go_to({"x": 0.029})
+    free_machine.step_until_idle()
+    assert free_machine.step().owners == {}
+    session.go_to({"x": 0.03}, owner="script")
 
 
-def test_an_emergency_stop_stays_until_it_is_released(session_without_floor):
-    session_without_floor.session.go_to({"x": 0.05})
-    session_without_floor.step(0.2)
-    session_without_floor.session.emergency_stop()
-    state = session_without_floor.step_until_idle()
+def test_an_emergency_stop_halts_a_move_until_it_is_released(free_machine):
+    session = free_machine.session
+    session.go_to({"x": 0.05})
+    free_machine.step(0.2)
+    session.emergency_stop()
+    state = free_machine.step_until_idle()
     assert "stop and lock is active" in state.lock_reason
-    for request in (
-        lambda: session_without_floor.session.jog("x", 1e-3),
-        lambda: session_without_floor.session.move_velocity({"x": 1e-3}),
-        session_without_floor.session.home,
-        session_without_floor.session.undo,
-    ):
-        with pytest.raises(RequestRefusedError, match="release it first"):
-            request()
-    assert session_without_floor.step(1.0).command == state.command
-    session_without_floor.session.release()
-    session_without_floor.session.jog("x", 1e-3)
+    assert free_machine.step(1.0).command == state.command
+    session.release()
+    session.jog("x", 1e-3)
 
 
-def test_a_barred_session_refuses_motion_with_the_reason(session_without_floor):
-    session_without_floor.session.go_to({"x": 0.05})
-    session_without_floor.step(0.2)
-    session_without_floor.session.bar_motion("a replay is shown")
-    reached = session_without_floor.step_until_idle()
-    assert reached.command["x"] == pytest.approx(0.05)  # the present move continues
-    assert reached.lock_reason == "a replay is shown"
+def test_a_barred_session_completes_its_move_and_then_refuses_motion_with_the_reason(free_machine):
+    session = free_machine.session
+    session.go_to({"x": 0.05})
+    free_machine.step(0.2)
+    session.bar_motion("a replay is shown")
+    state = free_machine.step_until_idle()
+    assert state.command["x"] == pytest.approx(0.05)
+    assert state.lock_reason == "a replay is shown"
     for request in (
-        lambda: session_without_floor.session.jog("x", 1e-3),
-        lambda: session_without_floor.session.move_velocity({"x": 1e-3}),
-        session_without_floor.session.home,
-        session_without_floor.session.undo,
+        lambda: session.jog("x", 1e-3),
+        lambda: session.move_velocity({"x": 1e-3}),
+        lambda: session.tool.switch(True),
+        session.home,
+        session.undo,
     ):
         with pytest.raises(RequestRefusedError, match="a replay is shown"):
             request()
-    session_without_floor.session.bar_motion(None)
-    session_without_floor.session.undo()
+    session.bar_motion(None)
+    session.undo()
 
 
-def test_the_phase_follows_the_motion(session_without_floor):
-    assert session_without_floor.session.snapshot().phase is SessionPhase.READY
-    session_without_floor.session.go_to({"x": 0.05})
-    assert session_without_floor.step(0.1, 2).phase is SessionPhase.MOVING
-    session_without_floor.session.stop()
-    assert session_without_floor.step(0.02).phase is SessionPhase.STOPPING
-    session_without_floor.step_until_idle()
-    assert session_without_floor.session.snapshot().phase is SessionPhase.READY
-    session_without_floor.session.close()
-    assert session_without_floor.session.snapshot().phase is SessionPhase.DISCONNECTED
+def test_the_phase_follows_the_motion_and_the_connection(free_machine):
+    session, step = free_machine.session, free_machine.step
+    assert session.snapshot().phase is SessionPhase.READY
+    session.go_to({"x": 0.05})
+    assert step(0.1, 2).phase is SessionPhase.MOVING
+    session.stop()
+    assert step(0.02).phase is SessionPhase.STOPPING
+    assert free_machine.step_until_idle().phase is SessionPhase.READY
+    session.disconnect()
+    assert step().phase is SessionPhase.DISCONNECTED
+    assert free_machine.driver.status().state is DeviceState.CLOSED
+    session.reconnect()
+    assert step(0.02, 2).phase is SessionPhase.READY
+    session.close()
+    assert session.snapshot().phase is SessionPhase.DISCONNECTED
 
 
 def test_an_unknown_position_locks_motion_until_homed(make_harness):
@@ -227,39 +208,30 @@ def test_an_unknown_position_locks_motion_until_homed(make_harness):
     harness.session.jog("x", 1e-3)
 
 
-def test_undo_returns_on_a_safe_path(session_without_floor):
-    begin = session_without_floor.session.snapshot().command
-    session_without_floor.session.go_to({"x": 0.03, "z": 0.038})
-    reached = session_without_floor.step_until_idle().command
-    session_without_floor.session.undo()
-    session_without_floor.step_until_idle()
-    assert session_without_floor.session.snapshot().command == begin
-    window = session_without_floor.session.history.tail()
+def test_undo_returns_once_on_a_safe_path_and_not_on_another_device(free_machine):
+    session = free_machine.session
+    begin = session.snapshot().command
+    assert not session.can_undo
+    session.go_to({"x": 0.03, "z": 0.038})
+    reached = free_machine.step_until_idle().command
+    assert session.can_undo
+    session.undo()
+    assert free_machine.step_until_idle().command == begin
+    window = session.history.tail()
     x, z = window.command[:, 0], window.command[:, 2]
     is_crossing = (x < reached["x"] - 1e-4) & (x > begin["x"] + 1e-4)
     is_returning = is_crossing & (np.arange(len(x)) > len(x) // 2)
     assert z[is_returning].min() >= max(begin["z"], reached["z"]) + 0.9e-3
+    assert not session.can_undo
     with pytest.raises(RequestRefusedError, match="no previous position"):
-        session_without_floor.session.undo()
-
-
-def test_can_undo_is_known_and_ends_with_the_device(session_without_floor):
-    assert not session_without_floor.session.can_undo
-    session_without_floor.session.jog("x", 1e-3)
-    session_without_floor.step_until_idle()
-    assert session_without_floor.session.can_undo
-    session_without_floor.session.undo()
-    session_without_floor.step_until_idle()
-    assert not session_without_floor.session.can_undo
-    session_without_floor.session.jog("x", 1e-3)
-    session_without_floor.step_until_idle()
-    session_without_floor.session.use_driver(
-        Simulator(session_without_floor.driver.robot, clock=session_without_floor.clock)
-    )
-    session_without_floor.step(times=3)
-    assert not session_without_floor.session.can_undo
+        session.undo()
+    session.jog("x", 1e-3)
+    free_machine.step_until_idle()
+    session.use_driver(Simulator(session.robot, clock=free_machine.clock))
+    free_machine.step(times=3)
+    assert not session.can_undo
     with pytest.raises(RequestRefusedError, match="no previous position"):
-        session_without_floor.session.undo()
+        session.undo()
 
 
 REQUESTS = st.one_of(
@@ -278,7 +250,7 @@ REQUESTS = st.one_of(
 
 
 @settings(
-    max_examples=40,
+    max_examples=25,
     deadline=None,
     suppress_health_check=[HealthCheck.function_scoped_fixture],
 )
@@ -311,36 +283,3 @@ def test_no_sequence_of_requests_leaves_the_bounds(harness_type, requests):
     )
     assert tip[:, 2].min() >= FLOOR - 1e-9
     assert np.hypot(*(tip - middle)[:, :2].T).max() <= 0.02 + 1e-9
-
-
-def test_another_driver_replaces_the_first(session_without_floor, clock):
-    first = session_without_floor.driver
-    session_without_floor.session.go_to({"x": 0.05})
-    session_without_floor.step(0.1, 2)
-    second = Simulator(load_robot("rotemina"), {"start_fraction": 0.25}, clock=clock)
-    session_without_floor.session.use_driver(second)
-    state = session_without_floor.step(0.02, 2)
-    assert first.status().state is DeviceState.CLOSED
-    assert state.command["x"] == pytest.approx(0.055 / 4)
-    session_without_floor.session.jog("x", 1e-3)
-    assert session_without_floor.step_until_idle().command["x"] == pytest.approx(0.055 / 4 + 1e-3)
-    with pytest.raises(RequestRefusedError, match="start the program with that robot"):
-        session_without_floor.session.use_driver(Simulator(load_robot("picma"), clock=clock))
-
-
-def test_a_session_disconnects_and_reconnects(session_without_floor):
-    session_without_floor.session.disconnect()
-    state = session_without_floor.step(0.02)
-    assert state.phase is SessionPhase.DISCONNECTED
-    assert session_without_floor.driver.status().state is DeviceState.CLOSED
-    session_without_floor.session.reconnect()
-    assert session_without_floor.step(0.02, 2).phase is SessionPhase.READY
-
-
-def test_a_refused_request_keeps_the_owners(make_harness):
-    harness = make_harness(driver=Simulator, queue_size=1)
-    harness.step()
-    harness.session.go_to({"x": 0.03}, owner="script")
-    with pytest.raises(RequestRefusedError, match="already waiting"):
-        harness.session.go_to({"y": 0.03}, owner="joystick")
-    assert harness.session.snapshot().owners == {"x": "script"}
