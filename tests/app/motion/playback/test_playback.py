@@ -51,40 +51,41 @@ def step_until_row(harness, playback, row):
     raise AssertionError(playback.state)
 
 
+def pause_at_row(harness, playback, row):
+    """Play a swing of x and pause at about a row; return the trajectory."""
+    trajectory = make_swing(harness.session.robot)
+    playback.play(trajectory)
+    step_until_row(harness, playback, row)
+    playback.pause()
+    harness.step_until_idle()
+    return trajectory
+
+
+def finish(harness, playback):
+    """Step until the playback has ended at its last row."""
+    harness.step_until_idle()
+    assert (playback.state.phase, playback.state.row) == (PlaybackPhase.IDLE, ROWS - 1)
+
+
 def list_records(harness):
     return [event.record for event in harness.list_events(PlaybackFinished)]
 
 
-def test_a_playback_ends_at_its_last_row(harness, playback):
+def test_a_playback_ends_at_its_last_row_and_the_next_one_has_its_own_pace(harness, playback):
     trajectory = make_swing(harness.session.robot)
     playback.play(trajectory)
     assert playback.state.phase is PlaybackPhase.PLAYING
-    harness.step_until_idle()
+    finish(harness, playback)
     state = playback.state
-    assert (state.phase, state.row, state.rows) == (PlaybackPhase.IDLE, ROWS - 1, ROWS)
-    assert state.path_s == pytest.approx(2.0, abs=1e-6)
+    assert (state.rows, state.path_s) == (ROWS, pytest.approx(2.0, abs=1e-6))
     assert 0.0 < state.gaps["x"].rms <= state.gaps["x"].peak < 1e-6
     (record,) = list_records(harness)
-    np.testing.assert_allclose(
-        record.signal("x", Tap.CMD), trajectory.commands.signal("x", Tap.CMD), atol=1e-12
-    )
-
-
-def test_a_second_playback_begins_at_its_first_row(harness, playback):
-    playback.play(make_swing(harness.session.robot))
-    harness.step_until_idle()
-    playback.play(make_swing(harness.session.robot))
+    command = trajectory.commands.signal("x", Tap.CMD)
+    np.testing.assert_allclose(record.signal("x", Tap.CMD), command, atol=1e-12)
+    playback.play(trajectory, speed=0.5)
     assert playback.state.path_s == 0.0  # not the end of the first playback
-    harness.step_until_idle()
-    assert playback.state.row == ROWS - 1
-
-
-@pytest.mark.parametrize("speed", [0.5, 2.0])
-def test_a_playback_has_the_chosen_pace(harness, playback, speed):
-    playback.play(make_swing(harness.session.robot), speed=speed)
-    harness.step_until_idle()
-    assert playback.state.row == ROWS - 1
-    assert list_records(harness)[0].duration_s == pytest.approx(2.0 / speed, abs=2e-3)
+    finish(harness, playback)
+    assert list_records(harness)[1].duration_s == pytest.approx(4.0, abs=2e-3)
 
 
 def test_a_pace_beyond_the_limits_is_refused_and_nothing_moves(harness, playback):
@@ -96,11 +97,7 @@ def test_a_pace_beyond_the_limits_is_refused_and_nothing_moves(harness, playback
 
 
 def test_a_paused_and_resumed_playback_passes_every_row(harness, playback):
-    trajectory = make_swing(harness.session.robot)
-    playback.play(trajectory)
-    step_until_row(harness, playback, 700)
-    playback.pause()
-    harness.step_until_idle()
+    trajectory = pause_at_row(harness, playback, 700)
     paused_state = playback.state
     assert paused_state.phase is PlaybackPhase.PAUSED
     assert 700 <= paused_state.row < 720
@@ -108,9 +105,9 @@ def test_a_paused_and_resumed_playback_passes_every_row(harness, playback):
     harness.step(0.02, 20)
     assert harness.session.snapshot().command["x"] == paused_x  # it does not continue by itself
     playback.resume()
-    harness.step_until_idle()
-    assert playback.state.phase is PlaybackPhase.IDLE
-    assert playback.state.row == ROWS - 1
+    with pytest.raises(RequestRefusedError, match="nothing is paused"):
+        playback.resume()
+    finish(harness, playback)
     first, second = list_records(harness)
     command = trajectory.commands.signal("x", Tap.CMD)
     played = first.signal("x", Tap.CMD)
@@ -127,8 +124,7 @@ def test_after_a_pause_before_the_first_row_it_begins_at_the_first_row(harness, 
     assert playback.state.phase is PlaybackPhase.PAUSED
     assert playback.state.row == -1
     playback.resume()
-    harness.step_until_idle()
-    assert playback.state.row == ROWS - 1
+    finish(harness, playback)
     assert len(list_records(harness)[-1].time_s) >= ROWS
 
 
@@ -150,8 +146,7 @@ def test_a_playback_can_be_resumed_after_a_step(harness, playback):
     playback.step(1001)
     harness.step_until_idle()
     playback.resume(speed=2.0)
-    harness.step_until_idle()
-    assert playback.state.row == ROWS - 1
+    finish(harness, playback)
     assert list_records(harness)[0].duration_s == pytest.approx(0.5 + 0.25, abs=0.01)
 
 
@@ -170,50 +165,30 @@ def test_a_deviation_from_the_model_stops_the_motion(harness, playback, messages
     assert list_records(harness)[0] is not None  # the played part is kept
 
 
-def test_a_stop_by_the_operator_ends_the_playback(harness, playback):
+def test_a_stop_ends_a_playback_but_only_blocks_a_pause(harness, playback):
     playback.play(make_swing(harness.session.robot))
     step_until_row(harness, playback, 100)
     harness.session.stop()
     harness.step_until_idle()
     assert playback.state.phase is PlaybackPhase.IDLE
-    with pytest.raises(RequestRefusedError, match="nothing is paused"):
-        playback.resume()
-
-
-def test_an_emergency_stop_in_a_pause_blocks_until_released(harness, playback):
-    playback.play(make_swing(harness.session.robot))
-    step_until_row(harness, playback, 100)
-    playback.pause()
-    harness.step_until_idle()
-    harness.session.emergency_stop()
-    with pytest.raises(RequestRefusedError, match="release it first"):
-        playback.resume()
-    with pytest.raises(RequestRefusedError, match="release it first"):
-        playback.step()
-    harness.session.release()
-    playback.resume()
-    harness.step_until_idle()
-    assert playback.state.row == ROWS - 1
-
-
-def test_a_lost_device_ends_a_pause(harness, playback):
-    playback.play(make_swing(harness.session.robot))
-    step_until_row(harness, playback, 100)
-    playback.pause()
-    harness.step_until_idle()
-
-    def lose_device():
-        raise ConnectionError("unplugged")
-
-    harness.driver.before["read"] = lose_device
-    harness.step()
-    assert playback.state.phase is PlaybackPhase.IDLE
-
-
-def test_without_a_playback_pause_resume_and_step_are_refused(playback):
     for request in (playback.pause, playback.resume, playback.step):
         with pytest.raises(RequestRefusedError, match="nothing"):
             request()
+    pause_at_row(harness, playback, 100)
+    harness.session.emergency_stop()
+    for request in (playback.resume, playback.step):
+        with pytest.raises(RequestRefusedError, match="release it first"):
+            request()
+    harness.session.release()
+    playback.resume()
+    finish(harness, playback)
+
+
+def test_a_lost_device_ends_a_pause(harness, playback):
+    pause_at_row(harness, playback, 100)
+    harness.driver.fail("read", ConnectionError("unplugged"))
+    harness.step()
+    assert playback.state.phase is PlaybackPhase.IDLE
 
 
 def test_two_playbacks_at_once_are_refused(harness, playback):
@@ -224,8 +199,7 @@ def test_two_playbacks_at_once_are_refused(harness, playback):
         playback.play(trajectory)
     with pytest.raises(RequestRefusedError, match="playing"):
         playback.load_paused(trajectory)
-    harness.step_until_idle()
-    assert playback.state.row == ROWS - 1
+    finish(harness, playback)
 
 
 def test_a_path_into_the_floor_is_refused(harness, playback):
@@ -277,17 +251,10 @@ def test_an_invalid_speed_limit_is_refused(harness, playback, speeds):
         playback.limit_speeds(make_swing(harness.session.robot), speeds)
 
 
-# Moved during a pause
-
-
 @pytest.fixture
 def paused_swing(harness, playback):
     """Pause a swing of x at about row 700, and return the trajectory."""
-    trajectory = make_swing(harness.session.robot)
-    playback.play(trajectory)
-    step_until_row(harness, playback, 700)
-    playback.pause()
-    harness.step_until_idle()
+    trajectory = pause_at_row(harness, playback, 700)
     harness.step(0.02, 3)
     return trajectory
 
@@ -314,8 +281,7 @@ def test_axes_moved_during_a_pause_are_reported_with_their_distance(
     harness.step_until_idle()
     assert playback.state.moved == {}
     playback.resume()
-    harness.step_until_idle()
-    assert playback.state.row == ROWS - 1
+    finish(harness, playback)
 
 
 def test_a_distance_below_the_sensor_noise_is_no_motion(harness, playback, paused_swing):
@@ -346,14 +312,15 @@ def test_axes_move_back_slowly_before_it_resumes(harness, playback, paused_swing
     assert playback.state.moved == {}
     assert playback.state.row == row
     playback.resume()
-    harness.step_until_idle()
-    assert playback.state.row == ROWS - 1
+    finish(harness, playback)
     assert list_records(harness)[-1].signal("x", Tap.CMD)[0] == pytest.approx(
         expected[row], abs=1e-12
     )
 
 
-def test_a_stopped_return_leaves_the_remaining_distance(harness, playback, paused_swing):
+def test_a_stopped_return_leaves_the_remaining_distance_and_the_swing_can_start_over(
+    harness, playback, paused_swing
+):
     session, permit = harness.session, harness.session.permit()
     session.jog("y", 2e-3)
     harness.step_until_idle()
@@ -366,24 +333,10 @@ def test_a_stopped_return_leaves_the_remaining_distance(harness, playback, pause
     for request in (playback.move_back, playback.resume):
         with pytest.raises(RequestRefusedError, match="Not resumed: the machine was stopped again"):
             request(permit=permit)
-
-
-def test_it_starts_over_at_the_first_row(harness, playback, paused_swing):
-    harness.session.jog("y", 2e-3)
-    harness.step_until_idle()
     playback.start_over(speed=2.0)
-    harness.step_until_idle()
-    assert playback.state.row == ROWS - 1
+    finish(harness, playback)
     command = paused_swing.commands.signal("x", Tap.CMD)
     assert list_records(harness)[-1].signal("x", Tap.CMD)[0] == pytest.approx(command[0], abs=1e-12)
-
-
-def test_a_second_resume_is_refused(harness, playback, paused_swing):
-    playback.resume()
-    with pytest.raises(RequestRefusedError, match="nothing is paused"):
-        playback.resume()
-    harness.step_until_idle()
-    assert playback.state.row == ROWS - 1
 
 
 def test_a_playback_stopped_before_it_began_has_ended(harness, playback):
@@ -401,8 +354,7 @@ def test_a_resumption_stopped_before_it_began_is_still_paused(harness, playback,
     harness.step()
     assert (playback.state.phase, playback.state.row) == (PlaybackPhase.PAUSED, row)
     playback.resume()
-    harness.step_until_idle()
-    assert playback.state.row == ROWS - 1
+    finish(harness, playback)
 
 
 def test_a_deviation_counts_only_once_the_playback_has_begun(

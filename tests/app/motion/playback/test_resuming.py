@@ -113,32 +113,27 @@ def test_axes_do_not_move_back_without_a_request(bench):
     assert bench.playback.state.phase is PlaybackPhase.PAUSED
 
 
-def test_a_stop_during_the_return_ends_the_resumption_with_a_message(bench):
+@pytest.mark.parametrize(
+    ("end", "refusals", "phase"),
+    [
+        (
+            lambda bench: bench.session.stop(),
+            ["Not resumed: the machine was stopped again."],
+            PlaybackPhase.PAUSED,
+        ),
+        (lambda bench: bench.playback.end(), [], PlaybackPhase.IDLE),
+    ],
+)
+def test_only_a_stop_during_the_return_ends_it_with_a_message(bench, end, refusals, phase):
     bench.move_away()
     bench.begin(moves_back=True)
-    bench.step(20)
-    bench.session.stop()
-    bench.step(400)
-    assert bench.refusals == ["Not resumed: the machine was stopped again."]
-    assert bench.session.at_rest
-    assert bench.playback.state.phase is PlaybackPhase.PAUSED
-    assert 1e-3 < bench.playback.state.moved["y"] < 2.7e-3
-
-
-def test_the_end_of_the_playback_during_the_return_gives_no_message(bench):
-    bench.move_away()
-    bench.begin(moves_back=True)
-    bench.step(20)
-    bench.playback.end()
-    bench.step(400)
-    assert bench.refusals == []
-    assert bench.playback.state.phase is PlaybackPhase.IDLE
-    assert bench.session.at_rest
-
-
-def test_a_second_request_has_no_effect(bench):
-    bench.move_away()
-    bench.begin(moves_back=True)
-    bench.begin()
+    bench.begin()  # a second request has no effect
     assert bench.resumption.waits_for is ResumeStep.RETURNING
-    assert bench.refusals == []
+    bench.step(20)
+    end(bench)
+    bench.step(400)
+    assert bench.refusals == refusals
+    assert bench.session.at_rest
+    assert bench.playback.state.phase is phase
+    if phase is PlaybackPhase.PAUSED:
+        assert 1e-3 < bench.playback.state.moved["y"] < 2.7e-3

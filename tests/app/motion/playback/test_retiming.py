@@ -20,7 +20,7 @@ def make_swing(rows=801, period_s=PERIOD_S):
     return Record.from_signals(time_s, {("x", Tap.CMD): x}, {"x": "m"}, {"name": "swing"})
 
 
-@pytest.mark.parametrize("speed", [0.25, 1.0, 2.0])
+@pytest.mark.parametrize("speed", [0.25, 2.0])
 def test_a_pace_changes_only_the_times(speed):
     retimed = retime(make_swing(), speed=speed, setpoint_period_s=PERIOD_S)
     np.testing.assert_array_equal(retimed.trajectory.values, make_swing().values)
@@ -31,7 +31,7 @@ def test_a_pace_changes_only_the_times(speed):
     assert dict(retimed.trajectory.metadata) == {"name": "swing"}
 
 
-@pytest.mark.parametrize("row", [1, 200, 437, 799, 800])
+@pytest.mark.parametrize("row", [1, 437, 800])
 def test_a_remainder_begins_at_rest_and_ends_like_the_whole(row):
     whole = make_swing()
     rest = retime(whole, row=row, setpoint_period_s=PERIOD_S)
