@@ -56,10 +56,7 @@ def kill_at_random(tmp_path, times, seed):
     for number in range(times):
         path = tmp_path / f"{number}.arrows"
         losses_s.append(measure_loss(path, kill_after(path, int(rng.integers(1, 130)))))
-    print(
-        f"{times} kills lost {max(losses_s):.3f} s at most, "
-        f"{np.median(losses_s):.3f} s in the median"
-    )
+    print(f"{times} kills lost {max(losses_s):.3f} s at most")
     assert max(losses_s) <= MAX_LOSS_S
     return losses_s
 
@@ -70,5 +67,5 @@ def test_two_kills_lose_at_most_a_second(tmp_path):
 
 @pytest.mark.slow
 def test_many_kills_lose_at_most_a_second(tmp_path):
-    losses_s = kill_at_random(tmp_path, int(os.environ.get("ROTEMINA_KILLS", "15")), seed=2)
+    losses_s = kill_at_random(tmp_path, int(os.environ.get("ROTEMINA_KILLS", "6")), seed=2)
     assert max(losses_s) > 0.0  # the recordings were really cut off

@@ -8,7 +8,12 @@ import pyarrow as pa
 import pytest
 
 from rotemina.app.errors import RecordingError
-from rotemina.app.motion.recording import Recording, find_unfinished, recover_recording
+from rotemina.app.motion.recording import (
+    Recording,
+    find_unfinished,
+    recover_recording,
+    recovery,
+)
 from rotemina.app.motion.recording.segments import SegmentFile
 
 DOCUMENT = Path(__file__).parents[4] / "docs" / "recording.md"
@@ -27,22 +32,15 @@ def unfinished(make_writer, feed):
 
 
 def test_an_unfinished_recording_is_found_and_recovered(unfinished, check, tmp_path):
+    data = unfinished.read_bytes()
     assert find_unfinished(tmp_path) == (unfinished,)
     path = recover_recording(unfinished)
     assert path == tmp_path / "run.arrows"
     assert find_unfinished(tmp_path) == ()
     check(Recording.open(path).read_samples(), 0, 300)
-
-
-def test_whole_segments_are_recovered_wherever_the_file_is_cut(unfinished, check):
-    data = unfinished.read_bytes()
-    for size in range(len(data) - 1, len(data) * 2 // 3, -397):
-        unfinished.write_bytes(data[:size])
-        path = recover_recording(unfinished)
-        samples = Recording.open(path).read_samples()
-        assert len(samples) in (200, 300)  # the last segment held samples, or something else
-        check(samples, 0, len(samples))
-        path.unlink()
+    path.unlink()
+    unfinished.write_bytes(data[: len(data) * 2 // 3])  # only whole segments count
+    check(Recording.open(recover_recording(unfinished)).read_samples(), 0, 200)
 
 
 def test_recovery_after_a_crash_between_merging_and_deleting(unfinished, check):
@@ -83,26 +81,21 @@ def test_an_empty_file_and_one_of_another_version_are_not_deleted(tmp_path):
         recover_recording(tmp_path / "a.arrows")
 
 
-def test_many_segments_become_few_batches(make_writer, feed, check):
+def test_many_segments_become_few_batches_of_which_a_section_can_be_read(
+    make_writer, feed, check, monkeypatch
+):
+    monkeypatch.setattr(recovery, "_MIN_BATCH_ROWS", 2000)
     writer = make_writer()
-    for number in range(40):
-        feed(writer, 5000 * number, 5000, portion=5000)
+    for number in range(20):
+        feed(writer, 250 * number, 250, portion=250)
         writer.run_once()
     recording = Recording.open(writer.close())
-    check(recording.read_samples(), 0, 200_000)
+    check(recording.read_samples(), 0, 5000)
     assert len(list(recording.read_pieces())) == 3
-
-
-def test_a_section_can_be_read(make_writer, feed, check):
-    writer = make_writer()
-    for number in range(40):
-        feed(writer, 5000 * number, 5000, portion=5000)
-        writer.run_once()
-    recording = Recording.open(writer.close())
-    begin_s, end_s = recording.read_samples().host_time_s[[64_000, 141_000]]
+    begin_s, end_s = recording.read_samples().host_time_s[[1600, 3525]]
     section = recording.read_samples(begin_s, end_s)
-    check(section, 64_000, 77_001)
-    assert sum(map(len, recording.read_pieces(begin_s, end_s))) == 77_001
+    check(section, 1600, 1926)
+    assert sum(map(len, recording.read_pieces(begin_s, end_s))) == 1926
     assert len(recording.read_samples(end_s, begin_s)) == 0
     assert not section.command.flags.writeable
     assert not section.host_time_s.flags.writeable
@@ -120,18 +113,13 @@ def test_pyarrow_alone_reads_a_recording_as_documented(unfinished, monkeypatch):
     samples = Recording.open(path).read_samples()
     np.testing.assert_array_equal(tables["samples"]["thx.meas"], samples.measured[:, 1])
     assert tables["samples"].schema.field("thx.u").metadata == {b"unit": b"V"}
-
-
-def test_the_samples_are_the_first_stream_of_the_file(unfinished):
-    with pa.memory_map(str(recover_recording(unfinished))) as file:
-        table = pa.ipc.open_stream(file).read_all()
-    assert table.shape == (300, 12)
+    with pa.memory_map(str(path)) as file:  # the samples are the first stream of the file
+        assert pa.ipc.open_stream(file).read_all().shape == (300, 12)
 
 
 @pytest.mark.parametrize(
     ("data", "message"),
     [
-        (b"", "not a recording"),
         (b"t [s],x [m]\n0,1\n" * 10, "not a recording of this program, or damaged"),
         (bytes(200), "not a recording"),
     ],
@@ -146,7 +134,7 @@ def test_other_files_are_refused(tmp_path, data, message):
 def test_a_finished_recording_that_is_cut_or_of_another_version_is_refused(unfinished, tmp_path):
     path = recover_recording(unfinished)
     data = path.read_bytes()
-    for size in (0, 5, 700, len(data) // 2, len(data) - 9):
+    for size in (0, 5, len(data) // 2, len(data) - 9):
         path.write_bytes(data[:size])
         with pytest.raises(RecordingError, match=re.escape(str(path))):
             Recording.open(path)

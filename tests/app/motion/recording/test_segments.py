@@ -67,21 +67,6 @@ def test_a_segment_out_of_order_is_ignored(path, tmp_path):
     assert read_contents(path) == CONTENTS[:2]
 
 
-def test_a_full_disk_keeps_the_segments_and_allows_a_retry(path, disk):
-    disk.room = 250
-    file = SegmentFile(path, disk.open)
-    file.append(b"a" * 100)
-    for _ in range(2):
-        with pytest.raises(OSError, match="No space") as caught:
-            file.append(b"b" * 100, b"c" * 100)
-        assert caught.value.errno == errno.ENOSPC
-        assert path.stat().st_size == file.size == 128
-    disk.room = None
-    file.append(b"b" * 100, b"c" * 100)
-    file.close()
-    assert read_contents(path) == [b"a" * 100, b"b" * 100, b"c" * 100]
-
-
 def test_unconfirmed_segments_are_written_again(path, monkeypatch):
     file = SegmentFile(path)
     file.append(b"kept")
@@ -109,15 +94,6 @@ def test_unconfirmed_bytes_are_limited(path, monkeypatch):
     file.append(b"b")
     file.close()
     assert read_contents(path) == [b"a" * 101, b"b"]
-
-
-def test_a_file_that_is_being_written_is_left_alone(path):
-    file = SegmentFile(path)
-    file.append(b"one")
-    with pytest.raises(RecordingError, match="still being recorded"):
-        SegmentReader(path)
-    file.close()
-    assert read_contents(path) == [b"one"]
 
 
 @pytest.mark.parametrize(
