@@ -75,7 +75,7 @@ def use_model(harness, model):
 
 
 @pytest.fixture
-def worn_machine(harness):
+def machine(harness):
     """A simulated machine with a hysteresis that its nominal model lacks."""
     harness.step(times=3)
     harness.session.service.set_effects([LOOP])
@@ -102,75 +102,61 @@ def measure_gaps(finished):
     ]
 
 
-# One object
-
-
-def test_the_id_of_a_model_depends_on_its_contents():
+def test_a_model_is_known_by_its_contents_and_predicts_like_that_of_its_diagnosis():
     driver = Simulator(ROBOT)
-    nominal = ModelInUse.make_nominal(driver)
-    model, same, other = (
-        make_corrected_model(driver),
-        make_corrected_model(driver),
-        make_corrected_model(driver, offset=1e-7),
-    )
+    nominal, model = ModelInUse.make_nominal(driver), make_corrected_model(driver)
     assert nominal.id.startswith("nominal-")
     assert not nominal.is_corrected
-    assert model.id == same.id != other.id
-    assert model.robot.effects == (LOOP,)
+    offset_model = make_corrected_model(driver, offset=1e-7)
+    assert model.id == make_corrected_model(driver).id != offset_model.id
     assert model.nominal is ROBOT
     with pytest.raises(AttributeError):
         model.id = "another"
-
-
-def test_a_model_predicts_like_that_of_its_diagnosis_whatever_the_machine():
-    used = make_corrected_model(Simulator(ROBOT), offset=1e-7)
     computed = ModelInUse.from_diagnosis(make_diagnosis(LOOP, offset=1e-7))
-    assert used.id != computed.id
-    assert used.predicts_like(computed)
+    assert offset_model.id != computed.id
+    assert offset_model.predicts_like(computed)
     for diagnosis in (make_diagnosis(LOOP), make_diagnosis(LOOP, CONTACT, offset=1e-7)):
-        assert not used.predicts_like(ModelInUse.from_diagnosis(diagnosis))
+        assert not offset_model.predicts_like(ModelInUse.from_diagnosis(diagnosis))
 
 
-def test_effects_that_no_command_predicts_are_omitted():
-    model = make_corrected_model(Simulator(ROBOT), LOOP, NOISE)
-    assert model.effects == (LOOP,)
+def test_a_model_has_the_effects_that_commands_predict_and_can_omit_contact():
+    model = make_corrected_model(Simulator(ROBOT), LOOP, CONTACT, NOISE)
+    assert model.robot.effects == model.effects == (LOOP, CONTACT)
+    assert model.contact_like_effects == (CONTACT,)
+    assert model.without_contact.effects == (LOOP,)
     with pytest.raises(ModelError, match="nothing that commands can predict"):
         make_corrected_model(Simulator(ROBOT), NOISE)
-
-
-def test_a_diagnosis_of_another_robot_file_is_refused():
     other = replace(ROBOT, name="another")
     with pytest.raises(ModelError, match="diagnose again"):
         ModelInUse.make_corrected(make_diagnosis(LOOP, robot=other), Simulator(ROBOT))
 
 
-def test_contact_like_effects_can_be_omitted_for_a_penetration():
-    model = make_corrected_model(Simulator(ROBOT), LOOP, CONTACT)
-    assert model.contact_like_effects == (CONTACT,)
-    assert model.robot.effects == (LOOP, CONTACT)
-    assert model.without_contact.effects == (LOOP,)
-
-
-# In the session
-
-
-def test_the_session_shows_the_corrected_model_at_once(worn_machine):
-    model = make_corrected_model(worn_machine.driver)
-    before = measure_gaps(play_swing(worn_machine))
+def test_the_session_shows_the_corrected_model_at_once_and_the_nominal_one_again(machine):
+    model = make_corrected_model(machine.driver)
+    before = measure_gaps(play_swing(machine))
     assert before[0] == pytest.approx(before[1])
-    state = use_model(worn_machine, model)
-    assert (worn_machine.session.model, state.model_id) == (model, model.id)
-    assert [event.model for event in worn_machine.list_events(ModelChanged)] == [model]
-    finished = play_swing(worn_machine, 0.35)
+    switched_s = machine.session.snapshot().device_time_s
+    state = use_model(machine, model)
+    assert (machine.session.model, state.model_id) == (model, model.id)
+    assert [event.model for event in machine.list_events(ModelChanged)] == [model]
+    window = machine.session.history.tail()
+    assert window.gap_since_s == pytest.approx(switched_s, abs=0.05)
+    is_after_switch = window.device_time_s > window.gap_since_s
+    assert (window.model[is_after_switch, -1] != window.nominal[is_after_switch, -1]).all()
+    np.testing.assert_array_equal(window.model[~is_after_switch], window.nominal[~is_after_switch])
+    finished = play_swing(machine, 0.35)
     in_use, nominal = measure_gaps(finished)
     assert in_use < 0.05 * nominal
     assert in_use < 3.0 * FLOOR
     assert finished.model is model
     assert finished.record.metadata["model"] == model.id
     assert finished.record.metadata["effects"] == f"{LOOP.axis} {LOOP.id}"
-    latest_state = worn_machine.session.snapshot()
-    assert abs(latest_state.measured["zn"] - latest_state.model["zn"]) < 6.0 * FLOOR
-    assert abs(latest_state.measured["zn"] - latest_state.nominal["zn"]) > 20.0 * FLOOR
+    state = machine.session.snapshot()
+    assert abs(state.measured["zn"] - state.model["zn"]) < 6.0 * FLOOR
+    assert abs(state.measured["zn"] - state.nominal["zn"]) > 20.0 * FLOOR
+    state = use_model(machine, ModelInUse.make_nominal(machine.driver))
+    assert state.model_id.startswith("nominal-")
+    assert machine.step().model["zn"] == machine.session.snapshot().nominal["zn"]
 
 
 def test_the_model_does_not_change_the_commands(make_harness):
@@ -184,85 +170,49 @@ def test_the_model_does_not_change_the_commands(make_harness):
     np.testing.assert_array_equal(*commands)
 
 
-def test_the_nominal_model_can_be_restored(worn_machine):
-    play_swing(worn_machine)
-    use_model(worn_machine, make_corrected_model(worn_machine.driver))
-    state = use_model(worn_machine, ModelInUse.make_nominal(worn_machine.driver))
-    assert state.model_id.startswith("nominal-")
-    assert worn_machine.step().model["zn"] == worn_machine.session.snapshot().nominal["zn"]
-
-
-def test_the_model_is_switched_only_at_rest(worn_machine):
-    worn_machine.session.jog("zn", 1e-5)
+def test_the_model_is_switched_only_at_rest_and_recordings_name_it(machine, tmp_path):
+    model, session = make_corrected_model(machine.driver), machine.session
+    recorder = SessionRecorder(session, tmp_path / "one.arrows", clock=machine.clock)
+    recorder.start(thread=False)
+    session.jog("zn", 1e-5)
     with pytest.raises(RequestRefusedError, match="still moving"):
-        worn_machine.session.use_model(make_corrected_model(worn_machine.driver))
-    worn_machine.step_until_idle()
-    use_model(worn_machine, make_corrected_model(worn_machine.driver))
-    assert worn_machine.session.model.is_corrected
-
-
-def test_a_motion_that_began_meanwhile_keeps_the_model(worn_machine):
-    model = make_corrected_model(worn_machine.driver)
-    worn_machine.session.jog("zn", 1e-5)
+        session.use_model(model)
     prepared = PreparedModel.of(model, CommandMemory())
     # As if it had been requested a moment earlier.
-    worn_machine.session._link.queue_driver_call(
-        lambda _, __: worn_machine.session._link.worker.use_model(prepared)
-    )
-    worn_machine.step()
-    assert "still moving" in worn_machine.list_events(CommandRefused)[0].message
-    assert not worn_machine.session.model.is_corrected
-
-
-def test_the_gap_restarts_at_the_switch(worn_machine):
-    play_swing(worn_machine)
-    switched_s = worn_machine.session.snapshot().device_time_s
-    use_model(worn_machine, make_corrected_model(worn_machine.driver))
-    window = worn_machine.session.history.tail()
-    assert window.gap_since_s == pytest.approx(switched_s, abs=0.05)
-    is_after_switch = window.device_time_s > window.gap_since_s
-    assert (window.model[is_after_switch, -1] != window.nominal[is_after_switch, -1]).all()
-    np.testing.assert_array_equal(window.model[~is_after_switch], window.nominal[~is_after_switch])
-
-
-def test_a_recording_names_the_model_in_use(worn_machine, tmp_path):
-    play_swing(worn_machine)
-    recorder = SessionRecorder(
-        worn_machine.session, tmp_path / "one.arrows", clock=worn_machine.clock
-    )
-    recorder.start(thread=False)
-    model = make_corrected_model(worn_machine.driver)
-    use_model(worn_machine, model)
+    session._link.queue_driver_call(lambda _, __: session._link.worker.use_model(prepared))
+    machine.step()
+    assert "still moving" in machine.list_events(CommandRefused)[0].message
+    assert not session.model.is_corrected
+    machine.step_until_idle()
+    use_model(machine, model)
+    assert session.model is model
     recorder.writer.run_once()
     recording = Recording.open(recorder.close())
     assert recording.metadata["model"].startswith("nominal-")
     assert [event.text for event in recording.read_events() if event.kind == "model"] == [model.id]
 
 
-# Memory
-
-
-def test_the_switch_keeps_the_memory_of_the_past(worn_machine):
+def test_the_switch_keeps_the_memory_of_the_past(machine):
     """After a swing long ago, a rest and another move, the model agrees with the machine."""
-    play_swing(worn_machine, 0.49)
-    worn_machine.session.jog("zn", -7e-6)
-    worn_machine.step_until_idle()
-    worn_machine.step(0.02, 100)
-    state = use_model(worn_machine, make_corrected_model(worn_machine.driver))
+    play_swing(machine, 0.49)
+    machine.session.jog("zn", -7e-6)
+    machine.step_until_idle()
+    machine.step(0.02, 100)
+    state = use_model(machine, make_corrected_model(machine.driver))
     assert state.unsettled == ()
-    state = worn_machine.step(0.02, 3)
+    state = machine.step(0.02, 3)
     assert abs(state.measured["zn"] - state.model["zn"]) < 6.0 * FLOOR
 
 
-def test_an_unknown_past_is_reported_until_a_swing_settles_it(worn_machine):
-    use_model(worn_machine, make_corrected_model(worn_machine.driver))
-    state = worn_machine.step(0.02, 5)
+def test_an_unknown_past_is_reported_until_a_swing_settles_it(machine):
+    use_model(machine, make_corrected_model(machine.driver))
+    state = machine.step(0.02, 5)
     assert state.unsettled == ("zn",)
-    assert worn_machine.session.history.tail().doubt[-1, -1] > 10.0 * FLOOR
-    play_swing(worn_machine, 0.49)
-    state = worn_machine.step(0.02, 100)
+    assert machine.session.history.tail().doubt[-1, -1] > 10.0 * FLOOR
+    play_swing(machine, 0.49)
+    state = machine.step(0.02, 100)
     assert state.unsettled == ()
-    assert worn_machine.session.history.tail().doubt[-1].max() == 0.0
+    assert machine.session.history.tail().doubt[-1].max() == 0.0
 
 
 def test_the_true_output_lies_within_the_doubt():
@@ -295,7 +245,7 @@ def test_a_model_without_memory_has_no_doubt():
     np.testing.assert_allclose(predicted[:, -1] - nominal[:, -1], 3e-5 * 0.02 + 3e-7, rtol=1e-3)
 
 
-def test_a_rest_takes_two_rows_of_the_memory_and_a_motion_all_rows():
+def test_a_rest_takes_two_rows_of_the_bounded_memory_and_a_motion_all_rows():
     memory = CommandMemory()
     time_s = np.arange(10_000) * 1e-3
     positions = np.clip(time_s - 4.0, 0.0, 1.0) * 1e-5
@@ -308,56 +258,46 @@ def test_a_rest_takes_two_rows_of_the_memory_and_a_motion_all_rows():
     np.testing.assert_allclose(np.interp(time_s, stored_s, command[:, -1]), positions, atol=1e-12)
     memory.clear()
     assert not len(memory.read_history()[0])
-
-
-def test_the_memory_is_bounded():
     memory = CommandMemory(max_rows=500)
     for first in range(0, 2000, 100):
-        time_s = np.arange(first, first + 100) * 1e-3
-        memory.add(make_samples(time_s, time_s * 1e-6))
+        memory.add(make_samples(time_s[first : first + 100], time_s[first : first + 100] * 1e-6))
     assert len(memory.read_history()[0]) <= 601
 
 
-# Of one machine
-
-
-def test_another_machine_begins_with_the_nominal_model_and_a_reason(worn_machine, clock):
-    play_swing(worn_machine)
-    use_model(worn_machine, make_corrected_model(worn_machine.driver))
+def test_another_machine_begins_with_the_nominal_model_and_a_reason(machine, clock):
+    play_swing(machine)
+    use_model(machine, make_corrected_model(machine.driver))
     other = Simulator(ROBOT, clock=clock)
     other.name = "another"
-    worn_machine.session.use_driver(other)
-    worn_machine.step(times=3)
-    event = worn_machine.list_events(ModelChanged)[-1]
+    machine.session.use_driver(other)
+    machine.step(times=3)
+    event = machine.list_events(ModelChanged)[-1]
     assert not event.model.is_corrected
     assert "driver" in event.why
-    assert not worn_machine.session.model.is_corrected
+    assert not machine.session.model.is_corrected
 
 
-def test_the_same_machine_keeps_its_model_but_not_its_memory(worn_machine):
-    play_swing(worn_machine)
-    model = make_corrected_model(worn_machine.driver)
-    use_model(worn_machine, model)
-    worn_machine.session.disconnect()
-    worn_machine.step()
-    worn_machine.session.connect()
-    worn_machine.step(times=3)
-    assert worn_machine.session.model is model
-    assert worn_machine.session.snapshot().unsettled == ("zn",)
+def test_the_same_machine_keeps_its_model_but_not_its_memory(machine):
+    play_swing(machine)
+    model = make_corrected_model(machine.driver)
+    use_model(machine, model)
+    machine.session.disconnect()
+    machine.step()
+    machine.session.connect()
+    machine.step(times=3)
+    assert machine.session.model is model
+    assert machine.session.snapshot().unsettled == ("zn",)
 
 
-def test_a_model_of_another_machine_is_refused(worn_machine):
-    model = make_corrected_model(worn_machine.driver)
+def test_a_model_of_another_machine_is_refused(machine):
+    model = make_corrected_model(machine.driver)
     other = replace(model, machine=MachineIdentity("0" * 64, model.machine.driver))
-    use_model(worn_machine, other)
+    use_model(machine, other)
     assert (
         "belongs to another machine: the robot file has changed"
-        in worn_machine.list_events(CommandRefused)[0].message
+        in machine.list_events(CommandRefused)[0].message
     )
-    assert not worn_machine.session.model.is_corrected
-
-
-# Protection
+    assert not machine.session.model.is_corrected
 
 
 def test_the_bound_of_a_playback_applies_to_both_models():
@@ -372,43 +312,41 @@ def test_the_bound_of_a_playback_applies_to_both_models():
     assert watch.gaps["zn"].rms == 0.0
 
 
-def test_a_corrected_model_does_not_loosen_the_bound_of_a_playback(worn_machine):
-    play_swing(worn_machine)
-    use_model(worn_machine, make_corrected_model(worn_machine.driver))
+def test_a_corrected_model_does_not_loosen_the_bound_of_a_playback(machine):
+    play_swing(machine)
+    use_model(machine, make_corrected_model(machine.driver))
     messages = []
-    playback = Playback(worn_machine.session, messages.append)
+    playback = Playback(machine.session, messages.append)
     playback.play(
-        accept_trajectory(ROBOT, make_swing(), worn_machine.session.setpoint_period_s),
+        accept_trajectory(ROBOT, make_swing(), machine.session.setpoint_period_s),
         bounds={"zn": 1e-6},
     )
-    worn_machine.step_until(DeviceState.PLAYING)
-    worn_machine.step_until_idle()
+    machine.step_until(DeviceState.PLAYING)
+    machine.step_until_idle()
     assert [message.startswith("axis zn deviates") for message in messages] == [True]
     playback.close()
 
 
-def test_only_the_nominal_model_judges_the_tip(worn_machine):
-    play_swing(worn_machine)
-    before = (
-        worn_machine.step() and worn_machine.session._link.worker.deviation.current_deviation[-1]
-    )
-    use_model(worn_machine, make_corrected_model(worn_machine.driver))
-    after = (
-        worn_machine.step(times=3)
-        and worn_machine.session._link.worker.deviation.current_deviation[-1]
-    )
+def test_only_the_nominal_model_judges_the_tip(machine):
+    play_swing(machine)
+    deviation = machine.session._link.worker.deviation
+    machine.step()
+    before = deviation.current_deviation[-1]
+    use_model(machine, make_corrected_model(machine.driver))
+    machine.step(times=3)
+    after = deviation.current_deviation[-1]
     assert after == pytest.approx(before, abs=5.0 * FLOOR)
     assert abs(after) > 20.0 * FLOOR
 
 
-def test_a_fault_during_a_record_is_noted_in_it(worn_machine):
-    worn_machine.session.play(make_swing())
-    worn_machine.step_until(DeviceState.PLAYING)
-    worn_machine.session.note_contact("the tip was in contact")
-    worn_machine.step_until_idle()
+def test_a_fault_during_a_record_is_noted_in_it(machine):
+    machine.session.play(make_swing())
+    machine.step_until(DeviceState.PLAYING)
+    machine.session.note_contact("the tip was in contact")
+    machine.step_until_idle()
     assert (
-        worn_machine.list_events(PlaybackFinished)[0].record.metadata["noted"]
+        machine.list_events(PlaybackFinished)[0].record.metadata["noted"]
         == "the tip was in contact"
     )
-    assert "noted" not in play_swing(worn_machine).record.metadata
-    assert not worn_machine.list_events(AlarmRaised)
+    assert "noted" not in play_swing(machine).record.metadata
+    assert not machine.list_events(AlarmRaised)
