@@ -27,16 +27,16 @@ PROGRAMS = {
 }
 DISCONNECT_STEPS = ("reconnected", "drop", "shut", "halt own", "close")
 CONNECT_STEPS = ("drop", "open", "reconnected", "connected")
-#: Mistakes in the gate that the walk must find.
+#: Mistakes in the gate that the walk must find, with the actors that reveal them.
 FLAWS = {
-    "the permit is drawn after the check",
-    "the permit is stamped when it is taken",
-    "the gate is checked only before the write",
-    "the gate is shut after the drivers were halted",
-    "a latch is not checked",
-    "a stop reaches only one driver",
-    "a connection is not counted",
-    "a lease is checked only before the write",
+    "the permit is drawn after the check": ("move", "stop"),
+    "the permit is stamped when it is taken": ("move", "stop"),
+    "the gate is checked only before the write": ("move", "stop"),
+    "the gate is shut after the drivers were halted": ("move", "stop"),
+    "a latch is not checked": ("clear", "emergency"),
+    "a stop reaches only one driver": ("move", "stop", "use"),
+    "a connection is not counted": ("move", "use"),
+    "a lease is checked only before the write": ("speed", "wait"),
 }
 
 
@@ -51,8 +51,7 @@ class Counts(NamedTuple):
 _NO_COUNTS = Counts()
 
 
-@dataclass(frozen=True, slots=True)
-class Request:
+class Request(NamedTuple):
     """A request with its permit, and the events before it."""
 
     kind: str
@@ -62,8 +61,7 @@ class Request:
     opening: int = 0
 
 
-@dataclass(frozen=True, slots=True)
-class State:
+class State(NamedTuple):
     """The complete state of the model; equal states have an equal future."""
 
     # Index of the next step of each actor.
@@ -90,8 +88,6 @@ class State:
     lease_over: bool = False
     begun_stops: frozenset[str] = frozenset()
     returned_stops: frozenset[str] = frozenset()
-    # The kinds of requests that a device executed.
-    executed_kinds: frozenset[str] = frozenset()
     violation: str | None = None
 
 
@@ -149,8 +145,8 @@ class Model:
             and not after.returned_stops <= moving.stops
             and after.violation is None
         ):
-            after = replace(
-                after, violation="a request from before a stop moves after the stop has returned"
+            after = after._replace(
+                violation="a request from before a stop moves after the stop has returned"
             )
         return after
 
@@ -195,44 +191,44 @@ class Model:
 
     def _shut(self, state: State, *, latch: bool = False) -> State:
         counts = state.counts._replace(stops=state.counts.stops + 1)
-        return replace(state, counts=counts, latched=state.latched or latch)
+        return state._replace(counts=counts, latched=state.latched or latch)
 
     def _reconnected(self, state: State) -> State:
         if self.flaw == "a connection is not counted":
             return state
         counts = state.counts._replace(connections=state.counts.connections + 1)
-        return replace(state, counts=counts)
+        return state._replace(counts=counts)
 
     def _act(self, state: State, actor: str) -> State:
         index = self.actors.index(actor)
         step = self.programs[index][state.at[index]]
-        state = replace(state, at=_with(state.at, index, state.at[index] + 1))
+        state = state._replace(at=_with(state.at, index, state.at[index] + 1))
         if step in ("draw", "check", "pass", "queue"):
             return self._ask(state, index, step)
         if step in ("shut", "drop", "look", "halt", "return"):
             return self._halt(state, index, step)
         if step == "release":
             counts = state.counts._replace(releases=state.counts.releases + 1)
-            return replace(state, counts=counts, latched=False)
+            return state._replace(counts=counts, latched=False)
         if step == "connection own":
             if actor == "reconnect" and state.connected:
                 return state
-            return replace(state, connection_request=state.session_driver)
+            return state._replace(connection_request=state.session_driver)
         if step == "connection nothing":
-            return replace(state, connection_request="nothing")
+            return state._replace(connection_request="nothing")
         if step == "exchange":
-            return replace(state, session_driver="b")
+            return state._replace(session_driver="b")
         if step == "reconnected":
             return self._reconnected(state)
-        return replace(state, lost=True) if step == "lose" else replace(state, lease_over=True)
+        return state._replace(lost=True) if step == "lose" else state._replace(lease_over=True)
 
     def _ask(self, state: State, index: int, step: str) -> State:
         request = state.requests[index]
         if step == self.programs[index][0]:
-            request = replace(request, stops=state.begun_stops, opening=state.opening)
+            request = request._replace(stops=state.begun_stops, opening=state.opening)
         if step == "draw":
-            request = replace(request, permit=state.counts)
-        state = replace(state, requests=_with(state.requests, index, request))
+            request = request._replace(permit=state.counts)
+        state = state._replace(requests=_with(state.requests, index, request))
         exchanged = state.session_driver != state.worker_driver
         refused = {
             "check": (state.latched and self.flaw != "a latch is not checked")
@@ -241,29 +237,29 @@ class Model:
             "pass": step == "pass" and not self._passes(state, request),
         }
         if refused.get(step):
-            return replace(state, at=_with(state.at, index, len(self.programs[index])))
-        return replace(state, queue=(*state.queue, request)) if step == "queue" else state
+            return state._replace(at=_with(state.at, index, len(self.programs[index])))
+        return state._replace(queue=(*state.queue, request)) if step == "queue" else state
 
     def _halt(self, state: State, index: int, step: str) -> State:
         actor = self.actors[index]
         if step == self.programs[index][0]:
-            state = replace(state, begun_stops=state.begun_stops | {actor})
+            state = state._replace(begun_stops=state.begun_stops | {actor})
         if step == "shut":
             return self._shut(state, latch=actor == "emergency")
         if step == "drop":
-            return replace(state, queue=())
+            return state._replace(queue=())
         if step == "look":
             drivers = (state.worker_driver, state.session_driver)
             if self.flaw == "a stop reaches only one driver":
                 drivers = (state.session_driver, state.session_driver)
-            return replace(state, drivers_to_halt=_with(state.drivers_to_halt, index, drivers))
+            return state._replace(drivers_to_halt=_with(state.drivers_to_halt, index, drivers))
         if step == "halt":
             driver, *remaining = state.drivers_to_halt[index]
-            state = replace(
-                state, drivers_to_halt=_with(state.drivers_to_halt, index, tuple(remaining))
+            state = state._replace(
+                drivers_to_halt=_with(state.drivers_to_halt, index, tuple(remaining))
             )
             return _halted(state, driver)
-        return replace(state, returned_stops=state.returned_stops | {actor})
+        return state._replace(returned_stops=state.returned_stops | {actor})
 
     def _plan(self, state: State) -> tuple[str, ...]:
         """Return the worker's next steps: the rest of its current job, or a pending one."""
@@ -275,7 +271,7 @@ class Model:
 
     def _work(self, state: State) -> State:
         step, *remaining = self._plan(state)
-        state = replace(state, worker=tuple(remaining))
+        state = state._replace(worker=tuple(remaining))
         if step == "take connection":
             return self._take_connection(state)
         if step == "take":
@@ -290,16 +286,16 @@ class Model:
 
     def _connect(self, state: State, step: str, remaining: list[str]) -> State:
         if step == "drop":
-            return replace(state, queue=(), current_request=None)
+            return state._replace(queue=(), current_request=None)
         if step == "halt own":
             return _halted(state, state.worker_driver)
         if step == "close":
-            return replace(state, open=None, moving=None, connected=False)
+            return state._replace(open=None, moving=None, connected=False)
         if step == "exchange":
-            return replace(state, worker_driver=remaining[0], worker=tuple(remaining[1:]))
+            return state._replace(worker_driver=remaining[0], worker=tuple(remaining[1:]))
         if step == "open":
-            return replace(state, open=state.worker_driver, opening=state.opening + 1, lost=False)
-        return replace(state, connected=True) if step == "connected" else state
+            return state._replace(open=state.worker_driver, opening=state.opening + 1, lost=False)
+        return state._replace(connected=True) if step == "connected" else state
 
     def _take_connection(self, state: State) -> State:
         requested, steps = state.connection_request, ()
@@ -309,22 +305,22 @@ class Model:
             steps = (*steps, "exchange", str(requested), *CONNECT_STEPS)
         elif requested == state.worker_driver and not state.connected:
             steps = CONNECT_STEPS
-        return replace(state, connection_request=None, worker=steps)
+        return state._replace(connection_request=None, worker=steps)
 
     def _take(self, state: State) -> State:
         # A stop has dropped the queue in the meantime.
         if not state.queue:
-            return replace(state, worker=())
+            return state._replace(worker=())
         request, *queue = state.queue
         if self.flaw == "the permit is stamped when it is taken":
-            request = replace(request, permit=state.counts)
-        return replace(state, current_request=request, queue=tuple(queue))
+            request = request._replace(permit=state.counts)
+        return state._replace(current_request=request, queue=tuple(queue))
 
     def _hand_over(self, state: State, *, writes: bool) -> State:
         request = state.current_request
         if request is None or not self._passes(state, request, writes=writes):
-            return replace(state, current_request=None, worker=())
-        return self._written(replace(state, current_request=None), request) if writes else state
+            return state._replace(current_request=None, worker=())
+        return self._written(state._replace(current_request=None), request) if writes else state
 
     def _written(self, state: State, request: Request) -> State:
         violation = None
@@ -337,12 +333,7 @@ class Model:
         elif request.kind == "speed" and state.lease_over:
             violation = "a speed is written after its lease has run out"
         moving = state.moving if request.kind == "clear" else request
-        return replace(
-            state,
-            moving=moving,
-            executed_kinds=state.executed_kinds | {request.kind},
-            violation=violation,
-        )
+        return state._replace(moving=moving, violation=violation)
 
 
 def _with(values, index, value):
@@ -350,4 +341,4 @@ def _with(values, index, value):
 
 
 def _halted(state: State, driver: str) -> State:
-    return replace(state, moving=None) if state.open == driver else state
+    return state._replace(moving=None) if state.open == driver else state

@@ -1,12 +1,12 @@
 """Stops from real threads between the check and the execution of a request: the machine holds.
 
-There are 200 stops of each kind, and a tenth of it on boards; `make soak` sets ROTEMINA_STRESS.
+There are 40 stops of each kind, and a tenth of it on boards; `make soak` sets ROTEMINA_STRESS.
 """
 
 import os
 import threading
 import time
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 
 import numpy as np
 import pytest
@@ -24,7 +24,7 @@ from rotemina.sim.robot_files import load_robot
 
 pytestmark = pytest.mark.slow
 ROBOT = load_robot("rotemina")
-TIMES = int(os.environ.get("ROTEMINA_STRESS", "200"))
+TIMES = int(os.environ.get("ROTEMINA_STRESS", "40"))
 BOARD_SHARE = 0.1  # of the number on the simulator, because their line is in real time
 # Of the stop after the request: about twice the time that the request takes to the device.
 MAX_DELAY_S = {
@@ -174,36 +174,27 @@ class StressedSession:
         assert self.is_lost() or dict(self.session.snapshot().command) == before
 
 
-@pytest.fixture
-def simulator():
-    @contextmanager
-    def simulator():
-        yield Simulator(ROBOT)
-
-    return simulator
-
-
-@pytest.fixture
-def boards(board_process):
-    @contextmanager
-    def boards():
-        with board_process("rotemina") as ((port, second), _):
-            yield MC68HC11Driver(ROBOT, {"port": port, "second_port": second})
-
-    return boards
-
-
-@pytest.mark.parametrize("machine", ["simulator", "boards"])
-@pytest.mark.parametrize("kind", ["go_to", "jog", "velocity", "play", "recentre", "penetrate"])
-def test_the_machine_holds_wherever_a_stop_meets_a_request(request, tmp_path, machine, kind):
+def run_stress(driver, folder, kinds, times):
+    """Stop ``times`` times during requests of each kind."""
     rng = np.random.default_rng(1)
-    times = TIMES if machine == "simulator" else max(round(BOARD_SHARE * TIMES), 1)
-    with request.getfixturevalue(machine)() as driver:
-        stress = StressedSession(MotionSession(driver), tmp_path)
-        try:
+    stress = StressedSession(MotionSession(driver), folder)
+    try:
+        for kind in kinds:
+            stress.begun_motions = 0
             for _ in range(times):
                 stress.stop_during_request(kind, rng.uniform(0.0, MAX_DELAY_S[kind]))
-        finally:
-            stress.operation.close()
-            stress.session.close()
-    print(f"{kind} on {machine}: {times} stops, {stress.begun_motions} of them during a motion")
+            print(f"{kind}: {times} stops, {stress.begun_motions} of them during a motion")
+    finally:
+        stress.operation.close()
+        stress.session.close()
+
+
+@pytest.mark.parametrize("kind", MAX_DELAY_S)
+def test_the_simulator_holds_wherever_a_stop_meets_a_request(tmp_path, kind):
+    run_stress(Simulator(ROBOT), tmp_path, (kind,), TIMES)
+
+
+def test_the_boards_hold_wherever_a_stop_meets_a_request(tmp_path, board_process):
+    with board_process("rotemina") as ((port, second), _):
+        driver = MC68HC11Driver(ROBOT, {"port": port, "second_port": second})
+        run_stress(driver, tmp_path, MAX_DELAY_S, max(round(BOARD_SHARE * TIMES), 1))
