@@ -91,17 +91,21 @@ def test_a_wrong_reading_locks_motion_until_repaired_and_confirmed(make_misreadi
     harness.driver.errors = {"z": -0.04}
     state = harness.step(times=8)
     assert state.lock_reason.startswith("axis z reads 40 mm away from its command")
-    assert harness.list_events(FaultRaised)
+    assert "home, or confirm it" in state.lock_reason
+    assert len(harness.list_events(FaultRaised)) == 1
     stopped_x = harness.step_until_idle().command["x"]
     assert 0.0275 < stopped_x < 0.03
     for confirmed in (False, True):
         with pytest.raises(RequestRefusedError, match="motion is locked: axis z"):
             harness.session.go_to({"z": 0.005}, confirmed=confirmed)
+    harness.session.confirm_position()  # the error is still there
+    assert "axis z reads" in harness.step(0.02, 10).lock_reason
     harness.driver.errors = {}
     assert harness.step(0.02, 20).lock_reason is not None  # the repair is not confirmed yet
     harness.session.confirm_position()
     assert harness.step(times=3).lock_reason is None
     harness.session.go_to({"x": 0.03})
+    assert harness.step_until_idle().command["x"] == 0.03
 
 
 def lock_by_misreading(make_misreading, axis):
@@ -171,7 +175,7 @@ def test_removing_or_teaching_the_floor_keeps_the_objective(make_harness):
         harness.session.go_to({"z": 0.005})
 
 
-@pytest.mark.parametrize("clearance", [float("nan"), float("inf"), 1e308, 1.0, -1e-3])
+@pytest.mark.parametrize("clearance", [float("nan"), 1e308, 1.0, -1e-3])
 def test_an_invalid_floor_is_refused(make_harness, clearance):
     harness = make_harness(DISH, driver=Simulator)
     harness.step()
@@ -277,17 +281,21 @@ def attach_typical_effects(effect):
     return tuple(effects)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("effect", list_effect_ids())
 def test_no_typical_effect_locks_motion(make_harness, effect):
     effects = attach_typical_effects(effect)
     assert effects
     harness = make_harness(replace(ROBOT, effects=effects), driver=Simulator)
     harness.step()
-    cross_ranges(harness)
+    for share in (0.0, 1.0):
+        harness.session.go_to(
+            {name: axis.range[0] + share * axis.span for name, axis in ROBOT.axes.items()}
+        )
+        harness.step_until_idle()
+        harness.step(0.02, 10)
+    for axis in ("thx", "thy", "zn"):
+        harness.session.set_voltage(axis, 130.0)
+        harness.step_until_idle()
+        harness.step(0.02, 10)
     assert harness.session.snapshot().lock_reason is None
     assert not harness.list_events(FaultRaised)
-
-
-def test_there_are_thirty_effects():
-    assert len(list_effect_ids()) == 30

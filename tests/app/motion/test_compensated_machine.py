@@ -1,6 +1,7 @@
 """A worn machine with an inverse: the remaining error and its diagnosis."""
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -30,10 +31,8 @@ NOMINAL = load_robot("rotemina")
 SPAN = NOMINAL.axes["zn"].span
 COLUMN = tuple(NOMINAL.axes).index("zn")
 FORMULATIONS = ("prandtl_ishlinskii", "bouc_wen")
-MAX_ERROR_RATIO = {
-    "prandtl_ishlinskii": 0.05,
-    "bouc_wen": 0.25,
-}  # share of the error without the inverse
+# Share of the error without the inverse.
+MAX_ERROR_RATIO = {"prandtl_ishlinskii": 0.05, "bouc_wen": 0.25}
 MAX_ERROR_RATIO_AT_REST = 0.55  # slow creep continues at a constant set-point
 
 
@@ -57,8 +56,10 @@ def compute_error(record):
     return float(np.std((record.signal("zn", Tap.MEAS) - record.signal("zn", Tap.CMD))[1000:]))
 
 
-def train_inverse(robot):
-    """Return the recommended inverse for a machine."""
+@cache
+def train_inverse(formulation):
+    """Return the recommended inverse for a worn machine."""
+    robot = make_worn_robot(formulation)
     commands = make_excitation(robot, "zn", np.random.default_rng(0))
     run = simulate(robot, None, commands, np.random.default_rng(1))
     result = train(robot, [read_samples(robot, "zn", run)])
@@ -68,7 +69,7 @@ def train_inverse(robot):
 @pytest.mark.parametrize("formulation", FORMULATIONS)
 def test_with_the_inverse_the_diagnosis_finds_hardly_any_hysteresis(formulation):
     robot = make_worn_robot(formulation)
-    inverse = train_inverse(robot)
+    inverse = train_inverse(formulation)
     before = play_offline(robot, make_reference(), seed=3)
     after = play_offline(robot, make_reference(), seed=3, inverse=inverse)
     print(
@@ -93,7 +94,7 @@ def list_hysteresis_gaps(diagnosis):
 
 def test_a_penetration_with_the_inverse_keeps_its_profile_within_one_percent():
     robot, tick_s, steps_per_tick, start = make_worn_robot("prandtl_ishlinskii"), 1e-3, 20, 63e-6
-    inverse, clock = train_inverse(robot), VirtualClock(1.0)
+    inverse, clock = train_inverse("prandtl_ishlinskii"), VirtualClock(1.0)
     session = MotionSession(Simulator(robot, clock=clock))
     penetration, samples = PenetrationController(session), []
     session.tap(lambda portion, _: samples.append(portion))
@@ -128,11 +129,10 @@ def test_a_penetration_with_the_inverse_keeps_its_profile_within_one_percent():
         run_steps()
     run_steps(20)
 
-    column = tuple(robot.axes).index("zn")
     wanted_commands = np.concatenate([portion.command for portion in samples])
     sent_commands = wanted_commands.copy()
-    sent_commands[:, column] = robot.axes["zn"].gain * np.concatenate(
-        [portion.inputs[:, column] for portion in samples]
+    sent_commands[:, COLUMN] = robot.axes["zn"].gain * np.concatenate(
+        [portion.inputs[:, COLUMN] for portion in samples]
     )
     plant = Plant.of(robot, closed_loop=True)
     time_s = np.arange(1, steps_per_tick * len(sent_commands) + 1) * tick_s / steps_per_tick
@@ -141,11 +141,11 @@ def test_a_penetration_with_the_inverse_keeps_its_profile_within_one_percent():
         time_s,
         np.repeat(sent_commands, steps_per_tick, axis=0),
     )
-    moving_ticks = np.flatnonzero(np.diff(wanted_commands[:, column]))
+    moving_ticks = np.flatnonzero(np.diff(wanted_commands[:, COLUMN]))
     # A rest separates the thrust.
     origin = steps_per_tick * moving_ticks[np.flatnonzero(np.diff(moving_ticks) > 50)[-1] + 1]
     since_s = time_s[origin:] - time_s[origin]
-    travel = motion.position[origin:, column] - motion.position[origin, column]
+    travel = motion.position[origin:, COLUMN] - motion.position[origin, COLUMN]
     plan = plan_thrust(robot, parameters, tick_s)
     compute_error = np.abs(travel - plan.target_shape.position(since_s))[
         since_s < parameters.duration_s + 0.05
@@ -160,7 +160,7 @@ def test_a_penetration_with_the_inverse_keeps_its_profile_within_one_percent():
 def test_a_sweep_removes_the_influence_of_an_unknown_past(formulation, max_offset):
     # The memory of a Bouc-Wen model fades during motion, so a sweep changes little there.
     robot = make_worn_robot(formulation)
-    inverse, remaining_offsets = train_inverse(robot), []
+    inverse, remaining_offsets = train_inverse(formulation), []
     for with_sweep in (False, True):
         clock = VirtualClock()
         machine = Simulator(robot, clock=clock)
@@ -196,7 +196,7 @@ def test_an_inverse_brings_single_moves_nearer_to_their_targets(formulation, mon
     for module in (compensation, executor):
         monkeypatch.setattr(module, "HysteresisCompensator", type(None))
     robot, deviations_per_run = make_worn_robot(formulation), []
-    for inverse in (None, train_inverse(robot)):
+    for inverse in (None, train_inverse(formulation)):
         clock = VirtualClock()
         session = MotionSession(Simulator(robot, clock=clock))
         session.connect()

@@ -1,14 +1,11 @@
 """End to end: a trajectory on virtual boards at the real baud rate, recorded and diagnosed."""
 
-import threading
-import time
-from contextlib import suppress
 from importlib.resources import files
 
 import numpy as np
 import pytest
+from tests.app.motion.event_log import EventLog
 
-from rotemina.app.errors import RequestRefusedError
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import (
     CommandRefused,
@@ -29,38 +26,6 @@ DURATION_S = 8.0
 PERIOD_S = 5e-3
 STANDSTILL_STATES = (DeviceState.IDLE, DeviceState.FAULT, DeviceState.CLOSED)
 GAP_MESSAGE = "samples are missing"
-MISBEHAVING_S = 25.0
-
-
-class EventLog:
-    """The events of a session, and methods that wait for them."""
-
-    def __init__(self, session, events):
-        self.session = session
-        self.events = events
-        self._changed = threading.Condition()
-        session.subscribe(self._note)
-
-    def _note(self, event):
-        with self._changed:
-            self.events.append(event)
-            self._changed.notify_all()
-
-    def wait_until(self, condition, limit_s):
-        with self._changed:
-            end_s = time.monotonic() + limit_s
-            while not condition():
-                remaining_s = end_s - time.monotonic()
-                assert remaining_s > 0.0, (self.session.snapshot(), self.events)
-                self._changed.wait(min(remaining_s, 0.05))
-
-    def wait_for_event(self, limit_s):
-        """Wait for the next event, at most for ``limit_s``."""
-        with self._changed:
-            self._changed.wait(limit_s)
-
-    def list_events(self, kind):
-        return [event for event in self.events if isinstance(event, kind)]
 
 
 def make_window(time_s):
@@ -143,50 +108,3 @@ def test_the_effect_of_a_machine_is_diagnosed(tmp_path, record_excitations, axis
     assert diagnosis.verdict.value == "explained"
     assert [(cause.axis, cause.effect) for cause in diagnosis.causes] == [(axis, effect)]
     assert diagnosis.causes[0].closed >= 0.95
-
-
-def recover(session):
-    """Do the next step of an operator who wants to move again."""
-    state = session.snapshot()
-    if state.phase is SessionPhase.DISCONNECTED:
-        session.reconnect()
-    elif state.fault is not None:
-        session.service.clear_fault()
-    elif state.unhomed:
-        session.home()
-    elif state.lock_reason and "confirm" in state.lock_reason:
-        session.confirm_position()
-
-
-def test_the_worker_survives_a_faulty_line(board_process):
-    rng = np.random.default_rng(0)
-    faults = ("silence 0.2 s", "silence 1 s", "reset 1", "brown-out 2", "garbage 20", "space 0.1 s")
-    with board_process("rotemina", "--mishaps", "2") as ((port, second), commands):
-        session = MotionSession(MC68HC11Driver(ROBOT, {"port": port, "second_port": second}))
-        event_log = EventLog(session, [])
-        session.start()
-        request_count = 0
-        try:
-            event_log.wait_until(
-                lambda: session.snapshot().phase is SessionPhase.READY, CONNECTING_S
-            )
-            end_s = time.monotonic() + MISBEHAVING_S
-            while time.monotonic() < end_s:
-                with suppress(RequestRefusedError):
-                    recover(session)
-                    session.go_to({"zn": float(rng.uniform(5e-6, 60e-6))})
-                    request_count += 1
-                if rng.uniform() < 0.05:
-                    commands.write(f"{faults[rng.integers(len(faults))]}\n")
-                    commands.flush()
-                until_s = min(time.monotonic() + 0.1, end_s)
-                while time.monotonic() < until_s:
-                    event_log.wait_for_event(until_s - time.monotonic())
-            session.stop()
-        finally:
-            has_closed = session.close()
-    assert has_closed
-    assert request_count > 20
-    assert not [
-        event for event in event_log.list_events(FaultRaised) if "unexpected" in event.message
-    ]
