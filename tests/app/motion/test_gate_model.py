@@ -1,6 +1,6 @@
 """Every interleaving of requests, stops and connections in the model.
 
-For the session see test_gate_traces.
+For two other actors, and for the session, see test_gate_traces.
 """
 
 import pytest
@@ -15,13 +15,6 @@ def test_no_violation_with_one_other_actor(request_name, other):
     walk = Model(request_name, other).walk()
     assert walk.states > 10
     assert not walk.faults
-
-
-@pytest.mark.parametrize(
-    "others", [("stop", "use"), ("emergency", "release"), ("lose", "reconnect")]
-)
-def test_no_violation_with_two_other_actors(others):
-    assert not Model("move", *others).walk().faults
 
 
 @pytest.mark.parametrize("flaw", FLAWS)
