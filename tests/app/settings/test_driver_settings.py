@@ -2,12 +2,7 @@
 
 import pytest
 
-from rotemina.app.settings import (
-    load_settings,
-    parse_assignments,
-    parse_setting,
-    store_settings,
-)
+from rotemina.app.settings import load_settings, parse_assignments, parse_setting, store_settings
 from rotemina.drivers.contract import DriverSettingError
 from rotemina.drivers.simulator import Simulator
 
