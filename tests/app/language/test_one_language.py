@@ -9,12 +9,7 @@ from string import Formatter
 
 import pytest
 
-from rotemina.app.language import (
-    LANGUAGE_KEY,
-    language,
-    translate,
-    translate_message,
-)
+from rotemina.app.language import LANGUAGE_KEY, language, translate, translate_message
 from rotemina.app.workbench.help_topics import explain_error
 from rotemina.drivers.contract import ConnectionLostError, DeviceState, find_driver
 from rotemina.drivers.simulator import Simulator
@@ -97,8 +92,7 @@ def make_nested_messages():
     yield outer.fill(fault=join_messages((inner, inner), "; "))
     yield outer.fill(fault=message("engine", "{what}: {error}").fill(what="home", error=inner))
     paused = translate(
-        "shell",
-        "Playback paused: {text}. Check the machine, then resume or end the playback.",
+        "shell", "Playback paused: {text}. Check the machine, then resume or end the playback."
     )
     yield paused.format(text=inner)
     yield paused.format(text=error)
@@ -160,7 +154,6 @@ def make_refused_requests(window, folder):
     bad.write_text("t [s],x.cmd [kg]\n0,1\n0,2\n", "utf-8")
     yield bench.play
     yield lambda: bench.records.save_record(folder / "a.csv")
-    yield lambda: bench.go_to({"zn": 70e-6})
     yield lambda: bench.go_to({"thy": 1.0, "zn": 1.0})
     yield lambda: bench.jog("thx", 1.0)
     yield lambda: bench.set_voltage("zn", 1e6)
