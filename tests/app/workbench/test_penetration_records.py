@@ -75,19 +75,15 @@ def test_a_penetration_that_never_started_is_not_kept(bench):
     assert not bench.operation.file.exists()
 
 
-def test_a_recording_of_the_operator_is_left_running(bench):
+@pytest.mark.parametrize("phase_before", [None, PenetrationPhase.APPROACH])
+def test_a_recording_of_the_operator_is_left_running(bench, phase_before):
+    if phase_before is not None:  # a recording of the penetration is running already
+        bench.update(phase_before)
+    calls = list(bench.operation.calls)
     bench.operation.recording = other_recording = object()
     bench.update(PenetrationPhase.APPROACH)
     bench.update(PenetrationPhase.DONE, 9.0)
-    assert bench.update(PenetrationPhase.DONE, 9.0) == []
-    assert bench.operation.recording is other_recording
-
-
-def test_a_recording_that_the_operator_replaced_is_not_ended(bench):
-    bench.update(PenetrationPhase.APPROACH)
-    bench.operation.recording = other_recording = object()
-    bench.update(PenetrationPhase.DONE, 9.0)
-    assert bench.update(PenetrationPhase.DONE, 9.0) == ["penetration"]
+    assert bench.update(PenetrationPhase.DONE, 9.0) == calls
     assert bench.operation.recording is other_recording
 
 

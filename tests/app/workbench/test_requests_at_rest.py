@@ -1,6 +1,7 @@
 """No waiting request is lost silently: it is carried out, or its withdrawal is reported."""
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -36,8 +37,8 @@ class RequestRecorder(OperatorRequests):
 
 
 @pytest.fixture
-def moving_machine(window, monkeypatch):
-    session = window.workbench.session
+def moving_machine(qapp, harness, monkeypatch):
+    session = harness.session
     monkeypatch.setattr(type(session), "at_rest", False)
     state = replace(session.snapshot(), activity=DeviceState.MOVING, lock_reason=None)
     monkeypatch.setattr(session, "snapshot", lambda: state)
@@ -54,10 +55,11 @@ def plan_swing(qtbot, window):
     return window.panels["trajectory"]
 
 
-def test_a_request_waits_at_most_two_seconds_for_rest(moving_machine):
+def test_a_request_waits_at_most_two_seconds_for_rest_and_counts_once(moving_machine):
     now = [0.0]
     scheduler = AtRestScheduler(moving_machine, lambda: now[0])
-    scheduler.do(WaitingRequest(moving_machine, WITHDRAWAL_TEXT), "request")
+    for press in ("first press", "second press"):
+        scheduler.do(WaitingRequest(moving_machine, WITHDRAWAL_TEXT), press)
     now[0] = 1.9
     scheduler.make_if_resting(moving_machine.session.snapshot())
     assert scheduler.waiting
@@ -65,36 +67,21 @@ def test_a_request_waits_at_most_two_seconds_for_rest(moving_machine):
     now[0] = 2.0
     scheduler.make_if_resting(moving_machine.session.snapshot())
     assert not scheduler.waiting
-    assert moving_machine.requests == ["request"]  # the session then refuses it with the reason
+    assert moving_machine.requests == ["second press"]  # the session refuses it with the reason
     assert moving_machine.messages == []
 
 
 def test_a_replaced_request_is_reported(moving_machine):
     scheduler, withdrawn = AtRestScheduler(moving_machine), []
-    scheduler.do(
-        WaitingRequest(
-            moving_machine, WITHDRAWAL_TEXT, on_refused=lambda: withdrawn.append("play")
-        ),
-        "play",
-    )
-    other = WaitingRequest(
-        moving_machine, "Not run: {why}.", on_refused=lambda: withdrawn.append("run")
-    )
-    scheduler.do(other, "run")
+    for name, text in (("play", WITHDRAWAL_TEXT), ("run", "Not run: {why}.")):
+        request = WaitingRequest(
+            moving_machine, text, on_refused=lambda name=name: withdrawn.append(name)
+        )
+        scheduler.do(request, name)
     assert withdrawn == ["play"]
     assert moving_machine.messages == [
         "Not played: another request took its place. Press Play again."
     ]
-
-
-def test_the_same_request_pressed_twice_counts_once(moving_machine):
-    scheduler, now = AtRestScheduler(moving_machine, lambda: now[0]), [0.0]
-    scheduler.do(WaitingRequest(moving_machine, WITHDRAWAL_TEXT), "first press")
-    scheduler.do(WaitingRequest(moving_machine, WITHDRAWAL_TEXT), "second press")
-    now[0] = 2.0
-    scheduler.make_if_resting(moving_machine.session.snapshot())
-    assert moving_machine.requests == ["second press"]
-    assert moving_machine.messages == []
 
 
 @pytest.mark.parametrize(
@@ -125,14 +112,6 @@ def test_an_overtaken_request_is_withdrawn_once_and_reported(moving_machine, cha
     assert moving_machine.messages == [f"Not played: {why}. Press Play again."]
 
 
-def test_play_on_a_locked_machine_says_why_nothing_plays(qtbot, window):
-    plan_swing(qtbot, window)
-    window.workbench.emergency_stop()
-    window.workbench.play()
-    qtbot.waitUntil(lambda: bool(get_notice_texts(window)), timeout=LONG_MS)
-    assert "lock" in get_notice_texts(window)[0]
-
-
 def test_play_shows_its_waiting_and_its_withdrawal_by_a_stop(qtbot, window, monkeypatch):
     panel, bench = plan_swing(qtbot, window), window.workbench
     transport = panel.transport
@@ -146,59 +125,47 @@ def test_play_shows_its_waiting_and_its_withdrawal_by_a_stop(qtbot, window, monk
     bench.stop()
     qtbot.waitUntil(lambda: bool(get_notice_texts(window)), timeout=LONG_MS)
     assert get_notice_texts(window) == ["Not played: a stop came meanwhile. Press Play again."]
+    bench.emergency_stop()
+    bench.play()
+    qtbot.waitUntil(lambda: len(get_notice_texts(window)) == 2, timeout=LONG_MS)
+    assert "lock" in get_notice_texts(window)[0]
 
 
-def test_play_during_a_dry_run_is_refused(qtbot, window):
-    panel, bench = plan_swing(qtbot, window), window.workbench
+def test_a_motion_is_not_played_if_its_dry_run_is_overtaken(qtbot, window):
+    panel, bench, played = plan_swing(qtbot, window), window.workbench, []
     with qtbot.waitSignal(bench.plan_changed, timeout=LONG_MS):
         bench.plan_trajectory("other", make_swing(1e-4))
         panel.update_now()
         assert "the dry run of other is under way" in panel.transport.play.toolTip()
         assert panel.transport.progress.format() == "Dry run of other …"
         bench.play()
-    assert get_notice_texts(window) == [
-        "Not played: the dry run of other has not ended yet. Press Play again."
-    ]
     assert bench.playback.state.phase is PlaybackPhase.IDLE
-
-
-def test_a_motion_waiting_for_its_dry_run_is_withdrawn_when_another_is_loaded(qtbot, window):
-    bench, played = window.workbench, []
     request = WaitingRequest(bench, WITHDRAWAL_TEXT)
     bench.plan_and_play("first", make_swing(), request, played.append)
     with qtbot.waitSignal(bench.plan_changed, timeout=LONG_MS):
         bench.plan_trajectory("second", make_swing())
     assert not request.is_waiting
-    assert played == []
-    assert get_notice_texts(window) == [
-        "Not played: another trajectory was loaded meanwhile. Press Play again."
-    ]
-
-
-def test_a_motion_waiting_for_its_dry_run_is_not_played_after_a_stop(qtbot, window):
-    bench, played = window.workbench, []
     with qtbot.waitSignal(bench.plan_changed, timeout=LONG_MS):
-        bench.plan_and_play(
-            "first", make_swing(), WaitingRequest(bench, WITHDRAWAL_TEXT), played.append
-        )
+        request = WaitingRequest(bench, WITHDRAWAL_TEXT)
+        bench.plan_and_play("third", make_swing(), request, played.append)
         bench.stop()
     assert played == []
-    assert get_notice_texts(window) == ["Not played: a stop came meanwhile. Press Play again."]
+    assert set(get_notice_texts(window)) == {
+        "Not played: the dry run of other has not ended yet. Press Play again.",
+        "Not played: another trajectory was loaded meanwhile. Press Play again.",
+        "Not played: a stop came meanwhile. Press Play again.",
+    }
 
 
-def test_a_file_replaced_while_being_read_is_reported(qtbot, window, tmp_path):
+def test_files_are_reported_when_written_at_once_or_replaced_while_being_read(
+    qtbot, window, tmp_path
+):
     paths = [tmp_path / "first.csv", tmp_path / "second.csv"]
     for path in paths:
-        write_record(make_swing(), path)
+        window.workbench.write_file("save", path, partial(write_record, make_swing(), path))
+    qtbot.waitUntil(lambda: len(get_notice_texts(window)) == 2, timeout=LONG_MS)
+    assert set(get_notice_texts(window)) == {f"Saved {path}" for path in paths}
     with qtbot.waitSignal(window.workbench.plan_changed, timeout=LONG_MS):
         for path in paths:
             window.workbench.planner.load_trajectory(path)
-    assert get_notice_texts(window) == ["Replaced by a newer request: Reading first.csv …"]
-
-
-def test_two_files_written_at_once_are_both_reported(qtbot, window, tmp_path):
-    paths = [tmp_path / "first.csv", tmp_path / "second.csv"]
-    for path in paths:
-        window.workbench.write_file("save", path, path.touch)
-    qtbot.waitUntil(lambda: len(get_notice_texts(window)) == 2, timeout=LONG_MS)
-    assert set(get_notice_texts(window)) == {f"Saved {path}" for path in paths}
+    assert "Replaced by a newer request: Reading first.csv …" in get_notice_texts(window)

@@ -7,12 +7,7 @@ from itertools import product
 import pytest
 
 from rotemina.app.motion.penetration import PenetrationPhase, PenetrationStatus
-from rotemina.app.motion.playback import (
-    PAUSE_REASON,
-    PlaybackPhase,
-    PlaybackState,
-    ResumeStep,
-)
+from rotemina.app.motion.playback import PAUSE_REASON, PlaybackPhase, PlaybackState, ResumeStep
 from rotemina.app.motion.state import (
     STOP_AND_LOCK_REASON,
     ConnectionState,
@@ -48,14 +43,11 @@ DEVIATION_TEXT = (
 
 
 def make_state(**changes):
-    """Return a session state with the reason why it is lock_reason."""
-    new_state = replace(READY, **changes)
-    lock_reason = changes.get("lock_reason") or find_lock_reason(new_state)
+    """Return a session state with the reason why it is locked."""
+    state = replace(READY, **changes)
+    reason = changes.get("lock_reason") or find_lock_reason(state)
     return replace(
-        new_state,
-        lock_reason=f"{new_state.latch_reason} is active"
-        if new_state.latch_reason
-        else lock_reason,
+        state, lock_reason=f"{state.latch_reason} is active" if state.latch_reason else reason
     )
 
 
@@ -63,245 +55,136 @@ def describe(session=READY, **other_fields):
     return describe_state(WindowSnapshot(ROBOT, session, **other_fields))
 
 
-ROWS = [
-    # session, the rest of the snapshot, headword, line 2, tone, remedy
-    (make_state(), {}, "Ready", "At rest; every axis can be moved.", "good", None),
-    (
-        make_state(connection=ConnectionState.DISCONNECTED, activity=DeviceState.CLOSED),
-        {},
-        "Disconnected",
-        "No machine is connected; nothing can be moved from here.",
-        "quiet",
-        StateRemedy.CONNECT,
-    ),
-    (
-        make_state(connection=ConnectionState.CONNECTING, activity=DeviceState.CLOSED),
-        {},
-        "Connecting",
-        "Waiting for the first answer of the device.",
-        "busy",
-        None,
-    ),
-    (
-        make_state(connection=ConnectionState.FAILED, fault="port COM7: there is no such port"),
-        {},
-        "Failed",
-        "Port COM7: there is no such port",
-        "danger",
-        StateRemedy.RECONNECT,
-    ),
-    (
-        make_state(connection=ConnectionState.FAILED, fault="unplugged", link_lost=True, age_s=3.0),
-        {},
-        "Link lost",
-        "No answer for 3.0 s; the machine may have moved. Unplugged",
-        "danger",
-        StateRemedy.RECONNECT,
-    ),
-    (
-        make_state(silent_s=0.3, activity=DeviceState.MOVING, owners={"x": "operator"}),
-        {},
-        "Link lost",
-        "No answer for 0.3 s; commands are refused until it answers.",
-        "warning",
-        None,
-    ),
-    (
-        make_state(activity=DeviceState.FAULT, fault="x: limit switch"),
-        {"playback": PAUSED},
-        "Fault",
-        "X: limit switch. Check the machine, then clear the fault.",
-        "danger",
-        StateRemedy.CLEAR_FAULT,
-    ),
-    (
-        make_state(
-            activity=DeviceState.FAULT, fault="overheated", latch_reason=STOP_AND_LOCK_REASON
-        ),
-        {},
-        "Fault",
-        "Overheated. The machine is locked as well: release it first.",
-        "danger",
-        StateRemedy.RELEASE,
-    ),
-    (
-        make_state(
-            latch_reason=STOP_AND_LOCK_REASON,
-            stop=StopRequest("operator", STOP_AND_LOCK_REASON, STOP_TIME),
-            halted=True,
-        ),
-        {"playback": PAUSED},
-        "Locked",
-        "Locked by the operator at 12:03:04. Release it to move.",
-        "danger",
-        StateRemedy.RELEASE,
-    ),
-    (
-        make_state(latch_reason="the stick's stop"),
-        {},
-        "Locked",
-        "The stick's stop is active. Release it to move.",
-        "danger",
-        StateRemedy.RELEASE,
-    ),
-    (
-        make_state(position_known=False, unhomed=("x", "y")),
-        {},
-        "Locked",
-        "The position of X, Y is not known; home first.",
-        "warning",
-        StateRemedy.HOME,
-    ),
-    (
-        make_state(
-            position_known=False,
-            unhomed=("x", "y"),
-            activity=DeviceState.HOMING,
-            owners={"x": "homing", "y": "homing"},
-        ),
-        {},
-        "Homing",
-        "Moving to find the limit switches of X, Y.",
-        "busy",
-        None,
-    ),
-    (
-        make_state(doubt="the connection was lost"),
-        {},
-        "Locked",
-        "The connection was lost: the position may be wrong; home, or confirm it.",
-        "warning",
-        StateRemedy.CONFIRM,
-    ),
-    (
-        make_state(activity=DeviceState.MOVING, owners={"x": "operator", "zn": "joystick"}),
-        {},
-        "Moving",
-        "Operator moves X; Joystick moves Z nano",
-        "busy",
-        None,
-    ),
-    (
-        make_state(activity=DeviceState.MOVING),
-        {},
-        "Moving",
-        "The machine moves without a command from this window; STOP halts it.",
-        "busy",
-        None,
-    ),
-    (
-        make_state(activity=DeviceState.MOVING, lock_reason="a replay is shown"),
-        {},
-        "Moving",
-        "The machine moves without a command from this window; STOP halts it. No new command is "
-        "accepted: a replay is shown",
-        "warning",
-        None,
-    ),
-    (
-        make_state(activity=DeviceState.PLAYING, progress=0.3, owners=ALL_AXES_PLAYED),
-        {"playback": replace(PLAYED, phase=PlaybackPhase.PLAYING, row=6199, path_s=62.0)},
-        "Playing 62 %",
-        "Playback moves all axes; 0:38 left",
-        "busy",
-        None,
-    ),
-    (
-        make_state(stopping=True, activity=DeviceState.MOVING, stop=OPERATOR_STOP, halted=True),
-        {},
-        "Stopping",
-        "The axes are coming to rest.",
-        "warning",
-        None,
-    ),
-    (
-        make_state(stop=OPERATOR_STOP, halted=True),
-        {},
-        "Stopped",
-        "Stopped by the operator at 12:03:04. The next command moves it again.",
-        "warning",
-        None,
-    ),
-    (
-        make_state(stop=OPERATOR_STOP),
-        {},
-        "Ready",
-        "At rest; every axis can be moved.",
-        "good",
-        None,
-    ),
-    (
-        make_state(stop=PAUSE_STOP, halted=True),
-        {"playback": PAUSED},
-        "Paused at row 5437",
-        "At rest; Resume continues from here, End ends the playback.",
-        "warning",
-        None,
-    ),
-    (
-        make_state(stop=OPERATOR_STOP, halted=True),
-        {"playback": PAUSED},
-        "Paused at row 5437",
-        "Stopped by the operator at 12:03:04. Resume continues from here.",
-        "warning",
-        None,
-    ),
-    (
-        make_state(stop=StopRequest("program", DEVIATION_TEXT, STOP_TIME), halted=True),
-        {"playback": replace(PAUSED, excess=DEVIATION_TEXT)},
-        "Paused at row 5437",
-        f"A{DEVIATION_TEXT[1:]}. Check the machine, then resume or end.",
-        "warning",
-        None,
-    ),
-    (
-        make_state(stop=PAUSE_STOP),
-        {"playback": replace(PAUSED, moved={"x": 2.7e-3, "thx": -1e-4})},
-        "Paused at row 5437",
-        "X moved 2.7 mm, θx moved 100 µrad since the pause; Resume asks how to continue.",
-        "warning",
-        None,
-    ),
-    (
-        make_state(activity=DeviceState.MOVING, owners=ALL_AXES_PLAYED),
-        {"playback": PAUSED, "resuming": ResumeStep.RETURNING},
-        "Moving",
-        "Moving back slowly to row 5437; then the playback resumes.",
-        "busy",
-        None,
-    ),
-    (
-        make_state(),
-        {"penetration": PenetrationStatus(PenetrationPhase.HOLD)},
-        "Penetration",
-        "Hold; it continues automatically.",
-        "busy",
-        None,
-    ),
-    (
-        make_state(),
-        {"penetration": PenetrationStatus(PenetrationPhase.ARMED)},
-        "Penetration",
-        "Armed; its button starts the run.",
-        "warning",
-        None,
-    ),
-    (
-        make_state(),
-        {"procedure": "autofocus"},
-        "Moving",
-        "Autofocus is under way and moves axes by itself.",
-        "busy",
-        None,
-    ),
-]
+def row(headword, reason, tone, remedy=None, *, rest=None, **session):
+    """Return a state of the session, the rest of the snapshot, and how they are displayed."""
+    return pytest.param(
+        make_state(**session), rest or {}, headword, reason, tone, remedy, id=reason[:40]
+    )
 
 
-@pytest.mark.parametrize(("session", "other_fields", "headword", "reason", "tone", "remedy"), ROWS)
-def test_a_state_is_described(session, other_fields, headword, reason, tone, remedy):
-    display = describe(session, **other_fields)
-    assert (display.headword, display.reason) == (headword, reason)
-    assert (display.tone, display.remedy) == (tone, remedy)
+FAILED, CLOSED, MOVES = ConnectionState.FAILED, DeviceState.CLOSED, DeviceState.MOVING
+UNHOMED = {"position_known": False, "unhomed": ("x", "y")}
+STOPPED = {"stop": OPERATOR_STOP, "halted": True}
+IS_PAUSED = {"playback": PAUSED}
+LOCK_STOP = StopRequest("operator", STOP_AND_LOCK_REASON, STOP_TIME)
+EXCESS_STOP = StopRequest("program", DEVIATION_TEXT, STOP_TIME)
+
+
+@pytest.mark.parametrize(
+    ("session", "rest", "headword", "reason", "tone", "remedy"),
+    [
+        row("Ready", "At rest; every axis can be moved.", "good"),
+        row("Ready", "At rest; every axis can be moved.", "good", stop=OPERATOR_STOP),
+        row(
+            *("Disconnected", "No machine is connected", "quiet", StateRemedy.CONNECT),
+            **{"connection": ConnectionState.DISCONNECTED, "activity": CLOSED},
+        ),
+        row(
+            *("Connecting", "Waiting for the first answer", "busy"),
+            **{"connection": ConnectionState.CONNECTING, "activity": CLOSED},
+        ),
+        row(
+            *("Failed", "Port COM7: there is no such port", "danger", StateRemedy.RECONNECT),
+            **{"connection": FAILED, "fault": "port COM7: there is no such port"},
+        ),
+        row(
+            "Link lost",
+            "No answer for 3.0 s; the machine may have moved. Unplugged",
+            *("danger", StateRemedy.RECONNECT),
+            **{"connection": FAILED, "fault": "unplugged", "link_lost": True, "age_s": 3.0},
+        ),
+        row(
+            *("Link lost", "No answer for 0.3 s; commands are refused", "warning"),
+            **{"silent_s": 0.3, "activity": MOVES, "owners": {"x": "operator"}},
+        ),
+        row(
+            "Fault",
+            "X: limit switch. Check the machine, then clear the fault.",
+            *("danger", StateRemedy.CLEAR_FAULT),
+            **{"rest": IS_PAUSED, "activity": DeviceState.FAULT, "fault": "x: limit switch"},
+        ),
+        row(
+            *("Fault", "locked as well: release it first.", "danger", StateRemedy.RELEASE),
+            **{"fault": "overheated", "latch_reason": STOP_AND_LOCK_REASON},
+        ),
+        row(
+            *("Locked", "Locked by the operator at 12:03:04.", "danger", StateRemedy.RELEASE),
+            **{"rest": IS_PAUSED, "latch_reason": STOP_AND_LOCK_REASON, "stop": LOCK_STOP},
+        ),
+        row(
+            *("Locked", "The stick's stop is active.", "danger", StateRemedy.RELEASE),
+            latch_reason="the stick's stop",
+        ),
+        row(
+            *("Locked", "The position of X, Y is not known", "warning", StateRemedy.HOME), **UNHOMED
+        ),
+        row(
+            *("Homing", "Moving to find the limit switches of X, Y.", "busy"),
+            **UNHOMED,
+            **{"activity": DeviceState.HOMING, "owners": {"x": "homing", "y": "homing"}},
+        ),
+        row(
+            *("Locked", "home, or confirm it", "warning", StateRemedy.CONFIRM),
+            doubt="the connection was lost",
+        ),
+        row(
+            *("Moving", "Operator moves X; Joystick moves Z nano", "busy"),
+            **{"activity": MOVES, "owners": {"x": "operator", "zn": "joystick"}},
+        ),
+        row("Moving", "moves without a command from this window", "busy", activity=MOVES),
+        row(
+            *("Moving", "No new command is accepted: a replay is shown", "warning"),
+            **{"activity": MOVES, "lock_reason": "a replay is shown"},
+        ),
+        row(
+            *("Playing 62 %", "Playback moves all axes; 0:38 left", "busy"),
+            rest={"playback": replace(PLAYED, phase=PlaybackPhase.PLAYING, row=6199, path_s=62)},
+            **{"activity": DeviceState.PLAYING, "progress": 0.3, "owners": ALL_AXES_PLAYED},
+        ),
+        row(
+            *("Stopping", "The axes are coming to rest.", "warning"),
+            **{"stopping": True, "activity": MOVES, **STOPPED},
+        ),
+        row("Stopped", "Stopped by the operator at 12:03:04.", "warning", **STOPPED),
+        row(
+            *("Paused at row 5437", "Resume continues from here, End ends", "warning"),
+            **{"rest": IS_PAUSED, "stop": PAUSE_STOP, "halted": True},
+        ),
+        row(
+            *("Paused at row 5437", "Stopped by the operator at 12:03:04.", "warning"),
+            **{"rest": IS_PAUSED, **STOPPED},
+        ),
+        row(
+            *("Paused at row 5437", f"A{DEVIATION_TEXT[1:]}. Check the machine", "warning"),
+            rest={"playback": replace(PAUSED, excess=DEVIATION_TEXT)},
+            **{"stop": EXCESS_STOP, "halted": True},
+        ),
+        row(
+            "Paused at row 5437",
+            "X moved 2.7 mm, θx moved 100 µrad since the pause; Resume asks",
+            "warning",
+            rest={"playback": replace(PAUSED, moved={"x": 2.7e-3, "thx": -1e-4})},
+        ),
+        row(
+            *("Moving", "Moving back slowly to row 5437", "busy"),
+            rest={"playback": PAUSED, "resuming": ResumeStep.RETURNING},
+            **{"activity": MOVES, "owners": ALL_AXES_PLAYED},
+        ),
+        row(
+            *("Penetration", "Hold; it continues automatically.", "busy"),
+            rest={"penetration": PenetrationStatus(PenetrationPhase.HOLD)},
+        ),
+        row(
+            *("Penetration", "Armed; its button starts the run.", "warning"),
+            rest={"penetration": PenetrationStatus(PenetrationPhase.ARMED)},
+        ),
+        row("Moving", "Autofocus is under way", "busy", rest={"procedure": "autofocus"}),
+    ],
+)
+def test_a_state_is_described(session, rest, headword, reason, tone, remedy):
+    display = describe(session, **rest)
+    assert reason in display.reason
+    assert (display.headword, display.tone, display.remedy) == (headword, tone, remedy)
 
 
 TONES = {
@@ -445,8 +328,8 @@ def test_the_display_of_an_activity_never_contradicts_the_session(other_fields):
     for activity, stop, owners, obstacle in product(
         DeviceState, ((None, False), (OPERATOR_STOP, True), (PAUSE_STOP, True)), OWNERS, OBSTACLES
     ):
-        for latched, silent_s, stopping in product(
-            (None, STOP_AND_LOCK_REASON), (0.0, 0.3), (False, True)
+        for latched, (silent_s, stopping) in product(
+            (None, STOP_AND_LOCK_REASON), ((0.0, False), (0.3, False), (0.0, True))
         ):
             session = make_state(
                 activity=activity,
