@@ -5,7 +5,6 @@ from PySide6.QtWidgets import QLabel, QProgressBar, QPushButton, QWidget
 from rotemina.app.widgets.controls import (
     enable_unless,
     get_disabled_reason,
-    make_button,
     make_tooltip,
     set_bar_value,
     set_property,
@@ -24,15 +23,6 @@ def test_a_disabled_control_says_why(qtbot):
     assert control.isEnabled()
     assert get_disabled_reason(control) is None
     assert control.toolTip() == make_tooltip("Stop it")
-
-
-def test_a_button_calls_its_function_and_has_a_tooltip(qtbot):
-    calls = []
-    button = make_button("Go", lambda: calls.append(1), "Move <there>")
-    qtbot.addWidget(button)
-    button.click()
-    assert calls == [1]
-    assert button.toolTip() == make_tooltip("Move <there>")
 
 
 def test_a_property_changes_the_look(qtbot):

@@ -2,6 +2,7 @@
 
 import re
 from importlib import resources
+from itertools import combinations
 
 import numpy as np
 import pytest
@@ -58,44 +59,38 @@ XYZ_FROM_SRGB = np.array(
 )
 
 
+def make_linear(colour):
+    """Return a colour ``#rrggbb`` in linear sRGB."""
+    components = np.array([int(colour[at : at + 2], 16) / 255.0 for at in (1, 3, 5)])
+    return np.where(
+        components <= 0.04045, components / 12.92, ((components + 0.055) / 1.055) ** 2.4
+    )
+
+
 def compute_contrast(first, second):
     """Return the contrast of two colours ``#rrggbb``, 1 to 21, as WCAG 2.1 defines it."""
-    low, high = sorted((_compute_luminance(first), _compute_luminance(second)))
+    low, high = sorted(make_linear(colour) @ [0.2126, 0.7152, 0.0722] for colour in (first, second))
     return (high + 0.05) / (low + 0.05)
-
-
-def _compute_luminance(colour):
-    components = [int(colour[at : at + 2], 16) / 255.0 for at in (1, 3, 5)]
-    linear = [
-        component / 12.92 if component <= 0.04045 else ((component + 0.055) / 1.055) ** 2.4
-        for component in components
-    ]
-    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
 
 
 def convert_to_lab(colour, matrix):
     """Return a colour ``#rrggbb`` in CIE L*a*b* as seen with a kind of colour vision."""
-    components = np.array([int(colour[at : at + 2], 16) / 255.0 for at in (1, 3, 5)])
-    linear = np.where(
-        components <= 0.04045, components / 12.92, ((components + 0.055) / 1.055) ** 2.4
-    )
-    xyz = XYZ_FROM_SRGB @ np.clip(np.asarray(matrix) @ linear, 0.0, 1.0)
+    xyz = XYZ_FROM_SRGB @ np.clip(np.asarray(matrix) @ make_linear(colour), 0.0, 1.0)
     root = np.where(xyz > 0.008856, np.cbrt(xyz), 7.787 * xyz + 16.0 / 116.0)
     return np.array([116 * root[1] - 16, 500 * (root[0] - root[1]), 200 * (root[1] - root[2])])
 
 
-@pytest.mark.parametrize("vision", COLOUR_VISIONS.values(), ids=COLOUR_VISIONS)
 @pytest.mark.parametrize("theme", THEMES.values(), ids=THEMES)
-def test_lines_with_the_same_dashes_differ_for_every_colour_vision(theme, vision):
-    lines = list({(line.role, line.style): line for line in LINE_STYLES.values()}.values())
-    for number, line in enumerate(lines):
-        for other in lines[number + 1 :]:
-            if line.style == other.style:
-                roles = (line.role, other.role)
-                first_lab, second_lab = (
-                    convert_to_lab(getattr(theme, role), vision) for role in roles
+def test_lines_with_the_same_dashes_differ_for_every_colour_vision(theme):
+    lines = {(line.role, line.style) for line in LINE_STYLES.values()}
+    for (role, style), (other_role, other_style) in combinations(lines, 2):
+        if style == other_style:
+            for vision, matrix in COLOUR_VISIONS.items():
+                first, second = (
+                    convert_to_lab(getattr(theme, name), matrix) for name in (role, other_role)
                 )
-                assert np.linalg.norm(first_lab - second_lab) > MIN_COLOUR_DISTANCE, roles
+                distance = np.linalg.norm(first - second)
+                assert distance > MIN_COLOUR_DISTANCE, (vision, role, other_role)
 
 
 def test_contrast_follows_the_standard():
@@ -105,9 +100,9 @@ def test_contrast_follows_the_standard():
 
 
 @pytest.mark.parametrize("theme", THEMES.values(), ids=THEMES)
-@pytest.mark.parametrize("pair", PAIRS, ids="-on-".join)
-def test_every_role_can_be_read_on_its_ground(theme, pair):
-    assert compute_contrast(*(getattr(theme, role) for role in pair)) >= MIN_CONTRAST
+def test_every_role_can_be_read_on_its_ground(theme):
+    contrasts = {pair: compute_contrast(*(getattr(theme, role) for role in pair)) for pair in PAIRS}
+    assert {pair: value for pair, value in contrasts.items() if value < MIN_CONTRAST} == {}
 
 
 def test_high_contrast_has_visible_lines_and_strong_text():
@@ -141,13 +136,7 @@ def test_all_roles_are_filled_in_and_lengths_except_lines_are_scaled():
 
 
 def test_text_grows_with_the_screen_by_size_classes():
-    assert [find_text_scale(lines) for lines in (768, 800, 1080, 1440, 2160)] == [
-        1,
-        1,
-        1,
-        1.15,
-        1.5,
-    ]
+    assert [find_text_scale(lines) for lines in (768, 1080, 1440, 2160)] == [1, 1, 1.15, 1.5]
 
 
 def test_an_unknown_theme_is_the_dark_one():
