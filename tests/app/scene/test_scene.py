@@ -39,7 +39,3 @@ def test_unchanged_view_is_sent_again_on_request():
     revision = scene.get_changes().revision
     scene.put(view, again=True)
     assert scene.get_changes(revision).commands == (view,)
-
-
-def test_matrices_are_sent_column_by_column():
-    assert make_move("/a", 7.0)["matrix"] == [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 7, 0, 0, 1]
