@@ -13,12 +13,7 @@ from rotemina.app.motion.model import NOTED_KEY
 from rotemina.app.workbench import format_run_gap, format_run_gaps
 from rotemina.plugins.gap.answer import DiagnosisAnswer
 from rotemina.plugins.gap.answer.answer_exports import write_report
-from rotemina.sim.gap.result import (
-    AxisDiagnosis,
-    Diagnosis,
-    GapShrinkage,
-    GapVerdict,
-)
+from rotemina.sim.gap.result import AxisDiagnosis, Diagnosis, GapShrinkage, GapVerdict
 from rotemina.sim.records import Record, Tap
 from rotemina.sim.robot import AxisEffect
 from rotemina.sim.robot_files import load_robot
@@ -90,7 +85,10 @@ def use_answer(qtbot, bench, panel, answer):
         panel.result.use.click()
 
 
-def test_a_diagnosed_model_is_used_everywhere_at_once(qtbot, window, bench, panel, play):
+def test_a_diagnosed_model_is_used_everywhere_at_once(
+    qtbot, window, bench, panel, play, tmp_path, caplog
+):
+    caplog.set_level(logging.INFO)
     before = play().gaps["zn", Tap.MEAS]
     assert before.rms == before.nominal > 1e-6
     nominal_tracking_rms = bench.plan.dry_run.axes["zn"].tracking_rms
@@ -98,6 +96,8 @@ def test_a_diagnosed_model_is_used_everywhere_at_once(qtbot, window, bench, pane
     use_answer(qtbot, bench, panel, make_answer(bench.run, HYSTERESIS))
     chip = window._bar.model
     qtbot.waitUntil(lambda: chip.text().startswith("Corrected: Hysteresis"), timeout=LONG_MS)
+    assert chip.property("corrected") is True
+    assert f"model in use: {bench.session.model.id}" in caplog.text
     assert bench.run.gaps["zn", Tap.MEAS].rms < 0.1 * before.rms  # the same run, compared again
     assert bench.run.gaps["zn", Tap.MEAS].nominal == pytest.approx(before.rms)
     assert panel.isVisible()  # no other panel was raised over it
@@ -109,13 +109,18 @@ def test_a_diagnosed_model_is_used_everywhere_at_once(qtbot, window, bench, pane
     assert run.model_id == run.record.metadata["model"] == bench.session.model.id
     state = bench.session.snapshot()
     assert abs(state.measured["zn"] - state.model["zn"]) < 1e-7  # shown as the ghost in 3-D
+    check_gap_texts(qtbot, window, run, tmp_path / "page.html")
+    before_reset = run.gaps["zn", Tap.MEAS].nominal
+    qtbot.waitUntil(chip.back.isEnabled, timeout=LONG_MS)
+    with qtbot.waitSignals([bench.model_changed, bench.run_changed], timeout=LONG_MS):
+        chip.back.trigger()
+    qtbot.waitUntil(lambda: chip.text() == "Nominal model", timeout=LONG_MS)
+    assert bench.run.gaps["zn", Tap.MEAS].rms == pytest.approx(before_reset)
 
 
-def test_the_gap_is_the_same_string_in_all_four_places(qtbot, window, bench, panel, play, tmp_path):
-    play()
-    window.bring_up("gap")
-    use_answer(qtbot, bench, panel, make_answer(bench.run, HYSTERESIS))
-    run = play("again", make_swing(0.45))
+def check_gap_texts(qtbot, window, run, page):
+    """Check that plots, comparison, diagnosis and report state the same gap of a run."""
+    panel = window.panels["gap"]
     gap_text = format_run_gap(run.gaps["zn", Tap.MEAS], "m")
     assert re.fullmatch(r"Gap, this run \d+(\.\d+)? (nm|µm)", gap_text)
     size = gap_text.removeprefix("Gap, this run ")
@@ -130,30 +135,15 @@ def test_the_gap_is_the_same_string_in_all_four_places(qtbot, window, bench, pan
     heads = [comparison.horizontalHeaderItem(n).text() for n in range(comparison.columnCount())]
     row = next(n for n in range(comparison.rowCount()) if "meas" in comparison.item(n, 0).text())
     assert comparison.item(row, heads.index("Gap, this run")).text() == size
-    qtbot.waitUntil(
-        lambda: (
-            panel.result.unseen_motion.latest and panel.result.unseen_motion.latest.name == "again"
-        )
-    )
-    assert panel.result.unseen_motion.title.text() == "Gap, this run"
-    assert panel.result.unseen_motion.table.read_texts()[0][3] == size
-    write_report(panel.answer.diagnosis, panel.answer.records, tmp_path / "page.html", ["a"], run)
-    assert gap_text in (tmp_path / "page.html").read_text("utf-8")
+    unseen_motion = panel.result.unseen_motion
+    qtbot.waitUntil(lambda: unseen_motion.latest and unseen_motion.latest.name == "again")
+    assert unseen_motion.title.text() == "Gap, this run"
+    assert unseen_motion.table.read_texts()[0][3] == size
+    write_report(panel.answer.diagnosis, panel.answer.records, page, ["a"], run)
+    assert gap_text in page.read_text("utf-8")
     assert any(gap_text in line for line in format_run_gaps(run))
     figure = run.gaps["zn", Tap.MEAS]
     assert figure.without_offset < figure.rms < figure.nominal  # shown in small print next to it
-
-
-def test_back_to_nominal_from_the_header(qtbot, window, bench, panel, play):
-    before = play().gaps["zn", Tap.MEAS].rms
-    use_answer(qtbot, bench, panel, make_answer(bench.run, HYSTERESIS))
-    chip = window._bar.model
-    qtbot.waitUntil(chip.back.isEnabled, timeout=LONG_MS)
-    assert chip.property("corrected") is True
-    with qtbot.waitSignals([bench.model_changed, bench.run_changed], timeout=LONG_MS):
-        chip.back.trigger()
-    qtbot.waitUntil(lambda: chip.text() == "Nominal model", timeout=LONG_MS)
-    assert bench.run.gaps["zn", Tap.MEAS].rms == pytest.approx(before)
 
 
 def test_using_a_model_that_is_worse_on_a_motion_needs_confirmation(
@@ -203,13 +193,6 @@ def test_using_a_model_learned_with_a_contact_needs_confirmation(qtbot, window, 
         find_question(window).button(QMessageBox.StandardButton.Yes).click()
     model = bench.session.model
     assert CONTACT not in model.without_contact.effects
-
-
-def test_the_log_says_which_model_is_in_use(qtbot, bench, panel, play, caplog):
-    caplog.set_level(logging.INFO)
-    play()
-    use_answer(qtbot, bench, panel, make_answer(bench.run, HYSTERESIS))
-    assert f"model in use: {bench.session.model.id}" in caplog.text
 
 
 def test_the_remainder_of_the_model_in_use_can_be_diagnosed(qtbot, bench, panel, play):

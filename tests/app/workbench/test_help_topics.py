@@ -85,16 +85,16 @@ def test_a_notice_and_a_row_of_the_log_open_their_page(qtbot, window, tmp_path):
     help_page.hide()
     bench.notify(Level.INFO, "nobody explains this")
     assert not hasattr(window.notices.notices()[0], "help")
-    check_log_rows(window)
+    check_log_rows(qtbot, window)
 
 
-def check_log_rows(window):
+def check_log_rows(qtbot, window):
     page = window.log_page
     window.show_log()
     logging.getLogger("rotemina.drivers.contract.registry").warning("plugin x is left out")
     page.refresh()
     assert not page.help.isEnabled()
-    page.words.setText("left out")
+    qtbot.keyClicks(page.words, "left out")  # keys without Shift, which an earlier test may hold
     page.table.selectRow(0)
     page.help.click()
     assert window.help_page.page.name == "plugins.md#what-a-bad-plugin-can-do"

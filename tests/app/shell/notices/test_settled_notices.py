@@ -1,7 +1,5 @@
 """Notices of the window go as soon as their cause is resolved."""
 
-import pytest
-
 from rotemina.app.motion.state import ConnectionState
 from rotemina.drivers.contract import ConnectionLostError
 from rotemina.drivers.simulator import Simulator
@@ -32,39 +30,21 @@ def has_notice(window, part):
     return any(part in text for text in get_notice_texts(window))
 
 
-@pytest.fixture
-def window_without_link(make_robot_window, qtbot):
-    """A window on a simulator whose link has been lost."""
+def test_a_lost_link_notice_goes_when_the_link_is_back_or_another_device_is_used(
+    make_robot_window, qtbot
+):
     window = make_robot_window(driver=UnpluggableSimulator)
-    session = window.workbench.session
-    qtbot.waitUntil(lambda: session.snapshot().lock_reason is None, timeout=LONG_MS)
-    session.driver.cut = True
-    qtbot.waitUntil(lambda: has_notice(window, "disappeared"), timeout=LONG_MS)
-    return window
-
-
-def test_a_lost_link_notice_goes_when_the_link_is_back(qtbot, window_without_link):
-    bench = window_without_link.workbench
-    bench.session.driver.cut = False
-    bench.reconnect()
-    qtbot.waitUntil(
-        lambda: bench.session.snapshot().connection is ConnectionState.CONNECTED, timeout=LONG_MS
-    )
-    qtbot.waitUntil(lambda: not has_notice(window_without_link, "disappeared"), timeout=LONG_MS)
-
-
-def test_a_lost_link_notice_goes_when_another_device_is_used(qtbot, window_without_link):
-    bench = window_without_link.workbench
-    assert bench.use_driver(Simulator, {})
-    qtbot.waitUntil(lambda: not has_notice(window_without_link, "disappeared"), timeout=LONG_MS)
-
-
-def test_a_missing_trajectory_notice_goes_once_one_is_loaded(qtbot, window):
-    bench = window.workbench
-    bench.play()
-    assert has_notice(window, "no trajectory to play")
-    bench.plan_trajectory("first", make_example(bench.robot))
-    qtbot.waitUntil(lambda: not has_notice(window, "no trajectory to play"), timeout=LONG_MS)
+    bench, session = window.workbench, window.workbench.session
+    for restore_link in (bench.reconnect, lambda: bench.use_driver(Simulator, {})):
+        qtbot.waitUntil(
+            lambda: session.snapshot().connection is ConnectionState.CONNECTED, timeout=LONG_MS
+        )
+        session.driver.cut = True
+        qtbot.waitUntil(lambda: has_notice(window, "disappeared"), timeout=LONG_MS)
+        session.driver.cut = False
+        restore_link()
+        qtbot.waitUntil(lambda: not has_notice(window, "disappeared"), timeout=LONG_MS)
+    assert type(session.driver) is Simulator
 
 
 def test_a_refusal_goes_with_the_next_accepted_action(qtbot, window):
@@ -101,14 +81,19 @@ def test_finished_work_settles_only_its_own_failure(qtbot, window, tmp_path):
         assert has_notice(window, "disappeared") is remains
 
 
-def test_an_unsaved_record_notice_goes_when_it_is_saved(qtbot, window, tmp_path, monkeypatch):
+def test_a_missing_trajectory_and_an_unsaved_record_are_settled_by_loading_and_saving(
+    qtbot, window, tmp_path, monkeypatch
+):
     def refuse(*_):
         raise InputError(LOST)
 
     monkeypatch.setattr("rotemina.app.workbench.played_records.write_playback", refuse)
     bench = window.workbench
+    bench.play()
+    assert has_notice(window, "no trajectory to play")
     bench.plan_trajectory("first", make_example(bench.robot).select_rows(slice(0, 100)))
     qtbot.waitUntil(lambda: bench.plan is not None, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: not has_notice(window, "no trajectory to play"), timeout=LONG_MS)
     bench.play()
     qtbot.waitUntil(lambda: has_notice(window, "disappeared"), timeout=LONG_MS)
     bench.records.save_record(tmp_path / "by-hand.csv")

@@ -30,20 +30,17 @@ def panels_of_second_start(settings):
     return second
 
 
-def test_a_second_start_loads_no_panel_until_it_is_made(panels_of_second_start, monkeypatch):
+def test_a_second_start_loads_a_panel_only_when_it_is_made(panels_of_second_start, monkeypatch):
     assert all(
         isinstance(kind, DeclaredPanel) for kind in panels_of_second_start.panel_types.values()
     )
     assert PLATE.module in panels_of_second_start.modules_to_load
+    assert panels_of_second_start.panel_types["plate"].load() is PlatePanel
     panel = SimpleNamespace(update_now=lambda: None)
     monkeypatch.setattr(DeclaredPanel, "load", lambda _: lambda bench: panel)
     assert panels_of_second_start["plate"] is panel
     assert PLATE.module not in panels_of_second_start.modules_to_load
     assert panels_of_second_start.panel_types["plate"] is not panel
-
-
-def test_a_declaration_loads_the_class_of_its_module(panels_of_second_start):
-    assert panels_of_second_start.panel_types["plate"].load() is PlatePanel
 
 
 def test_a_module_that_was_changed_is_loaded_again(settings, panels_of_second_start, monkeypatch):

@@ -5,12 +5,12 @@ from PySide6.QtWidgets import QDialogButtonBox
 
 from rotemina.app.shell.records import ask_columns
 from rotemina.app.shell.records.column_mapping import ColumnMappingDialog
-from rotemina.sim.records import read_preview
 
 PANELS = ()
 
 ROWS = "0;20,0;500\n0,01;20,1;501\n0,02;20,2;502\n"
 COLUMN_NAMES = "t [s], x [mm], thx [urad]"
+LONG_MS = 30_000
 
 
 @pytest.fixture
@@ -35,21 +35,11 @@ def answer_dialog(monkeypatch):
     return set_answer
 
 
-@pytest.fixture
-def ask_for_columns(qtbot, window):
-    """Ask for a file's columns and return the calls of the callback."""
-
-    def run_dialog(path):
-        results = []
-        ask_columns(path, window.workbench, window, lambda *args: results.append(args))
-        qtbot.waitUntil(lambda: not window.workbench.busy, timeout=30_000)
-        return results
-
-    return run_dialog
-
-
-def test_wrong_column_names_are_refused(qtbot, window, path):
-    dialog = ColumnMappingDialog(path, read_preview(path), window.workbench.robot, window)
+def test_the_dialog_refuses_wrong_column_names_and_does_not_block_the_window(qtbot, window, path):
+    ask_columns(path, window.workbench, window, lambda *_: None)
+    qtbot.waitUntil(lambda: window.findChild(ColumnMappingDialog) is not None, timeout=LONG_MS)
+    dialog = window.findChild(ColumnMappingDialog)
+    assert not dialog.isModal()
     ok = dialog._buttons.button(QDialogButtonBox.StandardButton.Ok)
     assert not ok.isEnabled()
     dialog.set_columns(COLUMN_NAMES)
@@ -59,39 +49,27 @@ def test_wrong_column_names_are_refused(qtbot, window, path):
         dialog.set_columns(columns)
         assert not ok.isEnabled()
         assert dialog._complaint.text()
+    dialog.close()
 
 
-def test_the_names_are_remembered_for_files_of_the_same_shape(path, answer_dialog, ask_for_columns):
+def test_the_names_are_asked_once_for_files_of_the_same_shape(qtbot, window, path, answer_dialog):
+    def ask(asked_path):
+        answers = []
+        ask_columns(asked_path, window.workbench, window, lambda *args: answers.append(args))
+        qtbot.waitUntil(lambda: not window.workbench.busy, timeout=LONG_MS)
+        return answers
+
+    answer_dialog(COLUMN_NAMES, accept=False)
+    assert ask(path) == []
+    assert window.workbench.plan is None
     answer_dialog(COLUMN_NAMES)
-    assert ask_for_columns(path) == [(path, COLUMN_NAMES)]
-    other = path.with_name("others.txt")
+    assert ask(path) == [(path, COLUMN_NAMES)]
+    other, named = path.with_name("others.txt"), path.with_name("named.csv")
     other.write_text(ROWS.replace("20", "21"), "utf-8")
+    named.write_text("t [s],x [mm]\n0,20\n", "utf-8")
     answer_dialog(None)
-    assert ask_for_columns(other) == [(other, COLUMN_NAMES)]
-
-
-def test_the_named_file_is_loaded(qtbot, window, path, answer_dialog):
-    answer_dialog(COLUMN_NAMES)
-    with qtbot.waitSignal(window.workbench.plan_changed, timeout=30_000):
+    assert ask(other) == [(other, COLUMN_NAMES)]
+    assert ask(named) == [(named, None)]  # it has a header
+    with qtbot.waitSignal(window.workbench.plan_changed, timeout=LONG_MS):
         window.use_file_with_columns(path, window.workbench.planner.load_trajectory)
     assert window.workbench.plan.trajectory.axes == ("x", "thx")
-
-
-def test_cancelling_changes_nothing(window, path, answer_dialog, ask_for_columns):
-    answer_dialog(COLUMN_NAMES, accept=False)
-    assert ask_for_columns(path) == []
-    assert window.workbench.plan is None
-
-
-def test_a_file_with_a_header_needs_no_dialog(tmp_path, ask_for_columns):
-    path = tmp_path / "named.csv"
-    path.write_text("t [s],x [mm]\n0,20\n", "utf-8")
-    assert ask_for_columns(path) == [(path, None)]
-
-
-def test_the_dialog_does_not_block_the_window(qtbot, window, path):
-    ask_columns(path, window.workbench, window, lambda *_: None)
-    qtbot.waitUntil(lambda: window.findChild(ColumnMappingDialog) is not None, timeout=30_000)
-    dialog = window.findChild(ColumnMappingDialog)
-    assert not dialog.isModal()
-    dialog.close()

@@ -2,7 +2,7 @@
 
 from PySide6.QtCore import Qt
 
-from rotemina.app.shell.startup.application import make_application, show_splash
+from rotemina.app.shell.startup.application import show_splash
 
 
 def test_splash_shows_icon_and_name(qtbot):
@@ -23,7 +23,3 @@ def test_splash_shows_icon_and_name(qtbot):
     assert len(find_colours(0, 20)) == 1
     screen = splash.screen().geometry()
     assert (splash.geometry().center() - screen.center()).manhattanLength() <= 2
-
-
-def test_application_is_made_only_once():
-    assert make_application() is make_application()

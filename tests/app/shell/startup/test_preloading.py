@@ -26,7 +26,7 @@ assert len(modules) > 15 and not thread.is_alive()
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 def test_two_threads_can_load_the_same_module_at_once(seed):
     command = [sys.executable, "-c", CONCURRENT_IMPORTS, str(seed)]
     result = subprocess.run(command, capture_output=True, text=True, check=False, timeout=120)

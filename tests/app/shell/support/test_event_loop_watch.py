@@ -10,8 +10,6 @@ from rotemina.app.shell.support import EventLoopWatch
 from rotemina.app.shell.support.event_loop_watch import BEAT_PERIOD_S, find_thread_calls
 from rotemina.app.shell.support.reaction_times import LatenessHistogram
 
-PANELS = ()
-
 
 class Clock:
     now_s = 10.0
@@ -114,17 +112,3 @@ def test_a_watch_beats_by_itself_until_it_is_closed(qtbot):
     watch.close()
     watch.close()
     assert not [thread for thread in threading.enumerate() if thread.name == "loop watch"]
-
-
-def test_the_log_page_and_the_bundle_report_window_delays(qtbot, window):
-    for _ in range(10):
-        window.loop_watch.beat()
-    window.show_log()
-    assert window.log_page.lateness.text().startswith("Window delay:")
-    window.log_page.close()
-    window.show_support()
-    page = window._support
-    qtbot.waitUntil(lambda: bool(page.items), timeout=30_000)
-    (content,) = [item.text for item in page.items if item.name == "window.json"]
-    assert "late_99_percent_ms" in content
-    page.close()

@@ -30,11 +30,7 @@ def test_records_of_the_log_arrive_with_level_and_source(log):
     except KeyError:
         logger.exception("failed")
     warning, error = log.messages()
-    assert (warning.level, warning.source, warning.text) == (
-        Level.WARNING,
-        "tested.deep",
-        "40 °C",
-    )
+    assert (warning.level, warning.source, warning.text) == (Level.WARNING, "tested.deep", "40 °C")
     assert error.level is Level.ERROR
     assert "KeyError: 'thx'" in error.text
     assert warning.line == "2026-03-04 12:00:00.005  warning  tested.deep: 40 °C"

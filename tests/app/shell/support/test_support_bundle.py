@@ -15,9 +15,7 @@ from rotemina.app.shell.support.anonymiser import TextAnonymiser
 from rotemina.app.shell.support.message_log import LogMessage
 from rotemina.app.shell.support.support_bundle import gather_files, write_bundle
 from rotemina.app.workbench import Level, WorkProgress
-from rotemina.sim.errors import (
-    FileWriteError,
-)
+from rotemina.sim.errors import FileWriteError
 from rotemina.sim.records import Record, Tap
 
 PANELS = ()

@@ -1,6 +1,5 @@
 """Header and menu bar fit every window width, and nothing covers the stop buttons."""
 
-import pytest
 from PySide6.QtCore import QPoint, QRect
 from PySide6.QtWidgets import QApplication
 
@@ -29,11 +28,11 @@ def read_menu(button):
     return {action.text(): action for action in button.menu().actions()}
 
 
-def test_chips_are_dropped_one_by_one_and_listed(window):
+def test_chips_are_dropped_one_by_one_and_work_from_the_menu(window):
     bar = resize_window(window, 1900)
     chips = (bar.owner, bar.events, bar.model)
     visible_chips = []
-    for width in range(1900, 800, -20):
+    for width in range(1900, 800, -40):
         resize_window(window, width)
         visible_chips.append([chip for chip in chips if chip.isVisible()])
         hidden = len(chips) - len(visible_chips[-1])
@@ -42,26 +41,16 @@ def test_chips_are_dropped_one_by_one_and_listed(window):
     drops = [start for start in range(len(chips) + 1) if list(chips[start:]) in visible_chips]
     assert drops == [0, 1, 2, 3]
     assert all(list(chips[len(chips) - len(shown) :]) == shown for shown in visible_chips)
-
-
-def test_a_dropped_chip_works_from_the_menu(window, monkeypatch):
-    bar = resize_window(window, 1000)
-    assert not bar.events.isVisible()
-    assert bar.row.overflow_button.isVisible()
+    resize_window(window, 1000)
     read_menu(bar.row.overflow_button)["Warnings 0"].trigger()
     assert window.log_page.isVisible()
     window.log_page.hide()
     assert not read_menu(bar.row.overflow_button)["No one is driving"].isEnabled()
-
-
-def test_the_recording_chip_has_priority(window):
-    bar = resize_window(window, 1000)
-    before = bar.recording.isVisible()
+    assert not bar.recording.isVisible()
     bar.recording.setText("● 12:34  5 MB")
     # No frame may come in between: it would say that nothing is being recorded.
     bar.row.set_chip_wanted(bar.recording, wanted=True)
-    assert not before
-    assert bar.recording.isVisible()
+    assert bar.recording.isVisible()  # it has priority
     assert not bar.owner.isVisible()
     bar.row.set_chip_wanted(bar.recording, wanted=False)
     assert not bar.recording.isVisible()
@@ -98,26 +87,23 @@ def test_nothing_covers_the_stop_buttons(window):
     window.toggle_palette()
 
 
-@pytest.mark.parametrize("scale", [1.0, 2.0])
-def test_the_layout_buttons_collapse_to_a_menu_in_a_narrow_window(window, scale):
+def test_the_layout_buttons_collapse_to_a_menu_in_a_narrow_window(window):
     row = window.layout_row
     window.arrangement.arrange(OPERATE)
-    resize_window(window, 1900, scale)
-    assert row.buttons["Tune"].isVisible()
-    resize_window(window, 1024, scale)
-    assert row.buttons["Tune"].isVisible() is (scale == 1.0)
-    assert row.menu_button.isVisible() is (scale == 2.0)
-    if row.menu_button.isVisible():
-        assert row.menu_button.text() == "Operate"
-        entries = read_menu(row.menu_button)
-        assert list(entries) == ["Operate", "Tune", "Diagnose", "Set up", "Job", "Events"]
-        assert entries["Operate"].isChecked()
-        entries["Job"].trigger()
-        assert not window.docks["job"].isHidden()
-        entries["Diagnose"].trigger()
-        settle()
-        assert window.arrangement.current_layout is DIAGNOSE
-        assert row.menu_button.text() == "Diagnose"
-    last_menu = window.menuBar().actionGeometry(window.menuBar().actions()[-1])
-    assert row.geometry().left() > last_menu.right()
-    assert row.geometry().right() < window.width()
+    for width, scale, are_collapsed in ((1900, 1.0, False), (1024, 1.0, False), (1024, 2.0, True)):
+        resize_window(window, width, scale)
+        assert row.buttons["Tune"].isVisible() is not are_collapsed
+        assert row.menu_button.isVisible() is are_collapsed
+        last_menu = window.menuBar().actionGeometry(window.menuBar().actions()[-1])
+        assert row.geometry().left() > last_menu.right()
+        assert row.geometry().right() < window.width()
+    assert row.menu_button.text() == "Operate"
+    entries = read_menu(row.menu_button)
+    assert list(entries) == ["Operate", "Tune", "Diagnose", "Set up", "Job", "Events"]
+    assert entries["Operate"].isChecked()
+    entries["Job"].trigger()
+    assert not window.docks["job"].isHidden()
+    entries["Diagnose"].trigger()
+    settle()
+    assert window.arrangement.current_layout is DIAGNOSE
+    assert row.menu_button.text() == "Diagnose"

@@ -7,8 +7,7 @@ from operator import attrgetter
 import numpy as np
 import pytest
 from PySide6.QtCore import QCoreApplication, QEvent, Qt
-from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QFileDialog, QMessageBox, QTextEdit, QWidget
+from PySide6.QtWidgets import QFileDialog, QMessageBox, QWidget
 
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import PlaybackFinished
@@ -26,13 +25,12 @@ from rotemina.sim.records import Record, Tap, read_record, write_record
 from rotemina.sim.robot_files import load_robot
 
 PANELS = ("comparison",)
-
 LONG_MS = 30_000
-BUILT_IN = ["job", "events", "control", "plots", "trajectory", "microscope", "comparison"]
-BUILT_IN += ["connection"]
-BUILT_IN += ["teleoperation", "inputs", "identification", "calibration"]
-BUILT_IN += ["compensation", "penetration"]
-BUILT_IN += ["effects", "gap", "faults", "recorder", "view3d", "plate"]
+BUILT_IN = [
+    *("job", "events", "control", "plots", "trajectory", "microscope", "comparison", "connection"),
+    *("teleoperation", "inputs", "identification", "calibration", "compensation", "penetration"),
+    *("effects", "gap", "faults", "recorder", "view3d", "plate"),
+]
 
 
 def write_short_trajectory(path, seconds=0.4, height=2e-4):
@@ -52,8 +50,22 @@ def load(qtbot, window, path):
         window.use_file_with_columns(path, window.workbench.planner.load_trajectory)
 
 
+@pytest.fixture
+def make_window_in_steps(make_robot_window, monkeypatch):
+    """Make a window with all panels, none of which is made before the test asks for it."""
+    monkeypatch.setattr(DeferredPanelLoader, "start", lambda _: None)
+    monkeypatch.setattr(DeferredPanelLoader, "_make_all_before_work", lambda *_: None)
+    return make_robot_window
+
+
 @pytest.mark.every_panel
-def test_all_built_in_panels_are_made_without_a_notice(window):
+def test_all_panels_are_made_before_any_work(qtbot, window):
+    with qtbot.waitSignal(window.workbench.jobs.busy_changed, timeout=LONG_MS):
+        window.workbench.work("any", "Reading …", lambda: None, lambda _: None)
+    # All panels are made before the work starts, so none misses its result.
+    assert window.panels.pending_names == ()
+    for name, dock in window.docks.items():
+        assert dock.widget().widget() is window.panels[name]
     assert list(window.panels) == BUILT_IN
     assert get_notice_texts(window) == []
     hidden = {"microscope"}  # the second tab of the centre
@@ -63,36 +75,8 @@ def test_all_built_in_panels_are_made_without_a_notice(window):
 
 
 @pytest.mark.every_panel
-def test_hidden_panels_are_made_before_any_work(qtbot, window):
-    with qtbot.waitSignal(window.workbench.jobs.busy_changed, timeout=LONG_MS):
-        window.workbench.work("any", "Reading …", lambda: None, lambda _: None)
-    # All panels are made before the work starts, so none misses its result.
-    assert window.panels.pending_names == ()
-    for name, dock in window.docks.items():
-        assert dock.widget().widget() is window.panels[name]
-
-
-@pytest.mark.every_panel
-def test_a_panel_is_made_when_its_dock_becomes_visible(qtbot, make_robot_window, monkeypatch):
-    monkeypatch.setattr(DeferredPanelLoader, "start", lambda _: None)
-    monkeypatch.setattr(DeferredPanelLoader, "_make_all_before_work", lambda *_: None)
-    window = make_robot_window()
-    for name in ("gap", "plate", "plate"):
-        assert (name in window.panels.made) == (window.docks[name].widget() is not None)
-        window.docks[name].raise_()
-        qtbot.waitUntil(lambda name=name: name in window.panels.made, timeout=LONG_MS)
-    assert window.panels.pending_names
-    assert "view3d" not in window.panels.made
-    window.bring_up("view3d")
-    assert window.docks["view3d"].widget().widget() is window.panels.made["view3d"]
-    window.bring_up("nothing of that name")
-
-
-@pytest.mark.every_panel
-def test_a_new_panel_is_laid_out_before_it_is_painted(make_robot_window, monkeypatch):
-    monkeypatch.setattr(DeferredPanelLoader, "start", lambda _: None)
-    monkeypatch.setattr(DeferredPanelLoader, "_make_all_before_work", lambda *_: None)
-    window = make_robot_window()
+def test_a_panel_is_made_and_laid_out_when_its_dock_becomes_visible(qtbot, make_window_in_steps):
+    window = make_window_in_steps()
     for name in ("gap", "plate"):
         window.docks[name].raise_()
         assert name not in window.panels.made
@@ -100,13 +84,19 @@ def test_a_new_panel_is_laid_out_before_it_is_painted(make_robot_window, monkeyp
         laid_out = [widget.geometry() for widget in window.findChildren(QWidget)]
         QCoreApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
         assert laid_out == [widget.geometry() for widget in window.findChildren(QWidget)]
+    window.docks["faults"].raise_()
+    qtbot.waitUntil(lambda: "faults" in window.panels.made, timeout=LONG_MS)
+    assert window.panels.pending_names
+    assert "view3d" not in window.panels.made
+    window.bring_up("view3d")
+    assert window.docks["view3d"].widget().widget() is window.panels.made["view3d"]
 
 
 @pytest.mark.every_panel
-def test_panels_of_a_layout_are_made_in_small_steps(make_robot_window, monkeypatch):
-    monkeypatch.setattr(DeferredPanelLoader, "start", lambda _: None)
-    monkeypatch.setattr(DeferredPanelLoader, "_make_all_before_work", lambda *_: None)
-    window = make_robot_window()
+def test_panels_are_made_in_small_steps_once_their_libraries_are_loaded(
+    qtbot, make_window_in_steps
+):
+    window, libraries_loaded = make_window_in_steps(), threading.Event()
     loader, panels = window.panel_loader, window.panels
     loader._since.start()
     window.arrangement.arrange(TUNE)
@@ -121,60 +111,58 @@ def test_panels_of_a_layout_are_made_in_small_steps(make_robot_window, monkeypat
         assert steps <= 1
     for name in shown_names:
         assert window.docks[name].widget() is find_frame(panels.made[name])
-
-
-@pytest.mark.every_panel
-def test_panels_wait_for_their_libraries(qtbot, make_robot_window, monkeypatch):
-    monkeypatch.setattr(DeferredPanelLoader, "start", lambda _: None)
-    monkeypatch.setattr(DeferredPanelLoader, "_make_all_before_work", lambda *_: None)
-    window, libraries_loaded = make_robot_window(), threading.Event()
     thread = threading.Thread(target=libraries_loaded.wait)
 
     def start_loading():
         thread.start()
         return thread
 
-    loader, pending = window.panel_loader, window.panels.pending_names
+    pending = panels.pending_names
     loader.start_loading = start_loading
     for _ in range(3):
         loader._make_next()
     assert thread.is_alive()
-    assert window.panels.pending_names == pending != ()
+    assert panels.pending_names == pending != ()
     libraries_loaded.set()
     thread.join()
     with qtbot.waitSignal(loader.done, timeout=LONG_MS):
         loader._next.start()
-    assert window.panels.pending_names == ()
+    assert panels.pending_names == ()
 
 
-def test_stop_is_always_visible_and_escape_stops(qtbot, window, press_escape):
-    window.resize(640, 480)
-    for dock in window.docks.values():
-        dock.hide()
-    assert window.stop_button.isVisible()
-    assert window.rect().contains(
-        window.stop_button.mapTo(window, window.stop_button.rect().bottomRight())
-    )
+def start_moving(qtbot, window):
     session = window.workbench.session
     session.go_to({"x": 0.05})
     qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.MOVING, timeout=LONG_MS)
-    window.activateWindow()
+    return session
+
+
+def test_stops_stay_in_a_small_window_and_escape_stops(qtbot, window, press_escape):
+    window.resize(640, 480)
+    for dock in window.docks.values():
+        dock.hide()
+    for button in (window.stop_button, window.emergency_button):
+        assert button.isVisible()
+        assert window.rect().contains(button.mapTo(window, button.rect().bottomRight()))
+    session = start_moving(qtbot, window)
     press_escape(window)
     qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.IDLE, timeout=LONG_MS)
     assert session.snapshot().command["x"] < 0.049
     assert session.snapshot().stop_latency_s is not None
 
 
-def test_escape_stops_even_while_a_dialog_is_open(qtbot, window, press_escape):
-    session = window.workbench.session
-    session.go_to({"x": 0.05})
-    qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.MOVING, timeout=LONG_MS)
-    dialog = QMessageBox(window)
-    dialog.open()
-    press_escape(dialog)
+def test_both_stop_buttons_work_under_an_open_menu(qtbot, window, open_menu, press_behind_menu):
+    session = start_moving(qtbot, window)
+    menu = open_menu(window)
+    press_behind_menu(menu, window.stop_button)
     qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.IDLE, timeout=LONG_MS)
     assert session.snapshot().command["x"] < 0.049
-    assert dialog.isHidden()
+    assert session.snapshot().latch_reason is None
+    menu.close()
+    menu = open_menu(window)
+    press_behind_menu(menu, window.emergency_button)
+    assert session.snapshot().latch_reason is not None
+    menu.close()
 
 
 def test_a_trajectory_is_loaded_played_and_compared(qtbot, window, tmp_path):
@@ -197,18 +185,6 @@ def test_a_trajectory_is_loaded_played_and_compared(qtbot, window, tmp_path):
     assert get_notice_texts(window) == []
 
 
-def test_a_stopped_playback_keeps_what_was_played(qtbot, window, tmp_path):
-    load(qtbot, window, write_short_trajectory(tmp_path / "long.csv", seconds=20.0))
-    session = window.workbench.session
-    window.workbench.play()
-    qtbot.waitUntil(lambda: session.snapshot().progress > 0.005, timeout=LONG_MS)
-    with qtbot.waitSignal(window.workbench.run_changed, timeout=LONG_MS):
-        window.workbench.stop()
-    assert not window.workbench.run.completed
-    assert 0 < window.workbench.run.record.duration_s < 19
-    assert "stopped after" in get_notice_texts(window)[0]
-
-
 def test_a_trajectory_beyond_a_limit_is_shown_but_cannot_be_played(qtbot, window, tmp_path):
     path = tmp_path / "far.csv"
     path.write_text("t [s],x [mm]\n0,27.5\n1,99\n", "utf-8")
@@ -228,34 +204,31 @@ def test_a_trajectory_beyond_a_limit_is_shown_but_cannot_be_played(qtbot, window
     assert window.workbench.session.snapshot().activity is DeviceState.IDLE
 
 
-@pytest.mark.parametrize(
-    "content",
-    [
-        b"",
-        b"\x00\x01\x02\xff",
-        b"t [s],x [kg]\n0,1\n",
-        b"t [s],x [mm]\n0,nan\n",
-        b"t [s],x [mm]\n1,1\n0,1\n",
-    ],
-)
+BAD_FILES = {
+    "empty.csv": b"",
+    "binary.csv": b"\x00\x01\x02\xff",
+    "unit.csv": b"t [s],x [kg]\n0,1\n",
+    "number.csv": b"t [s],x [mm]\n0,nan\n",
+    "time.csv": b"t [s],x [mm]\n1,1\n0,1\n",
+}
+
+
 @pytest.mark.parametrize("use", ["planner.load_trajectory", "records.open_record"])
-def test_a_bad_file_is_one_notice_and_changes_nothing(qtbot, window, tmp_path, content, use):
+def test_a_bad_file_is_one_notice_and_changes_nothing(qtbot, window, tmp_path, use):
     load(qtbot, window, write_short_trajectory(tmp_path / "good.csv"))
     plan = window.workbench.plan
-    bad = tmp_path / "bad.csv"
-    bad.write_bytes(content)
-    window.use_file_with_columns(bad, attrgetter(use)(window.workbench))
-    qtbot.waitUntil(lambda: get_notice_texts(window) != [], timeout=LONG_MS)
-    (text,) = get_notice_texts(window)
-    assert "bad.csv" in text
-    assert window.workbench.plan is plan
-    assert window.workbench.run is None
-
-
-def test_a_folder_and_a_missing_file_are_notices(qtbot, window, tmp_path):
-    for path in (tmp_path, tmp_path / "nothing.csv"):
-        window.use_file_with_columns(path, window.workbench.records.open_record)
-        qtbot.waitUntil(lambda path=path: any(str(path) in n for n in get_notice_texts(window)))
+    for name, content in BAD_FILES.items():
+        (tmp_path / name).write_bytes(content)
+    (tmp_path / "folder.csv").mkdir()
+    for name in (*BAD_FILES, "folder.csv", "missing.csv"):
+        window.use_file_with_columns(tmp_path / name, attrgetter(use)(window.workbench))
+        qtbot.waitUntil(lambda: get_notice_texts(window) != [], timeout=LONG_MS)
+        qtbot.waitUntil(lambda: not window.workbench.busy, timeout=LONG_MS)
+        (notice,) = window.notices.notices()
+        assert name in notice.text
+        assert window.workbench.plan is plan
+        assert window.workbench.run is None
+        notice.closed.emit()
 
 
 def test_an_opened_record_is_compared_with_the_model(qtbot, window, shared_dir):
@@ -269,16 +242,10 @@ def test_an_opened_record_is_compared_with_the_model(qtbot, window, shared_dir):
 
 
 def test_any_robot_gets_its_window(qtbot, make_robot_window):
-    for robot in ("emps", "picma", "fsm"):
+    for robot in ("emps", "fsm"):
         window = make_robot_window(robot)
         assert set(window.panels["control"].rows) == set(window.workbench.robot.axes)
         assert get_notice_texts(window) == []
-
-
-def play_trajectory(qtbot, window, path):
-    load(qtbot, window, write_short_trajectory(path))
-    with qtbot.waitSignal(window.workbench.run_changed, timeout=LONG_MS):
-        window.workbench.play()
 
 
 @pytest.fixture
@@ -294,24 +261,34 @@ def questions(monkeypatch):
     return boxes
 
 
-def test_saving_asks_where(qtbot, window, tmp_path, monkeypatch):
+def play_long(qtbot, window, tmp_path):
+    """Load a trajectory of 20 s and play its beginning."""
+    load(qtbot, window, write_short_trajectory(tmp_path / "long.csv", seconds=20.0))
+    session = window.workbench.session
+    window.workbench.play()
+    qtbot.waitUntil(lambda: session.snapshot().progress > 0.005, timeout=LONG_MS)
+    return session
+
+
+def test_every_playback_is_saved_to_its_own_file_and_elsewhere_on_request(
+    qtbot, window, tmp_path, questions, monkeypatch
+):
+    bench = window.workbench
     window.ask_save()
     assert "no record to save" in get_notice_texts(window)[0]
-    play_trajectory(qtbot, window, tmp_path / "move.csv")
+    load(qtbot, window, write_short_trajectory(tmp_path / "move.csv"))
+    for count in (1, 2):
+        with qtbot.waitSignal(bench.run_changed, timeout=LONG_MS):
+            bench.play()
+        qtbot.waitUntil(lambda: bench.records.unsaved is None, timeout=LONG_MS)
+        assert len(list(bench.played_folder.glob("*_move.csv.gz"))) == count
+        qtbot.waitUntil(lambda: bench.session.at_rest, timeout=LONG_MS)
     target = tmp_path / "saved.csv"
     monkeypatch.setattr(QFileDialog, "show", lambda dialog: dialog.fileSelected.emit(str(target)))
     window.ask_save()
     qtbot.waitUntil(target.exists, timeout=LONG_MS)
-    np.testing.assert_array_equal(read_record(target).values, window.workbench.run.record.values)
-
-
-def test_every_playback_is_saved_to_its_own_file(qtbot, window, tmp_path, questions):
-    for count in (1, 2):
-        play_trajectory(qtbot, window, tmp_path / "move.csv")
-        qtbot.waitUntil(lambda: window.workbench.records.unsaved is None, timeout=LONG_MS)
-        assert len(list(window.workbench.played_folder.glob("*_move.csv.gz"))) == count
-    newest = max(window.workbench.played_folder.iterdir())
-    np.testing.assert_array_equal(read_record(newest).values, window.workbench.record.values)
+    for path in (max(bench.played_folder.iterdir()), target):
+        np.testing.assert_array_equal(read_record(path).values, bench.record.values)
     window.close()
     qtbot.waitUntil(window.isHidden, timeout=LONG_MS)
     assert not questions
@@ -319,7 +296,8 @@ def test_every_playback_is_saved_to_its_own_file(qtbot, window, tmp_path, questi
 
 def test_closing_with_an_unsaved_playback_asks_first(qtbot, window, tmp_path, questions):
     window.workbench.played_folder.write_text("no folder", "utf-8")
-    play_trajectory(qtbot, window, tmp_path / "move.csv")
+    load(qtbot, window, write_short_trajectory(tmp_path / "move.csv"))
+    window.workbench.play()
     qtbot.waitUntil(
         lambda: any("cannot be created" in n for n in get_notice_texts(window)), timeout=LONG_MS
     )
@@ -328,17 +306,14 @@ def test_closing_with_an_unsaved_playback_asks_first(qtbot, window, tmp_path, qu
     window.close()
     qtbot.waitUntil(window.isHidden, timeout=LONG_MS)
     assert len(questions) == 2
-    assert questions[0].defaultButton().text() == "Stay"  # the default button
+    assert questions[0].defaultButton().text() == "Stay"
     assert "is not saved" in questions[0].text()
 
 
 def test_quitting_during_a_playback_asks_first_and_keeps_what_was_played(
     qtbot, window, tmp_path, questions
 ):
-    load(qtbot, window, write_short_trajectory(tmp_path / "long.csv", seconds=20.0))
-    session = window.workbench.session
-    window.workbench.play()
-    qtbot.waitUntil(lambda: session.snapshot().progress > 0.005, timeout=LONG_MS)
+    session = play_long(qtbot, window, tmp_path)
     assert not window.close()
     assert session.snapshot().stop is None  # Stay changes nothing
     assert "A trajectory is playing" in questions[0].text()
@@ -349,20 +324,22 @@ def test_quitting_during_a_playback_asks_first_and_keeps_what_was_played(
     assert len(list(window.workbench.played_folder.glob("*_long.csv.gz"))) == 1
 
 
-def test_the_window_stays_open_until_a_playback_is_handled(qtbot, window, tmp_path):
+def test_the_window_stays_open_until_a_stopped_playback_is_handled(qtbot, window, tmp_path):
     bench, events = window.workbench, []
     bench.machine._event_received.disconnect()
     bench.machine._event_received.connect(events.append)
-    load(qtbot, window, write_short_trajectory(tmp_path / "long.csv", seconds=20.0))
-    bench.play()
-    qtbot.waitUntil(lambda: bench.session.snapshot().progress > 0.005, timeout=LONG_MS)
+    session = play_long(qtbot, window, tmp_path)
     bench.stop()
     qtbot.waitUntil(lambda: any(isinstance(e, PlaybackFinished) for e in events), timeout=LONG_MS)
-    qtbot.waitUntil(lambda: bench.session.at_rest, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: session.at_rest, timeout=LONG_MS)
     assert bench.has_unhandled_playback
     assert not window.close()
-    for event in events:
-        bench.machine._on_event(event)
+    with qtbot.waitSignal(bench.run_changed, timeout=LONG_MS):
+        for event in events:
+            bench.machine._on_event(event)
+    assert not bench.run.completed
+    assert 0 < bench.run.record.duration_s < 19
+    assert any("stopped after" in text for text in get_notice_texts(window))
     qtbot.waitUntil(window.isHidden, timeout=LONG_MS)
     assert len(list(bench.played_folder.glob("*_long.csv.gz"))) == 1
 
@@ -377,26 +354,6 @@ def test_a_record_is_saved_even_if_its_comparison_fails(qtbot, window, tmp_path,
     qtbot.waitUntil(lambda: get_notice_texts(window) == ["no"], timeout=LONG_MS)
     qtbot.waitUntil(lambda: window.workbench.records.unsaved is None, timeout=LONG_MS)
     assert list(window.workbench.played_folder.iterdir())
-
-
-def test_the_stop_button_works_under_an_open_menu(qtbot, window, open_menu, press_behind_menu):
-    session = window.workbench.session
-    session.go_to({"x": 0.05})
-    qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.MOVING, timeout=LONG_MS)
-    menu = open_menu(window)
-    press_behind_menu(menu, window.stop_button)
-    qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.IDLE, timeout=LONG_MS)
-    assert session.snapshot().command["x"] < 0.049
-    menu.close()
-
-
-def test_a_held_shortcut_runs_its_command_once(window):
-    shortcuts = [
-        action for action in window.findChildren(QAction) if not action.shortcut().isEmpty()
-    ]
-    repeated = [action.text() for action in shortcuts if action.autoRepeat()]
-    assert "&Play or pause" in [action.text() for action in shortcuts]
-    assert repeated == []  # otherwise it would play, pause and resume while the key is held
 
 
 def test_theme_and_layout_survive_a_restart(qtbot, make_robot_window, settings):
@@ -447,14 +404,6 @@ def test_a_bad_panel_is_named_and_left_out(make_robot_window, monkeypatch):
 def make_entry_loader(original_load, test_entry):
     """Return a loader for this module too; imported by path, no entry point can name it."""
     return lambda point: RaisingPanel if point.value == test_entry else original_load(point)
-
-
-def test_a_notice_is_plain_text_and_can_be_closed(qtbot, window):
-    window.workbench.notify(module.Level.ERROR, "<b>file</b><script>x</script>.csv is bad")
-    (notice,) = window.notices.notices()
-    assert notice.findChild(QTextEdit).toPlainText() == "<b>file</b><script>x</script>.csv is bad"
-    notice.closed.emit()
-    assert window.notices.notices() == []
 
 
 def test_unreadable_preferences_are_reported_with_their_path(qtbot, tmp_path):

@@ -27,13 +27,10 @@ def find_entry(window, text):
     return next(candidate for candidate in window._make_palette_entries() if candidate.text == text)
 
 
-def test_only_offered_buttons_are_in_the_palette(window, add_button):
+def test_a_panel_ranks_before_an_offered_button_that_matches_better(window, add_button):
+    offer_in_palette(add_button("Faults"), add_button("Faults by date"))
     add_button("Dispense")
     assert "Faults: Dispense" not in [entry.text for entry in window._make_palette_entries()]
-
-
-def test_a_panel_ranks_before_a_button_that_matches_better(window, add_button):
-    offer_in_palette(add_button("Faults"), add_button("Faults by date"))
     palette = window.palette_page
     window.toggle_palette()
     for query in ("faults", "fau", "fts"):
@@ -44,49 +41,37 @@ def test_a_panel_ranks_before_a_button_that_matches_better(window, add_button):
     window.toggle_palette()
 
 
-@pytest.mark.parametrize("hide", ["closed", "behind another"])
-def test_a_hidden_panel_is_opened_and_its_button_not_clicked(qtbot, window, add_button, hide):
-    dispense = add_button("Dispense")
+def test_a_hidden_panel_is_opened_and_its_button_not_clicked(qtbot, window, add_button):
+    dispense, palette = add_button("Dispense"), window.palette_page
     offer_in_palette(dispense)
-    window.bring_up("faults")
-    if hide == "closed":
-        window.docks["faults"].close()
-    else:
-        window.bring_up("trajectory")  # its dock is in the same area
-    qtbot.waitUntil(lambda: window.panels["faults"].visibleRegion().isEmpty(), timeout=LONG_MS)
-    palette = window.palette_page
-    window.toggle_palette()
-    palette.field.setText("dispense")
-    assert "Press Enter to open Faults" in palette.reason.text()
-    palette.run_selected()
-    assert dispense.clicks == []
-    qtbot.waitUntil(lambda: not dispense.visibleRegion().isEmpty(), timeout=LONG_MS)
-    assert "Dispense: not run" in window.notices.notices()[0].text
-    window.toggle_palette()
-    palette.field.setText("dispense")
-    assert palette.reason.text() == "Press Enter to run it."
-    palette.run_selected()
-    assert dispense.clicks == ["Dispense"]
+    for hide in (window.docks["faults"].close, lambda: window.bring_up("trajectory")):
+        window.bring_up("faults")
+        qtbot.waitUntil(lambda: not dispense.visibleRegion().isEmpty(), timeout=LONG_MS)
+        dispense.clicks.clear()
+        hide()  # the dock of the trajectory is in the same area
+        qtbot.waitUntil(lambda: dispense.visibleRegion().isEmpty(), timeout=LONG_MS)
+        window.toggle_palette()
+        palette.field.setText("dispense")
+        assert "Press Enter to open Faults" in palette.reason.text()
+        palette.run_selected()
+        assert dispense.clicks == []
+        qtbot.waitUntil(lambda: not dispense.visibleRegion().isEmpty(), timeout=LONG_MS)
+        assert "Dispense: not run" in window.notices.notices()[0].text
+        window.toggle_palette()
+        palette.field.setText("dispense")
+        assert palette.reason.text() == "Press Enter to run it."
+        palette.run_selected()
+        assert dispense.clicks == ["Dispense"]
 
 
-def test_a_safe_button_runs_while_its_panel_is_hidden(window, add_button):
+def test_only_stops_and_safe_buttons_run_while_their_panel_is_hidden(
+    window, add_button, monkeypatch
+):
+    bench, calls = window.workbench, []
     halt = add_button("Stop pump")
     offer_in_palette(halt, safe_while_hidden=True)
-    window.docks["faults"].close()
-    find_entry(window, "Faults: Stop pump").run()
-    assert halt.clicks == ["Stop pump"]
-
-
-def test_no_motion_command_runs_while_its_panel_is_hidden(qtbot, window, monkeypatch):
-    bench, calls = window.workbench, []
-    safe = {"Stop", "Stop and lock", "Connect …"}
     actions = (
-        "toggle_playback",
-        "release",
-        "undo",
-        "home",
-        "clear_fault",
-        "reconnect",
+        *("toggle_playback", "release", "undo", "home", "clear_fault", "reconnect"),
         "disconnect_device",
     )
     for name in actions:
@@ -94,29 +79,27 @@ def test_no_motion_command_runs_while_its_panel_is_hidden(qtbot, window, monkeyp
     motion_entries = [
         entry
         for entry in window._make_palette_entries()
-        if entry.group == "Motion" and entry.title not in safe
+        if entry.group == "Motion" and entry.title not in {"Stop", "Stop and lock", "Connect …"}
     ]
     assert len(motion_entries) == len(actions)
     for entry in motion_entries:
-        for dock in window.docks.values():
-            dock.close()
+        close_docks(window)
         entry.run()
     assert calls == []
-
-
-def test_stops_work_while_every_panel_is_hidden(window):
-    for dock in window.docks.values():
-        dock.close()
-    session = window.workbench.session
-    before = session.snapshot().stop
+    close_docks(window)
+    find_entry(window, "Faults: Stop pump").run()
+    assert halt.clicks == ["Stop pump"]
+    before = bench.session.snapshot().stop
     find_entry(window, "Motion: Stop").run()
-    assert session.snapshot().stop is not before
+    assert bench.session.snapshot().stop is not before
     find_entry(window, "Motion: Stop and lock").run()
-    assert session.snapshot().latch_reason is not None
-
-
-def test_a_command_whose_panel_is_missing_refers_to_the_menu(window):
+    assert bench.session.snapshot().latch_reason is not None
     window.panels.make_all()
     for panels in (window.panels.panel_types, window.panels.made):
         panels.pop("connection")
     assert find_entry(window, "Motion: Reconnect").objection == "its panel is missing; use the menu"
+
+
+def close_docks(window):
+    for dock in window.docks.values():
+        dock.close()

@@ -1,18 +1,16 @@
 """Fuzzy matching of command names."""
 
 import pytest
-from hypothesis import given, strategies as st
+from hypothesis import given, settings, strategies as st
 
 from rotemina.app.shell.window.palette_search import score_match
 
 TEXTS = [
     "Motion: Stop and lock",
     "Motion: Stop",
-    "Motion: Home all axes",
     "View: Light theme",
     "View: High contrast",
     "View: Smaller text",
-    "Panel: Holding plate",
     "Trajectory: Step forward",
 ]
 
@@ -29,8 +27,6 @@ def find_best_match(query):
         ("st", "Motion: Stop"),
         ("hc", "View: High contrast"),
         ("stlo", "Motion: Stop and lock"),
-        ("home", "Motion: Home all axes"),
-        ("plate", "Panel: Holding plate"),
         ("forw traj", "Trajectory: Step forward"),
         ("STEP", "Trajectory: Step forward"),
     ],
@@ -46,6 +42,7 @@ def test_all_words_must_match_and_an_empty_query_matches_everything():
     assert score_match("s", "") is None
 
 
+@settings(max_examples=25)
 @given(st.text(max_size=40), st.data())
 def test_any_subsequence_of_a_text_matches_it(text, data):
     folded = "".join(text.casefold().split())

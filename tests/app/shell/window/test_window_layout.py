@@ -5,11 +5,7 @@ from PySide6.QtCore import QByteArray, QPoint
 from PySide6.QtWidgets import QApplication, QLabel, QTabBar
 
 from rotemina.app.panel import PanelArea
-from rotemina.app.shell.window import (
-    BUILT_IN,
-    DIAGNOSE,
-    OPERATE,
-)
+from rotemina.app.shell.window import BUILT_IN, DIAGNOSE, OPERATE
 from rotemina.app.shell.window.central_column import MIN_PANELS_HEIGHT_PX
 from rotemina.app.shell.window.folded_panels import FOLDED_PANELS
 from rotemina.app.shell.window.layouts import MAX_SAVED_LAYOUTS, SavedLayouts
@@ -150,7 +146,7 @@ def test_saved_layouts_are_limited_in_number(settings):
     assert layouts.find_objection("n1") is None
 
 
-@pytest.mark.parametrize("content", ["", "[1]", "{", '{"a": 3}', '{"a": "no base 64"}'])
+@pytest.mark.parametrize("content", ["[1]", "{", '{"a": 3}', '{"a": "no base 64"}'])
 def test_invalid_saved_layouts_are_ignored(settings, content):
     settings.set("window.layouts", content)
     layouts = SavedLayouts(settings)
