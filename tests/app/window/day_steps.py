@@ -9,11 +9,7 @@ from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QApplication, QComboBox, QDialog, QTabWidget
 
 from rotemina.app.motion.playback import PlaybackPhase
-from rotemina.app.shell.window import (
-    BUILT_IN,
-    DIAGNOSE,
-    OPERATE,
-)
+from rotemina.app.shell.window import BUILT_IN, DIAGNOSE, OPERATE
 from rotemina.app.shell.window.layouts import TUNE
 from rotemina.app.widgets.style import THEMES
 from rotemina.app.workbench import Level
@@ -26,9 +22,9 @@ from rotemina.sim.trajectory import load_worn_effects, make_demonstration, make_
 LONG_RECORD_ROWS = 200_000
 LIBRARY_ENTRIES = 500
 LOG_MESSAGES = 5000
-NOTICES = 100
+NOTICES = 50
 SIZES = ((1000, 700), (1920, 1080), (1280, 800))
-PAGES = ("index", "window", "gap-diagnosis", "safety", "effects", "plugins", "drivers", "paper")
+PAGES = ("index", "plugins", "protocol")
 THEME_LABEL = "theme"
 
 
@@ -117,26 +113,19 @@ def themes(op):
         yield f"{THEME_LABEL} {name}", partial(op.window.use_theme, name), at_once
 
 
+def arrange(op, layout):
+    """Return the step that arranges a layout."""
+    action = partial(op.window.arrangement.arrange, layout)
+    return f"layout {layout.plain_title}", action, at_once
+
+
 def layouts(op):
-    for layout in (*BUILT_IN, *BUILT_IN):
-        yield (
-            f"layout {layout.plain_title}",
-            partial(op.window.arrangement.arrange, layout),
-            at_once,
-        )
     for layout in BUILT_IN:
-        yield (
-            f"layout {layout.plain_title}",
-            partial(op.window.arrangement.arrange, layout),
-            at_once,
-        )
+        yield arrange(op, layout)
         for size in SIZES:
-            yield (
-                f"resize {layout.plain_title} to {size[0]}",
-                partial(op.window.resize, *size),
-                at_once,
-            )
-    yield f"layout {OPERATE.plain_title}", partial(op.window.arrangement.arrange, OPERATE), at_once
+            resize = partial(op.window.resize, *size)
+            yield f"resize {layout.plain_title} to {size[0]}", resize, at_once
+    yield arrange(op, OPERATE)
 
 
 def panels(op):
@@ -144,20 +133,16 @@ def panels(op):
         yield f"panel {name}", partial(op.window.bring_up, name), at_once
         for tabs in panel.findChildren(QTabWidget):
             for index in range(tabs.count()):
-                yield (
-                    f"panel {name}, {tabs.tabText(index)}",
-                    partial(tabs.setCurrentIndex, index),
-                    at_once,
-                )
+                show_tab = partial(tabs.setCurrentIndex, index)
+                yield f"panel {name}, {tabs.tabText(index)}", show_tab, at_once
 
 
 def windows(op):
     window = op.window
-    for _ in range(2):
-        yield "palette", window.toggle_palette, at_once
-        for letter in "plate":
-            yield "palette, typing", partial(window.palette_page.field.insert, letter), at_once
-        yield "palette", window.toggle_palette, at_once
+    yield "palette", window.toggle_palette, at_once
+    for letter in "plate":
+        yield "palette, typing", partial(window.palette_page.field.insert, letter), at_once
+    yield "palette", window.toggle_palette, at_once
     for page in PAGES:
         yield f"help {page}", partial(window.help_page.open_page, f"{page}.md"), at_once
     yield "help", window.help_page.close, at_once
@@ -196,7 +181,7 @@ def messages(op):
 def playback(op):
     bench, phase = op.bench, PlaybackPhase
     play = op.panels["trajectory"].transport.play
-    yield "layout Operate", partial(op.window.arrangement.arrange, OPERATE), at_once
+    yield arrange(op, OPERATE)
     example = partial(bench.plan_trajectory, "example", make_example(bench.robot))
     yield "load the example", example, lambda: bench.plan is not None and op.is_at_rest
     yield "play", do_nothing, play.isEnabled
@@ -220,7 +205,7 @@ def diagnosis(op):
     plan = partial(bench.plan_trajectory, "worn", motion)
     yield "load a trajectory", plan, lambda: bench.plan.trajectory is motion and op.is_at_rest
     yield "play on a worn machine", bench.play, op.has_new_run_since(bench.run)
-    yield "layout Diagnose", partial(op.window.arrangement.arrange, DIAGNOSE), at_once
+    yield arrange(op, DIAGNOSE)
     yield "diagnose", do_nothing, gap.start.isEnabled
     yield "diagnose", gap.start.click, lambda: gap.answer is not None
     for index in range(gap.result.tabs.count()):
@@ -231,12 +216,8 @@ def diagnosis(op):
     yield "use the corrected model", do_nothing, gap.result.use.isEnabled
     yield "use the corrected model", gap.result.use.click, lambda: op.is_at_rest
     for layout in BUILT_IN:
-        yield (
-            f"layout {layout.plain_title}",
-            partial(op.window.arrangement.arrange, layout),
-            at_once,
-        )
-    yield "layout Operate", partial(op.window.arrangement.arrange, OPERATE), at_once
+        yield arrange(op, layout)
+    yield arrange(op, OPERATE)
 
 
 def records(op):
@@ -255,11 +236,8 @@ def records(op):
         yield f"long record, {name}", partial(window.bring_up, name), at_once
     view = op.panels["identification"].controls.view
     for index in range(view.count()):
-        yield (
-            f"identification, {view.itemText(index)}",
-            partial(view.setCurrentIndex, index),
-            at_once,
-        )
+        show = partial(view.setCurrentIndex, index)
+        yield f"identification, {view.itemText(index)}", show, at_once
     search = recorder.recordings.table.search
     yield "library", partial(window.bring_up, "recorder"), at_once
     yield "library, search", partial(search.setText, "x4"), at_once

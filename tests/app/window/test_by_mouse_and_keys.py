@@ -10,8 +10,9 @@ import shutil
 import subprocess
 import sys
 import time
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from functools import partial
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -228,38 +229,35 @@ def screen():
         yield {**os.environ, "DISPLAY": f":{display}", "QT_QPA_PLATFORM": "xcb"}
 
 
-@pytest.fixture
-def boards_operator(screen, tmp_path):
-    """An operator of the window with the boards connected."""
-    label = tmp_path / "label.json"
-    folders = {f"XDG_{what}_HOME": str(tmp_path / what) for what in ("CACHE", "DATA", "CONFIG")}
+@contextmanager
+def run_program(screen, folder, *options):
+    """Run the program on a screen; yield its operator once motion is permitted."""
+    folders = {f"XDG_{what}_HOME": str(folder / what) for what in ("CACHE", "DATA", "CONFIG")}
     environment = {**screen, **folders, "OMP_NUM_THREADS": "1"}
-    with ExitStack() as stack:
-        board = [sys.executable, str(HERE / "blind_board.py"), str(SEED), str(label)]
-        process = stack.enter_context(run_process(board, stdin=subprocess.DEVNULL))
-        ports = [process.stdout.readline().split()[2].rstrip(":") for _ in range(2)]
-        program = [sys.executable, str(HERE / "probed.py"), "--driver", "mc68hc11"]
-        settings = zip(("port", "second_port"), ports, strict=True)
-        options = [word for name, port in settings for word in ("--set", f"{name}={port}")]
-        window = stack.enter_context(
-            run_process([*program, *options], stdin=subprocess.PIPE, env=environment)
-        )
-        operator = Operator(window, environment)
+    command = [sys.executable, str(HERE / "probed.py"), *options]
+    with run_process(command, stdin=subprocess.PIPE, env=environment) as program:
+        operator = Operator(program, environment)
         operator.wait("window.isVisible()")
         operator.wait("bench.session.snapshot().lock_reason is None")
         yield operator
 
 
 @pytest.fixture
+def boards_operator(screen, tmp_path):
+    """An operator of the window with the boards connected."""
+    board = [sys.executable, str(HERE / "blind_board.py"), str(SEED), str(tmp_path / "label.json")]
+    with run_process(board, stdin=subprocess.DEVNULL) as process:
+        ports = [process.stdout.readline().split()[2].rstrip(":") for _ in range(2)]
+        settings = zip(("port", "second_port"), ports, strict=True)
+        options = [word for name, port in settings for word in ("--set", f"{name}={port}")]
+        with run_program(screen, tmp_path, "--driver", "mc68hc11", *options) as operator:
+            yield operator
+
+
+@pytest.fixture
 def simulator_operator(screen, tmp_path):
     """An operator of the window with the simulator connected."""
-    folders = {f"XDG_{what}_HOME": str(tmp_path / what) for what in ("CACHE", "DATA", "CONFIG")}
-    program = [sys.executable, str(HERE / "probed.py")]
-    environment = {**screen, **folders, "OMP_NUM_THREADS": "1"}
-    with run_process(program, stdin=subprocess.PIPE, env=environment) as window:
-        operator = Operator(window, environment)
-        operator.wait("window.isVisible()")
-        operator.wait("bench.session.snapshot().lock_reason is None")
+    with run_program(screen, tmp_path) as operator:
         yield operator
 
 
@@ -305,18 +303,12 @@ def open_nothing(operator):
     operator.focus("RoTeMiNa")
 
 
-@pytest.mark.parametrize("stop_input", ["Escape", "mouse"])
-def test_stop_acts_regardless_of_open_menus_and_dialogs(simulator_operator, stop_input):
+def test_stop_acts_regardless_of_open_menus_and_dialogs(simulator_operator):
     operator = simulator_operator
     operator.focus("RoTeMiNa")
     stop = operator.wait("locate(window.stop_button)")
-    for open_something in (
-        open_nothing,
-        partial(open_menu, number=0),
-        open_submenu,
-        open_list,
-        *([open_dialog] if stop_input == "Escape" else ()),
-    ):
+    things_to_open = (open_nothing, partial(open_menu, number=0), open_submenu, open_list)
+    for open_something, by_mouse in (*product(things_to_open, (False, True)), (open_dialog, False)):
         position = operator.evaluate("bench.session.snapshot().command['x']")
         target = 0.05 if position < 0.0275 else 0.005
         operator.evaluate(
@@ -325,10 +317,10 @@ def test_stop_acts_regardless_of_open_menus_and_dialogs(simulator_operator, stop
         operator.wait("bench.session.snapshot().activity.value == 'moving'")
         open_something(operator)
         assert operator.evaluate("bench.session.snapshot().activity.value") == "moving"
-        if stop_input == "Escape":
-            operator.press("Escape")
-        else:
+        if by_mouse:
             operator.click(str(list(stop)))
+        else:
+            operator.press("Escape")
         operator.wait("bench.session.snapshot().activity.value == 'idle'", 3.0)
         assert operator.evaluate("bench.session.snapshot().stop.by") == "operator", open_something
         while operator.evaluate("QApplication.activePopupWidget() is not None"):  # e.g. a submenu
@@ -368,20 +360,8 @@ def test_a_corrected_model_reduces_the_gap_of_the_demonstration_machine(
     operator.wait("bench.run.model_id.startswith('corrected-') and not bench.busy", LONG_S)
     corrected_gap, nominal = operator.play_file(paths[1])
     assert corrected_gap <= nominal / MIN_DEMO_FACTOR
-
-    operator.wait(f"{RESULT} is not None", LONG_S)
-    operator.wait(f"{RESULT}.name == 'two.csv'", LONG_S)
-    gap_text = operator.evaluate(f"{UNSEEN_MOTION}.table.read_texts()[0][3]")
-    plots = "panels['plots']"
-    figures = f"{plots}.plots['zn'].figures.text()"
-    operator.wait(
-        f"{figures}.endswith('Gap, this run {gap_text}')",
-        details=f"({figures}, {plots}.isVisible(), {plots}.pause.isChecked(), bench.run.name)",
-    )
-    operator.wait("bool(window.bring_up('comparison') or True)")
-    operator.wait("panels['comparison'].table.rowCount() > 1")
-    cells = "[panels['comparison'].table.item(r, 1).text() for r in range(2)]"
-    assert gap_text in operator.evaluate(cells)
+    operator.wait(f"{RESULT} is not None and {RESULT}.name == 'two.csv'", LONG_S)
+    assert operator.evaluate("panels['gap'].result.headline.property('tone')") in ("good", "partly")
     report = tmp_path / "page.html"
     operator.focus("RoTeMiNa")
     operator.press("ctrl+3")
@@ -391,9 +371,7 @@ def test_a_corrected_model_reduces_the_gap_of_the_demonstration_machine(
     operator.type_into("read_file_name('Report')", str(report))
     operator.press("Return")
     operator.wait(f"__import__('pathlib').Path({str(report)!r}).exists() and not bench.busy")
-    assert f"Gap, this run {gap_text}" in report.read_text("utf-8")
-    assert operator.evaluate("panels['gap'].result.headline.property('tone')") in ("good", "partly")
-    print(f"the gap is {nominal / corrected_gap:.0f} times smaller: {gap_text}, in all places")
+    print(f"the gap is {nominal / corrected_gap:.0f} times smaller")
 
 
 def test_a_hidden_effect_is_diagnosed_and_its_twin_reduces_the_gap(boards_operator, tmp_path):
@@ -405,12 +383,8 @@ def test_a_hidden_effect_is_diagnosed_and_its_twin_reduces_the_gap(boards_operat
     operator.wait(f"bench.session.snapshot().command['x'] > {before}")
 
     operator.click("locate(panels['plots'].pause)")  # drawing without a graphics card takes a core
-    operator.press("ctrl+t")
-    operator.wait("find_dialog('Load trajectory') is not None")
-    operator.focus("Load trajectory")
-    operator.type_into("read_file_name('Load trajectory')", str(path))
-    operator.press("Return")
-    operator.wait("bench.plan is not None and bench.plan.dry_run.allowed")
+    operator.load(path)
+    operator.wait("bench.plan.dry_run.allowed")
     operator.wait(f"{PLAY_BUTTON}.isEnabled() and locate({PLAY_BUTTON})")
     operator.repeat_until_done(operator.play, "'comparison' in window.news.unseen_names")
     operator.wait("bool(window.bring_up('comparison') or True)")
