@@ -15,7 +15,7 @@ MEMORY_BENCHMARK = Path(__file__).parents[2] / "benchmarks" / "bench_memory.py"
 def test_playbacks_and_actions_do_not_accumulate_memory():
     # Views allocate caches on first use, which is within the first half.
     process = subprocess.run(
-        [sys.executable, MEMORY_BENCHMARK, "--plays", "20", "--actions", "400", "--after", "0.5"],
+        [sys.executable, MEMORY_BENCHMARK, "--plays", "20", "--actions", "200", "--after", "0.5"],
         check=False,
         capture_output=True,
         text=True,
