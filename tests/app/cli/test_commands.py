@@ -21,19 +21,13 @@ ROWS = "0,20.0,20.0\n0.01,20.01,20.0\n0.02,20.02,20.01\n0.03,20.03,20.02\n"
 
 
 @pytest.fixture
-def in_tmp(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
-
-
-@pytest.fixture
 def tour():
     shipped = resources.files("rotemina.resources.trajectories").joinpath("six_axis_tour.csv")
     with resources.as_file(shipped) as path:
         yield path
 
 
-def test_play_then_compare_finds_only_noise(in_tmp, tour, capsys):
+def test_play_then_compare_finds_only_noise(tour, capsys):
     assert main(["play", str(tour), "-o", "run.csv", "--seed", "3"]) == 0
     assert main(["compare", "run.csv", "--json", "out.json", "--plot", "out.svg"]) == 0
     document = json.loads(Path("out.json").read_text("utf-8"))
@@ -49,7 +43,7 @@ def test_play_then_compare_finds_only_noise(in_tmp, tour, capsys):
     assert "thx.meas" in capsys.readouterr().out
 
 
-def test_two_runs_are_compared_with_each_other(in_tmp, capsys):
+def test_two_runs_are_compared_with_each_other(capsys):
     time_s = np.arange(2001) / 1000.0
     for name, lag_s in (("one", 0.0), ("two", 0.02)):
         position = 1e-5 * (1.0 - np.cos(2.0 * np.pi * (time_s - lag_s)))
@@ -74,7 +68,7 @@ def write_trajectory(name, axis, time_s, command, unit="m"):
     ("robot", "axis", "centre", "rate_hz"),
     [("rotemina", "zn", 3e-5, 1000), ("rotemina", "zn", 3e-5, 70), ("emps", "q", 0.1, 300)],
 )
-def test_record_has_device_motion_and_requested_commands(in_tmp, robot, axis, centre, rate_hz):
+def test_record_has_device_motion_and_requested_commands(robot, axis, centre, rate_hz):
     """Every requested row starts within a tick of its time. Sampling continues between rows."""
     time_s = 7.0 + np.arange(rate_hz + 1) / rate_hz
     command = centre * (1.0 + 0.05 * np.sin(np.pi * (time_s - 7.0)) ** 2)
@@ -97,21 +91,21 @@ def test_record_has_device_motion_and_requested_commands(in_tmp, robot, axis, ce
     assert float(record.metadata["trajectory_duration_s"]) == pytest.approx(1.0)
 
 
-def test_record_of_short_trajectory_lists_its_times(in_tmp):
+def test_record_of_short_trajectory_lists_its_times():
     write_trajectory("steps", "zn", np.array([0.0, 0.25, 1.0 / 3]), np.array([1e-5] * 3))
     assert main(["play", "steps.csv"]) == 0
     times = read_record("steps-record.csv").metadata["trajectory_times_s"]
     assert [float(text) for text in times.split()] == [0.0, 0.25, 1.0 / 3]
 
 
-def test_same_seed_gives_same_record(in_tmp, tour):
+def test_same_seed_gives_same_record(tour):
     for name, seed in (("a.csv", "5"), ("b.csv", "5"), ("c.csv", "6")):
         assert main(["play", str(tour), "-o", name, "--seed", seed]) == 0
     assert Path("a.csv").read_bytes() == Path("b.csv").read_bytes()
     assert Path("a.csv").read_bytes() != Path("c.csv").read_bytes()
 
 
-def test_controlled_robot_is_played_in_closed_loop(in_tmp):
+def test_controlled_robot_is_played_in_closed_loop():
     time_s = np.arange(2001) / 1000
     command = 0.05 + 0.02 * np.sin(np.pi * time_s) ** 2
     trajectory = Record.from_signals(time_s, {("q", Tap.CMD): command}, {"q": "m"})
@@ -124,13 +118,7 @@ def test_controlled_robot_is_played_in_closed_loop(in_tmp):
     assert np.abs(record.signal("q", Tap.MEAS) - command).max() < 1e-3
 
 
-def test_json_dash_prints_only_json(in_tmp, capsys):
-    Path("r.csv").write_text(HEADER + ROWS, "utf-8")
-    assert main(["compare", "r.csv", "--json", "-"]) == 0
-    assert json.loads(capsys.readouterr().out)["taps"][0]["axis"] == "x"
-
-
-def test_convert_changes_units_rate_and_header(in_tmp, capsys):
+def test_convert_changes_units_rate_and_header(capsys):
     Path("r.csv").write_text(HEADER + ROWS, "utf-8")
     assert main(["convert", "r.csv", "-o", "um.csv.gz", "--units", "um"]) == 0
     assert b"x.cmd [um]" in gzip.decompress(Path("um.csv.gz").read_bytes())
@@ -158,118 +146,98 @@ BAD_FILES = {
 }
 
 
-@pytest.mark.parametrize("name", BAD_FILES)
-@pytest.mark.parametrize("command", ["compare", "play", "convert"])
-def test_bad_file_gives_one_clear_line_and_status_2(in_tmp, capsys, name, command):
+@pytest.mark.parametrize(
+    ("command", "name"),
+    [
+        *(("compare r.csv", name) for name in BAD_FILES),
+        ("play r.csv", "truncated"),
+        ("convert r.csv -o out.csv", "truncated"),
+    ],
+)
+def test_bad_file_is_refused(get_refusal, command, name):
     text, message = BAD_FILES[name]
     Path("r.csv").write_text(text, "utf-8")
-    extra = ["-o", "out.csv"] if command == "convert" else []
-    assert main([command, "r.csv", *extra]) == 2
-    error = capsys.readouterr().err
-    assert error.count("\n") == 1
+    error = get_refusal(command)
     assert error.startswith("rotemina: r.csv")
     assert re.search(message, error), error
-    assert [path.name for path in Path().iterdir()] == ["r.csv"]
 
 
 @pytest.mark.parametrize(
     "arguments",
     [
-        ["compare", "r.csv", "--json", "link.csv"],
-        ["compare", "o.csv", "--with", "r.csv", "--json", "link.csv"],
-        ["compare", "o.csv", "--plot", "out.svg", "--json", "./out.svg"],
-        ["play", "r.csv", "-o", "link.csv"],
+        "compare r.csv --json link.csv",
+        "compare o.csv --with r.csv --json link.csv",
+        "compare o.csv --plot out.svg --json ./out.svg",
+        "play r.csv -o link.csv",
     ],
 )
-def test_no_output_overwrites_an_input_or_another_output(in_tmp, capsys, arguments):
+def test_no_output_overwrites_an_input_or_another_output(get_refusal, arguments):
     for name in ("r.csv", "o.csv"):
         Path(name).write_text(HEADER + ROWS, "utf-8")
     Path("link.csv").symlink_to("r.csv")
-    assert main(arguments) == 2
-    assert "is named twice" in capsys.readouterr().err
-    assert sorted(path.name for path in Path().iterdir()) == ["link.csv", "o.csv", "r.csv"]
-    assert Path("r.csv").read_text("utf-8") == HEADER + ROWS
+    assert "is named twice" in get_refusal(arguments)
 
 
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["compare", "missing.csv"], "missing.csv"),
-        (["compare", "."], "."),
-        (["compare", "r.csv", "--robot", "nobody"], "nobody: no such robot"),
-        (["compare", "r.csv", "--fit", "speed"], "'speed' cannot be re-fitted"),
-        (["compare", "r.csv", "--plot", "out.bmp"], "out.bmp: the name of a picture must end in"),
-        (["compare", "r.csv", "--json", "no/such/folder/out.json"], "cannot be written"),
-        (["convert", "r.csv", "-o", "out.csv", "--units", "kg"], "unknown unit 'kg'"),
-        (["convert", "r.csv", "-o", "out.csv", "--units", "V"], "a length or an angle"),
-        (["convert", "r.csv", "-o", "out.csv", "--resample", "-5"], "-5"),
+        ("compare missing.csv", "missing.csv cannot be read"),
+        ("compare .", "."),
+        ("compare r.csv --robot nobody", "nobody: no such robot"),
+        ("compare r.csv --fit speed", "'speed' cannot be re-fitted"),
+        ("compare r.csv --plot out.bmp", "out.bmp: the name of a picture must end in"),
+        ("compare r.csv --plot p.svg --json no/such/out.json", "cannot be written"),
+        ("convert r.csv -o out.csv --units kg", "unknown unit 'kg'"),
+        ("convert r.csv -o out.csv --units V", "a length or an angle"),
+        ("convert r.csv -o out.csv --resample -5", "-5"),
+        ("convert r.csv -o ./r.csv --units um", "r.csv"),
+        ("convert r.csv -o out.csv --robot emps", "robot 'EMPS' has no axis 'x'"),
     ],
 )
-def test_bad_request_gives_one_clear_line_and_status_2(in_tmp, capsys, arguments, message):
+def test_bad_request_is_refused(get_refusal, arguments, message):
     Path("r.csv").write_text(HEADER + ROWS, "utf-8")
-    assert main(arguments) == 2
-    error = capsys.readouterr().err
-    assert error.count("\n") == 1
-    assert message in error
-    assert [path.name for path in Path().iterdir()] == ["r.csv"]
+    Path("p.svg").write_text("old", "utf-8")
+    assert message in get_refusal(arguments)
 
 
-def test_trajectory_beyond_a_limit_is_not_played(in_tmp, capsys):
+def test_trajectory_beyond_a_limit_is_not_played(get_refusal):
     Path("far.csv").write_text("t [s],x [mm]\n0,54.9\n1,55.3\n", "utf-8")
-    assert main(["play", "far.csv"]) == 2
-    error = capsys.readouterr().err
+    error = get_refusal("play far.csv")
     assert error.startswith("rotemina: far.csv: axis x: ")
     assert "position 55.3 mm" in error
     assert "limit 55 mm" in error
     assert "(and 2 more)" in error
-    assert not Path("far-record.csv").exists()
     # It can still be converted.
     assert main(["convert", "far.csv", "-o", "copy.csv"]) == 0
 
 
-def test_trajectory_that_would_overshoot_the_range_is_not_played(in_tmp, capsys):
+def test_trajectory_that_would_overshoot_the_range_is_not_played(get_refusal):
     Path("swing.csv").write_text("t [s],m1 [um]\n0,0\n0.001,4.9\n", "utf-8")
-    assert main(["play", "swing.csv", "--robot", "fsm"]) == 2
-    assert "predicted motion" in capsys.readouterr().err
-    assert not Path("swing-record.csv").exists()
+    assert "predicted motion" in get_refusal("play swing.csv --robot fsm")
 
 
-def test_robot_option_can_precede_the_subcommand(in_tmp, capsys):
+def test_robot_option_can_precede_the_subcommand(capsys):
     Path("q.csv").write_text("t [s],q [m],q.u [V]\n0,0.1,0\n0.01,0.1,0\n", "utf-8")
     assert main(["--robot", "emps", "convert", "q.csv", "-o", "out.csv"]) == 0
-    assert main(["convert", "q.csv", "-o", "out2.csv"]) == 2
 
 
-def test_existing_files_are_not_overwritten(in_tmp, tour, capsys):
-    assert main(["play", str(tour), "-o", "run.csv"]) == 0
+def test_existing_record_is_not_overwritten(tour, get_refusal):
     Path("six_axis_tour-record.csv").write_text("mine", "utf-8")
-    assert main(["play", str(tour)]) == 2
-    assert Path("six_axis_tour-record.csv").read_text("utf-8") == "mine"
-    before = Path("run.csv").read_bytes()
-    assert main(["convert", "run.csv", "-o", "./run.csv", "--units", "um"]) == 2
-    assert Path("run.csv").read_bytes() == before
-
-
-def test_json_and_plot_are_written_together_or_not_at_all(in_tmp, capsys):
-    Path("r.csv").write_text(HEADER + ROWS, "utf-8")
-    Path("p.svg").write_text("old", "utf-8")
-    arguments = ["compare", "r.csv", "--plot", "p.svg", "--json", "no/such/out.json"]
-    assert main(arguments) == 2
-    assert Path("p.svg").read_text("utf-8") == "old"
+    assert "six_axis_tour-record.csv" in get_refusal(["play", str(tour)])
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no named pipes in the file system")
-def test_named_pipe_is_not_replaced_by_a_file(in_tmp, capsys):
+def test_named_pipe_is_not_replaced_by_a_file(get_refusal):
     os.mkfifo("pipe")
     Path("r.csv").write_text(HEADER + ROWS, "utf-8")
-    assert main(["convert", "r.csv", "-o", "pipe"]) == 2
+    assert "pipe" in get_refusal("convert r.csv -o pipe")
     assert stat.S_ISFIFO(Path("pipe").stat().st_mode)
 
 
-def test_dry_run_writes_nothing(in_tmp, tour, capsys):
+def test_dry_run_writes_nothing(tour, capsys):
     assert main(["play", str(tour), "--dry-run"]) == 0
     assert "within the limits" in capsys.readouterr().out
-    assert not list(in_tmp.iterdir())
+    assert not list(Path().iterdir())
 
 
 def test_installed_command_prints_its_version():

@@ -38,19 +38,15 @@ SHORTENED_NAME = f"{'a' * 100} … {'a' * 30} (300 characters)"
         (["tune", "--axis", "zn", "-o", "o", "--rate", "1e15"], "loop rate 1e+15 Hz"),
     ],
 )
-def test_unusable_file_gives_one_clear_line(arguments, message, tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
+def test_unusable_file_gives_one_clear_line(arguments, message, tmp_path, get_refusal):
     (tmp_path / "good.csv").write_text("t [s],x.cmd [um],x.meas [um]\n0,0,0\n0.001,1,1\n")
     (tmp_path / "deep.toml").write_text(".".join(["a"] * 50_000) + " = 1")
     for name in ("pipe", "pipe.part"):
         os.mkfifo(tmp_path / name)
-    assert main(arguments) == 2
-    error = capsys.readouterr().err
-    assert error.count("\n") == 1
-    assert message in error
+    assert message in get_refusal(arguments)
 
 
-@pytest.mark.parametrize("value", ["k" * 100_000, "a\x1b[31mb\nc\rd", "k " * 50_000])
+@pytest.mark.parametrize("value", ["k" * 100_000, "a\x1b[31mb\nc\rd" + "k " * 50_000])
 @pytest.mark.parametrize(
     "arguments",
     [
@@ -70,10 +66,7 @@ def test_unusable_file_gives_one_clear_line(arguments, message, tmp_path, monkey
         ["{}"],
     ],
 )
-def test_long_or_unprintable_value_is_quoted_shortened(
-    arguments, value, tmp_path, monkeypatch, capsys
-):
-    monkeypatch.chdir(tmp_path)
+def test_long_or_unprintable_value_is_quoted_shortened(arguments, value, tmp_path, capsys):
     (tmp_path / "good.csv").write_text("t [s],x.cmd [um]\n0,0\n0.001,1\n")
     (tmp_path / "mode.csv").write_text(f"# mode: {value}\nt [s],x.cmd [um]\n0,0\n0.001,1\n")
     (tmp_path / "key.toml").write_text(f"{json.dumps(value)} = 1\n")

@@ -14,8 +14,7 @@ ROWS = 3000
 
 
 @pytest.fixture(autouse=True)
-def working_folder(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+def quick_training(monkeypatch):
     monkeypatch.setattr(anfis.AnfisSettings, "__init__", _set_quick_settings)
 
 
@@ -44,7 +43,7 @@ def write_looped_record(name, axes=("zn",), taps=(Tap.CMD, Tap.MEAS), phase=0.0)
     write_record(Record.from_signals(np.arange(ROWS) * 1e-3, signals, units), name)
 
 
-def test_train_then_check(capsys):
+def test_train_then_check(capsys, get_refusal):
     write_looped_record("a.csv")
     write_looped_record("b.csv", phase=0.4)
     assert main(["compensate", "train", "a.csv", "-o", "zn.json"]) == 0
@@ -65,13 +64,15 @@ def test_train_then_check(capsys):
     assert figures["recommended"] == trained.recommended_kind
     residuals = figures["residuals"]
     assert residuals["modified_prandtl_ishlinskii"]["rms"] < 0.2 * residuals["linear"]["rms"]
+    refusal = get_refusal("compensate check zn.json a.csv --robot picma")
+    assert "was trained for robot 'RoTeMiNa', not for" in refusal
 
 
-def test_held_out_record_is_used_for_the_evaluation(capsys):
+def test_held_out_record_is_used_for_the_evaluation():
     write_looped_record("a.csv")
     write_looped_record("b.csv", phase=0.4)
-    arguments = ["compensate", "train", "a.csv", "--held-out", "b.csv", "-o", "zn.json"]
-    assert main([*arguments, "--json", "figures.json"]) == 0
+    arguments = "compensate train a.csv --held-out b.csv -o zn.json --json figures.json"
+    assert main(arguments.split()) == 0
     _, provenance = read_trained("zn.json")
     assert [source.name for source in provenance.held_out] == ["b.csv"]
     assert json.loads(Path("figures.json").read_text("utf-8"))["axis"] == "zn"
@@ -80,18 +81,8 @@ def test_held_out_record_is_used_for_the_evaluation(capsys):
 @pytest.mark.slow
 def test_training_on_the_simulator_is_reproducible_by_seed():
     for name, seed in (("a.json", "3"), ("b.json", "3"), ("c.json", "4")):
-        arguments = [
-            "compensate",
-            "train",
-            "--simulate",
-            "--axis",
-            "zn",
-            "--seed",
-            seed,
-            "-o",
-            name,
-        ]
-        assert main(arguments) == 0
+        arguments = f"compensate train --simulate --axis zn --seed {seed} -o {name}"
+        assert main(arguments.split()) == 0
     assert Path("a.json").read_bytes() == Path("b.json").read_bytes()
     assert Path("a.json").read_bytes() != Path("c.json").read_bytes()
     assert read_trained("a.json")[1].seed == 3
@@ -103,19 +94,12 @@ def test_training_on_the_simulator_is_reproducible_by_seed():
         ("train -o it.json", "no record is named"),
         ("train a.csv --simulate --axis zn -o it.json", "--simulate takes no records"),
         ("train --simulate -o it.json", "--simulate needs --axis NAME"),
-        ("train --simulate --axis x -o it.json", "has no such piezo axis"),
-        ("train --simulate --axis zn --seed -1 -o it.json", "--seed -1: must be 0 or more"),
         ("train a.csv --seed 1 -o it.json", "--effects and --seed belong to --simulate"),
         ("train a.csv -o no/it.json", "there is no folder no"),
-        ("train a.csv -o a.csv", "a.csv is named twice"),
-        ("train a.csv -o link.csv", "link.csv is named twice"),
         ("train two.csv --held-out a.csv -o link.csv", "link.csv is named twice"),
-        ("train a.csv -o it.json --json a.csv", "a.csv is named twice"),
         ("train a.csv -o it.json --json it.json", "it.json is named twice"),
-        ("train a.csv -o it.json --json no/it.json", "there is no folder no"),
         ("check it.json a.csv --json link.csv", "link.csv is named twice"),
         ("apply it.json a.csv -o link.csv", "link.csv is named twice"),
-        ("train none.csv -o it.json", "none.csv cannot be read (file not found)"),
         ("train two.csv -o it.json", "two.csv: its piezo axes are thx, zn; name one by --axis"),
         ("train a.csv --axis thx -o it.json", "axis thx needs the columns thx.cmd"),
         ("train x.csv --axis x -o it.json", "has no such piezo axis; use one of thx, thy, zn"),
@@ -124,25 +108,13 @@ def test_training_on_the_simulator_is_reproducible_by_seed():
         ("check none.json a.csv", "none.json cannot be read"),
     ],
 )
-def test_bad_request_gives_one_clear_line_and_status_2(arguments, message, capsys):
+def test_bad_request_is_refused(arguments, message, get_refusal):
     write_looped_record("a.csv")
     write_looped_record("two.csv", axes=("thx", "zn"))
     write_looped_record("x.csv", axes=("x",))
     write_looped_record("bare.csv", taps=(Tap.CMD,))
     Path("link.csv").symlink_to("a.csv")
-    assert main(["compensate", *arguments.split()]) == 2
-    error = capsys.readouterr().err
-    assert message in error
-    assert error.startswith("rotemina: ")
-    assert error.count("\n") == 1
-    assert not Path("it.json").exists()
-
-
-def test_inverses_of_another_robot_are_refused(capsys):
-    write_looped_record("a.csv")
-    assert main(["compensate", "train", "a.csv", "-o", "zn.json"]) == 0
-    assert main(["compensate", "check", "zn.json", "a.csv", "--robot", "picma"]) == 2
-    assert "was trained for robot 'RoTeMiNa', not for" in capsys.readouterr().err
+    assert message in get_refusal(f"compensate {arguments}")
 
 
 def test_trajectory_is_compensated_and_played(capsys):

@@ -10,21 +10,17 @@ from rotemina.sim.records import Record, Tap, write_record
 
 
 @pytest.fixture(autouse=True)
-def trajectory(tmp_path, monkeypatch):
+def trajectory(in_tmp):
     """Write a piezo motion that reaches 63 µm/s."""
-    monkeypatch.chdir(tmp_path)
     time_s = np.arange(1001) / 1000.0
     command = 20e-6 - 10e-6 * np.cos(2.0 * np.pi * time_s)
     write_record(Record.from_signals(time_s, {("p", Tap.CMD): command}, {"p": "m"}), "t.csv")
 
 
-def test_play_requires_a_speed_limit(capsys):
-    assert main(["play", "t.csv", "--robot", "picma", "-o", "r.csv"]) == 2
-    error = capsys.readouterr().err
-    assert error.count("\n") == 1
+def test_play_requires_a_speed_limit(get_refusal):
+    error = get_refusal("play t.csv --robot picma -o r.csv")
     assert "states no speed limit (max_speed) of p" in error
     assert "--max-speed p=1mm/s" in error
-    assert not Path("r.csv").exists()
 
 
 def test_play_observes_the_given_speed_limit(capsys):

@@ -1,6 +1,7 @@
 """``rotemina tune`` from the command line."""
 
 import json
+import shutil
 import tomllib
 from pathlib import Path
 
@@ -10,6 +11,7 @@ import pytest
 from rotemina.app.cli.main import main
 from rotemina.sim import tuning
 from rotemina.sim.records import Record, Tap, read_record, write_record
+from rotemina.sim.robot_files import read_robot_file
 from rotemina.sim.tuning import load_tuning
 
 QUICK_SEARCH = ["--generations", "2", "--population", "12", "--jobs", "1"]
@@ -19,9 +21,19 @@ id = "hysteresis"
 """
 
 
-@pytest.fixture(autouse=True)
-def in_tmp(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+@pytest.fixture(scope="module")
+def tuned_file(tmp_path_factory):
+    """A file with the points of a search, which takes a second."""
+    path = tmp_path_factory.mktemp("tuned") / "zn.toml"
+    assert main(["tune", "--axis", "zn", "-o", str(path), *QUICK_SEARCH]) == 0
+    return path
+
+
+@pytest.fixture
+def tuned(tuned_file, in_tmp):
+    """A copy of these points, ``zn.toml``."""
+    shutil.copy(tuned_file, in_tmp / "zn.toml")
+    return load_tuning("zn.toml")
 
 
 def run_tune(capsys, *options):
@@ -43,48 +55,35 @@ def test_search_writes_and_prints_a_front(capsys):
     )
 
 
-def test_json_can_be_printed(capsys):
-    _, output = run_tune(capsys, "--json", "-")
-    assert json.loads(output.out)["axis"] == "zn"
-
-
 def test_file_names_effects_and_second_objective(capsys):
-    robot = Path(__file__).parents[4] / "resources/robots/rotemina.toml"
-    Path("worn.toml").write_text(robot.read_text("utf-8") + EFFECTS, "utf-8")
-    assert run_tune(capsys, "--effects", "worn.toml", "--against", "settling")[0] == 0
+    Path("worn.toml").write_text(read_robot_file("rotemina") + EFFECTS, "utf-8")
+    options = "--effects", "worn.toml", "--against", "settling", "--json", "-"
+    status, output = run_tune(capsys, *options)
+    assert status == 0
+    assert json.loads(output.out)["axis"] == "zn"
     provenance = load_tuning("zn.toml").provenance
     assert provenance.effects[0].startswith("hysteresis on zn")
     assert provenance.against == "settling"
 
 
-def test_point_is_chosen_without_a_search(capsys):
-    run_tune(capsys)
-    before = load_tuning("zn.toml")
-    last = len(before.points) - 1
+def test_point_is_chosen_without_a_search(tuned, get_refusal):
+    last = len(tuned.points) - 1
     assert main(["tune", "-o", "zn.toml", "--choose", str(last)]) == 0
-    after = load_tuning("zn.toml")
-    assert after == before.with_choice(last)
-    assert main(["tune", "-o", "zn.toml", "--choose", "99"]) == 2
-    assert f"has points 0 to {last}" in capsys.readouterr().err
-    assert load_tuning("zn.toml") == after
+    assert load_tuning("zn.toml") == tuned.with_choice(last)
+    for arguments, message in (
+        ("--choose 99", f"has points 0 to {last}"),
+        ("--choose 0 --robot picma", "tuned for robot 'RoTeMiNa'"),
+        ("--choose 0 --json ./zn.toml", "zn.toml is named twice"),
+    ):
+        assert message in get_refusal(f"tune -o zn.toml {arguments}")
 
 
-def test_unstable_gains_are_not_chosen(capsys):
-    run_tune(capsys)
+def test_unstable_gains_are_not_chosen(tuned, get_refusal):
     path = Path("zn.toml")
     document = tomllib.loads(path.read_text("utf-8"))
     integral = str(document["points"][0]["gains"]["integral"])
     path.write_text(path.read_text("utf-8").replace(f"integral = {integral}", "integral = 9e9", 1))
-    before = path.read_bytes()
-    assert main(["tune", "-o", "zn.toml", "--choose", "0"]) == 2
-    assert "unstable" in capsys.readouterr().err
-    assert path.read_bytes() == before
-
-
-def test_tuning_of_another_robot_is_refused(capsys):
-    run_tune(capsys)
-    assert main(["tune", "-o", "zn.toml", "--choose", "0", "--robot", "picma"]) == 2
-    assert "tuned for robot 'RoTeMiNa'" in capsys.readouterr().err
+    assert "unstable" in get_refusal("tune -o zn.toml --choose 0")
 
 
 def test_interrupted_search_keeps_its_points_and_reports_it(capsys, monkeypatch):
@@ -117,55 +116,36 @@ def test_interrupt_before_the_first_points_leaves_no_file(capsys, monkeypatch):
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (["--axis", "q"], "no such axis"),
-        (["--rate", "900"], "too slow"),
-        (["--jobs", "0"], "--jobs 0"),
-        (["--generations", "0"], "generations 0"),
-        (["--json", "zn.toml"], "named twice"),
-        (["-o", "no/zn.toml"], "there is no folder no"),
-        (["--inverse", "none.toml"], "none.toml"),
+        ("-o zn.toml", "--axis"),
+        ("-o zn.toml --axis q", "no such axis"),
+        ("-o zn.toml --axis zn --rate 900", "too slow"),
+        ("-o zn.toml --axis zn --jobs 0", "--jobs 0"),
+        ("-o zn.toml --axis zn --generations 0", "generations 0"),
+        ("-o zn.toml --axis zn --json zn.toml", "named twice"),
+        ("-o no/zn.toml --axis zn", "there is no folder no"),
+        ("-o zn.toml --axis zn --inverse none.toml", "none.toml"),
     ],
 )
-def test_bad_input_is_refused_before_the_search(capsys, options, message):
-    status, output = run_tune(capsys, *options)
-    assert status == 2
-    assert message in output.err
-    assert not list(Path().iterdir())
+def test_bad_input_is_refused_before_the_search(options, message, get_refusal):
+    assert message in get_refusal(f"tune {options}")
 
 
-def test_no_input_is_overwritten_through_a_link(capsys):
-    robot = Path(__file__).parents[4] / "resources/robots/rotemina.toml"
+def test_no_file_is_written_twice_through_a_link(get_refusal):
+    search = "tune --axis zn --robot own.toml --effects worn.toml"
     for name in ("own.toml", "worn.toml"):
-        Path(name).write_text(robot.read_text("utf-8") + EFFECTS, "utf-8")
-        Path("link.toml").unlink(missing_ok=True)
-        Path("link.toml").symlink_to(name)
-        for output in (["-o", "link.toml"], ["--json", "link.toml"]):
-            status, streams = run_tune(
-                capsys, "--robot", "own.toml", "--effects", "worn.toml", *output
-            )
-            assert status == 2
-            assert "link.toml is named twice" in streams.err
+        Path(name).write_text(read_robot_file("rotemina") + EFFECTS, "utf-8")
+    Path("own-link.toml").symlink_to("own.toml")
+    Path("worn-link.toml").symlink_to("worn.toml")
+    assert "own-link.toml is named twice" in get_refusal(f"{search} -o own-link.toml")
+    refusal = get_refusal(f"{search} -o new.toml --json worn-link.toml")
+    assert "worn-link.toml is named twice" in refusal
     # Both outputs would be written to a file that does not exist yet.
     Path("late.toml").symlink_to("new.toml")
-    status, streams = run_tune(capsys, "-o", "new.toml", "--json", "late.toml")
-    assert status == 2
-    assert "late.toml is named twice" in streams.err
+    refusal = get_refusal("tune --axis zn -o new.toml --json late.toml")
+    assert "late.toml is named twice" in refusal
 
 
-def test_choosing_a_point_does_not_overwrite_the_tuning_with_json(capsys):
-    run_tune(capsys)
-    assert main(["tune", "-o", "zn.toml", "--choose", "0", "--json", "./zn.toml"]) == 2
-    assert "zn.toml is named twice" in capsys.readouterr().err
-    load_tuning("zn.toml")
-
-
-def test_axis_is_required(capsys):
-    assert main(["tune", "-o", "zn.toml"]) == 2
-    assert "--axis" in capsys.readouterr().err
-
-
-def test_tuned_loop_plays_a_trajectory_but_an_unstable_one_does_not(capsys):
-    assert run_tune(capsys)[0] == 0
+def test_tuned_loop_plays_a_trajectory_but_an_unstable_one_does_not(tuned, get_refusal):
     position = 32e-6 + 15e-6 * np.sin(2.0 * np.pi * 5.0 * 1e-3 * np.arange(400))
     trajectory = Record.from_signals(
         1e-3 * np.arange(400), {("zn", Tap.CMD): position}, {"zn": "m"}
@@ -180,9 +160,6 @@ def test_tuned_loop_plays_a_trajectory_but_an_unstable_one_does_not(capsys):
     assert record.metadata["feedback zn"].startswith("zn.toml, point ")
     assert errors[1] < 0.5 * errors[0]
     text = Path("zn.toml").read_text("utf-8")
-    integral = load_tuning("zn.toml").chosen_point.gains.integral
+    integral = tuned.chosen_point.gains.integral
     Path("bad.toml").write_text(text.replace(f"integral = {integral!r}", "integral = 9e3"), "utf-8")
-    capsys.readouterr()
-    assert main(["play", "way.csv", "-o", "no.csv", "--tuning", "bad.toml"]) == 2
-    assert "nothing was applied" in capsys.readouterr().err
-    assert not Path("no.csv").exists()
+    assert "nothing was applied" in get_refusal("play way.csv -o no.csv --tuning bad.toml")

@@ -17,11 +17,6 @@ ROBOT = load_robot("rotemina")
 TRUE_EFFECT = AxisEffect(axis="zn", id="delay", parameters={"delay": 3e-3})
 
 
-@pytest.fixture(autouse=True)
-def in_tmp(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-
-
 def write_measured(commands, name):
     record = simulate(ROBOT, [TRUE_EFFECT], commands, np.random.default_rng(0))
     signals = {

@@ -15,7 +15,6 @@ import pytest
 
 from rotemina.app.cli.machine import board
 from rotemina.app.cli.machine.board_ports import LoopbackSocket, PseudoTerminal
-from rotemina.app.cli.main import main
 from rotemina.drivers.contract import ConnectionLostError, DeviceSamples, DriverTimeoutError
 from rotemina.drivers.mc68hc11.driver import MC68HC11Driver
 from rotemina.drivers.mc68hc11.protocol import (
@@ -214,31 +213,26 @@ def test_board_serves_a_socket_until_standard_input_closes():
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["--robot", "emps"], "axis q is moved by a force"),
-        (["--tcp", "0.0.0.0:5000"], "'0.0.0.0' is not a loopback address"),
-        (["--tcp", "127.0.0.1:x"], "the port must be a number"),
-        (["--tcp", "5000"], "'no host' is not"),
-        (["--baud", "19200"], "must be one of 125000, 9600"),
-        (["--seed", "-1"], "--seed -1: must be 0 or more"),
-        (["--mishaps", "-1"], "--mishaps -1: must be from 0"),
-        (["--bus", "--robot", "fsm"], "need only one board"),
-        (["--bus", "--port", "a", "--port", "b"], "name only one port"),
-        (["--port", "a", "--port", "b", "--port", "c"], "3 ports: two boards have at most 2"),
-        (["--port", "a", "--port", "b", "--robot", "fsm"], "need only one board"),
-        (["--port", "nowhere/at/all"], "--port nowhere/at/all: cannot create a link there"),
+        ("--robot emps", "axis q is moved by a force"),
+        ("--tcp 0.0.0.0:5000", "'0.0.0.0' is not a loopback address"),
+        ("--tcp 127.0.0.1:x", "the port must be a number"),
+        ("--tcp 5000", "'no host' is not"),
+        ("--baud 19200", "must be one of 125000, 9600"),
+        ("--seed -1", "--seed -1: must be 0 or more"),
+        ("--mishaps -1", "--mishaps -1: must be from 0"),
+        ("--bus --robot fsm", "need only one board"),
+        ("--bus --port a --port b", "name only one port"),
+        ("--port a --port b --port c", "3 ports: two boards have at most 2"),
+        ("--port a --port b --robot fsm", "need only one board"),
+        ("--port nowhere/at/all", "--port nowhere/at/all: cannot create a link there"),
     ],
 )
-def test_bad_request_is_refused_in_one_line(arguments, message, capsys, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    assert main(["board", *arguments]) == 2
-    output = capsys.readouterr()
-    assert message in output.err
-    assert output.err.count("\n") == 1
-    assert list(tmp_path.iterdir()) == []
+def test_bad_request_is_refused(arguments, message, get_refusal):
+    assert message in get_refusal(f"board {arguments}")
 
 
 @pytest.mark.parametrize("kind", ["file", "folder", "live link", "dead link elsewhere"])
-def test_port_name_overwrites_nothing(tmp_path, capsys, kind):
+def test_port_name_overwrites_nothing(tmp_path, get_refusal, kind):
     path = tmp_path / "board"
     if kind == "file":
         path.write_text("mine")
@@ -246,8 +240,7 @@ def test_port_name_overwrites_nothing(tmp_path, capsys, kind):
         path.mkdir()
     else:
         path.symlink_to("/dev/null" if kind == "live link" else tmp_path / "gone")
-    assert main(["board", "--bus", "--port", str(path)]) == 2
-    assert "already exists" in capsys.readouterr().err
+    assert "already exists" in get_refusal(f"board --bus --port {path}")
     assert path.exists() or path.is_symlink()
 
 

@@ -5,14 +5,12 @@ import signal
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 import pytest
 
-from rotemina.app.cli.main import main
 from rotemina.drivers.contract import DeviceState
 from rotemina.drivers.gcode.driver import GcodeStage
-from rotemina.sim.robot_files import load_robot
+from rotemina.sim.robot_files import load_robot, read_robot_file
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="needs POSIX pseudo-terminals")
 PATIENCE_S = 60.0  # generous, for a loaded machine
@@ -40,7 +38,7 @@ def read_command(driver):
 
 def test_driver_homes_moves_stops_and_sees_a_fault_over_the_port(tmp_path):
     port, robot_file = tmp_path / "stage", tmp_path / "small.toml"
-    text = (Path(__file__).parents[4] / "resources" / "robots" / "xyz.toml").read_text("utf-8")
+    text = read_robot_file("xyz")
     robot_file.write_text(text.replace("0.050]", "0.004]").replace("0.030]", "0.004]"), "utf-8")
     with subprocess.Popen(
         [
@@ -77,6 +75,5 @@ def test_driver_homes_moves_stops_and_sees_a_fault_over_the_port(tmp_path):
     assert not port.is_symlink()
 
 
-def test_robot_with_piezo_axes_is_refused(capsys):
-    assert main(["stage", "--robot", "rotemina"]) == 2
-    assert "axis thx is moved by a piezo" in capsys.readouterr().err
+def test_robot_with_piezo_axes_is_refused(get_refusal):
+    assert "axis thx is moved by a piezo" in get_refusal("stage --robot rotemina")

@@ -10,15 +10,14 @@ from rotemina.sim.excitation import EXCITATION_KINDS
 from rotemina.sim.records import Tap, read_record
 
 
-@pytest.fixture(autouse=True)
-def in_tmp(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
-
-
-@pytest.mark.parametrize("robot", ["rotemina", "fsm", "picma", "emps"])
-@pytest.mark.parametrize("kind", EXCITATION_KINDS)
-def test_every_kind_writes_a_file_that_names_its_excitation(kind, robot, capsys):
+@pytest.mark.parametrize(
+    ("kind", "robot"),
+    [
+        *((kind, "rotemina") for kind in EXCITATION_KINDS),
+        *(("multisine", robot) for robot in ("fsm", "picma", "emps")),
+    ],
+)
+def test_kind_writes_a_file_that_names_its_excitation(kind, robot, capsys):
     limits = [] if robot == "rotemina" else ["--max-speed", "100mm/s"]
     assert main(["excite", kind, "--robot", robot, *limits, "-o", "it.csv"]) == 0
     record = read_record("it.csv")
@@ -30,15 +29,11 @@ def test_every_kind_writes_a_file_that_names_its_excitation(kind, robot, capsys)
 
 
 def test_each_axis_can_have_its_own_values():
-    arguments = [
-        "--axes",
-        "x,thx,zn",
-        "--amplitude",
-        "x=20um,thx=200urad,10%",
-        "--frequency",
-        "zn=2,1",
-    ]
-    assert main(["excite", "sine", *arguments, "--offset", "x=30mm", "-o", "it.csv"]) == 0
+    arguments = (
+        "excite sine --axes x,thx,zn --amplitude x=20um,thx=200urad,10% --frequency zn=2,1 "
+        "--offset x=30mm -o it.csv"
+    )
+    assert main(arguments.split()) == 0
     record = read_record("it.csv")
     assert record.axes == ("x", "thx", "zn")
     spans = [np.ptp(record.signal(axis, Tap.CMD)) for axis in record.axes]
@@ -78,7 +73,7 @@ def test_same_seed_writes_same_bytes():
     assert record.period_samples == 1000
 
 
-def test_reduced_amplitude_is_reported(capsys):
+def test_reduced_amplitude_is_reported(capsys, get_refusal):
     arguments = ["excite", "sine", "--axes", "x", "--amplitude", "5mm", "--frequency", "1"]
     assert main([*arguments, "-o", "it.csv"]) == 0
     output = capsys.readouterr().out
@@ -86,13 +81,10 @@ def test_reduced_amplitude_is_reported(capsys):
         "changed: axis x: amplitude 5 mm → 1.59156 mm (× 0.3183), for the speed limit 10 mm/s"
         in output
     )
-    assert main([*arguments, "--strict", "-o", "strict.csv"]) == 2
-    error = capsys.readouterr().err
-    assert error == (
+    assert get_refusal([*arguments, "--strict", "-o", "strict.csv"]) == (
         "rotemina: axis x: amplitude 5 mm is beyond 1.59156 mm, "
         "the most permitted by the speed limit 10 mm/s\n"
     )
-    assert not Path("strict.csv").exists()
 
 
 @pytest.mark.parametrize(
@@ -101,9 +93,7 @@ def test_reduced_amplitude_is_reported(capsys):
         ("noise", "unknown kind 'noise'; use one of sine, triangle"),
         ("sine --axes w", "axis 'w': robot 'RoTeMiNa' has no such axis"),
         ("sine --axes ,", "no axis is named"),
-        ("sine --robot nobody", "nobody: no such robot"),
         ("sine --hold 1", "sine has no --hold; it takes --amplitude --offset --frequency"),
-        ("sine --growing", "sine has no --growing"),
         ("sine --amplitude 5", "--amplitude: '5' has no unit"),
         ("sine --amplitude 5um", "--amplitude: axis thx: '5um' is in m, not in rad"),
         ("sine --axes x --amplitude 5kg", "unknown unit 'kg'"),
@@ -112,10 +102,8 @@ def test_reduced_amplitude_is_reported(capsys):
         ("sine --axes x --amplitude=-5um", "must be above 0"),
         ("sine --frequency fast", "--frequency: 'fast' is not a number of Hz"),
         ("sine --frequency 0", "frequency_hz = 0: must be a finite number above 0"),
-        ("sine --rate 0", "rate 0 Hz"),
         ("sine --seed -1", "seed -1: must be 0 or more"),
         ("chirp --band 5", "--band: '5'; write it as LOW:HIGH"),
-        ("chirp --band 5:x", "--band: 'x' is not a number of Hz"),
         ("chirp --spacing odd", "--spacing: 'odd' is not one of log, linear"),
         ("prbs --order 1.5", "--order: '1.5' is not an integer"),
         ("prbs --order 99", "order = 99: must lie between 3 and 20"),
@@ -124,25 +112,17 @@ def test_reduced_amplitude_is_reported(capsys):
         ("sine -o no/such/folder/it.csv", "it.csv"),
     ],
 )
-def test_bad_request_gives_one_clear_line_and_status_2(arguments, message, capsys):
-    output = [] if "-o " in arguments else ["-o", "it.csv"]
-    assert main(["excite", *arguments.split(), *output]) == 2
-    error = capsys.readouterr().err
-    assert error.startswith("rotemina: ")
-    assert error.count("\n") == 1
-    assert message in error
-    assert not list(Path().iterdir())
+def test_bad_request_is_refused(arguments, message, get_refusal):
+    output = "" if "-o " in arguments else "-o it.csv"
+    assert message in get_refusal(f"excite {arguments} {output}")
 
 
-def test_missing_speed_limit_is_requested_and_then_observed(capsys):
-    arguments = ["excite", "triangle", "--robot", "fsm", "--axes", "m1,m2", "-o", "it.csv"]
-    arguments += ["--frequency", "1", "--amplitude", "1um"]
-    assert main(arguments) == 2
-    error = capsys.readouterr().err
+def test_missing_speed_limit_is_requested_and_then_observed(capsys, get_refusal):
+    arguments = "excite triangle --robot fsm --axes m1,m2 -o it.csv --frequency 1 --amplitude 1um"
+    error = get_refusal(arguments)
     assert "states no speed limit (max_speed) of m1 and m2" in error
     assert "--max-speed m1=1mm/s,m2=1mm/s" in error
-    assert not Path("it.csv").exists()
-    assert main([*arguments, "--max-speed", "m1=2um/s,1um/s"]) == 0
+    assert main([*arguments.split(), "--max-speed", "m1=2um/s,1um/s"]) == 0
     assert "for the speed limit 2 µm/s" in capsys.readouterr().out
     record = read_record("it.csv")
     speeds = [np.abs(np.diff(record.signal(axis, Tap.CMD))).max() for axis in ("m1", "m2")]
@@ -155,21 +135,17 @@ def test_missing_speed_limit_is_requested_and_then_observed(capsys):
     [
         ("fast", "--max-speed fast: 'fast' is not an amount"),
         ("10%", "--max-speed 10%: must be a speed above 0, such as 10mm/s"),
-        ("-1mm/s", "--max-speed -1mm/s: must be a speed above 0"),
         ("5mm", "--max-speed 5mm: is in m, not in m/s"),
         ("m1=1mrad/s", "--max-speed m1=1mrad/s: is in rad/s, not in m/s"),
         ("m2=1mm/s", "--max-speed m2=1mm/s: axis 'm2' does not move; use one of m1"),
         ("1mm/s,2mm/s", "--max-speed 1mm/s,2mm/s: has two values for m/s"),
     ],
 )
-def test_invalid_speed_limit_is_refused(speed, message, capsys):
-    arguments = ["excite", "sine", "--robot", "fsm", "--axes", "m1", f"--max-speed={speed}"]
-    assert main([*arguments, "-o", "it.csv"]) == 2
-    assert message in capsys.readouterr().err
+def test_invalid_speed_limit_is_refused(speed, message, get_refusal):
+    arguments = f"excite sine --robot fsm --axes m1 --max-speed={speed} -o it.csv"
+    assert message in get_refusal(arguments)
 
 
-def test_output_option_is_required(capsys):
-    with pytest.raises(SystemExit) as exit_info:
-        main(["excite", "sine"])
-    assert exit_info.value.code == 2
-    assert "-o/--output" in capsys.readouterr().err
+def test_page_names_every_kind():
+    page = (Path(__file__).parents[4] / "docs" / "excitations.md").read_text("utf-8")
+    assert [kind for kind in EXCITATION_KINDS if f"| `{kind}` |" not in page] == []

@@ -8,11 +8,10 @@ from rotemina.sim.messages import MessageWording
 
 
 @pytest.fixture(autouse=True)
-def clear_language_settings(monkeypatch, tmp_path):
+def clear_language_settings(monkeypatch):
     for name in ("LANGUAGE", "LC_ALL", "LC_MESSAGES", "LANG"):
         monkeypatch.delenv(name, raising=False)
     monkeypatch.setattr(language, "UserSettings", lambda: {})
-    monkeypatch.chdir(tmp_path)
 
 
 def run_refused_command(capsys, *arguments):

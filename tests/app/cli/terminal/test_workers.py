@@ -54,9 +54,8 @@ def test_job_that_cannot_be_sent_ends_the_run_with_an_error(cluster):
         joblib.Parallel(n_jobs=jobs)([joblib.delayed(_do_nothing)(Unsendable())])
 
 
-def test_diagnosis_continues_when_a_worker_is_killed(cluster, tmp_path, monkeypatch, capsys):
+def test_diagnosis_continues_when_a_worker_is_killed(cluster):
     """Another worker takes over, and the result equals that of a run without a cluster."""
-    monkeypatch.chdir(tmp_path)
     robot = load_robot("rotemina")
     time_s = np.arange(2000) / 200.0
     command = 5.8e-4 + 3e-4 * np.sin(2.0 * time_s) * np.exp(-0.1 * time_s)
