@@ -1,17 +1,14 @@
-"""Interfaces of folders: what they export exists, and is not too much; folders stay small."""
+"""Interfaces of folders: what they export exists; folders stay small."""
 
 import ast
 from importlib import import_module
 from pathlib import Path
-
-import pytest
 
 ROOT = Path(__file__).parents[1]
 LAYERS = ("app", "drivers", "plugins", "sim")
 STUBS = [stub for layer in LAYERS for stub in sorted((ROOT / layer).rglob("__init__.pyi"))]
 FOLDERS = [file.parent for layer in LAYERS for file in sorted((ROOT / layer).rglob("__init__.py"))]
 MAX_FILES = 25
-MAX_EXPORTS = 25
 # One file per effect.
 LARGE_FOLDERS = {"sim/effects"}
 
@@ -30,12 +27,13 @@ def name_folder(folder):
     return folder.relative_to(ROOT).as_posix()
 
 
-@pytest.mark.parametrize("stub", STUBS, ids=lambda stub: name_folder(stub.parent))
-def test_every_exported_name_exists(stub):
-    folder = import_module("rotemina." + name_folder(stub.parent).replace("/", "."))
-    exports = list_exports(stub)
-    assert sorted(folder.__all__) == sorted(exports)
-    assert [name for name in exports if not hasattr(folder, name)] == []
+def test_every_exported_name_exists():
+    assert len(STUBS) > 50
+    for stub in STUBS:
+        folder = import_module("rotemina." + name_folder(stub.parent).replace("/", "."))
+        exports = list_exports(stub)
+        assert sorted(folder.__all__) == sorted(exports), folder
+        assert [name for name in exports if not hasattr(folder, name)] == [], folder
 
 
 def test_no_folder_has_too_many_files():

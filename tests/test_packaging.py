@@ -1,11 +1,7 @@
 """The packaging tables agree with the folders, because an editable install hides missing files."""
 
 import re
-import shutil
-import subprocess
-import sys
 import tomllib
-import venv
 from contextlib import suppress
 from fnmatch import fnmatch
 from importlib import metadata
@@ -70,17 +66,15 @@ def test_package_data_covers_every_file():
     assert missing == []
 
 
-@pytest.mark.parametrize(
-    ("group", "name", "value"),
-    [(group, *item) for group, items in ENTRY_POINTS.items() for item in items.items()],
-)
-def test_entry_points_resolve(group, name, value):
-    loaded = metadata.EntryPoint(name, value, group).load()
-    if group == "rotemina.effects":
-        assert isinstance(loaded, Effect)
-        assert loaded.id == name
-    else:
-        assert callable(loaded)
+@pytest.mark.parametrize("group", ENTRY_POINTS)
+def test_entry_points_resolve(group):
+    for name, value in ENTRY_POINTS[group].items():
+        loaded = metadata.EntryPoint(name, value, group).load()
+        if group == "rotemina.effects":
+            assert isinstance(loaded, Effect)
+            assert loaded.id == name
+        else:
+            assert callable(loaded)
 
 
 def test_the_version_is_written_once():
@@ -89,9 +83,9 @@ def test_the_version_is_written_once():
     assert [path.name for path in sources if "__version__ =" in path.read_text("utf-8")] == []
 
 
-def test_no_unsuitable_package_is_installed():
-    """Meshcat once brought in tunnels to the internet, shells and message queues."""
-    pending, names = [*PROJECT["dependencies"]], set()
+def find_required_packages(requirements):
+    """Return the packages that an installation of requirements brings in."""
+    pending, names = [*requirements], set()
     while pending:
         requirement = Requirement(pending.pop())
         name = canonicalize_name(requirement.name)
@@ -104,8 +98,32 @@ def test_no_unsuitable_package_is_installed():
                     for dependency in metadata.requires(name) or ()
                     if "extra ==" not in dependency
                 ]
+    return names
+
+
+def test_no_unsuitable_package_is_installed():
+    """Meshcat once brought in tunnels to the internet, shells and message queues."""
+    names = find_required_packages(PROJECT["dependencies"])
     assert len(names) > 25
     assert not names & {"meshcat", "pyngrok", "ngrok", "ipython", "pyzmq", "jedi"}
+
+
+def test_every_imported_package_is_a_dependency():
+    texts = [path.read_text("utf-8") for _, path in list_shipped_files() if path.suffix == ".py"]
+    pattern = re.compile(r"^\s*(?:from|import) (\w+)", re.MULTILINE)
+    imported_names = {name for text in texts for name in pattern.findall(text)} - {"rotemina"}
+    extras = PROJECT["optional-dependencies"]
+    required_packages = find_required_packages(
+        [*PROJECT["dependencies"], *extras["micromanager"], *extras["dask"]]
+    )
+    packages_of_modules = metadata.packages_distributions()
+    third_party_names = imported_names & packages_of_modules.keys()
+    assert len(third_party_names) > 20
+    assert [
+        name
+        for name in sorted(third_party_names)
+        if required_packages.isdisjoint(map(canonicalize_name, packages_of_modules[name]))
+    ] == []
 
 
 @pytest.mark.parametrize("file", sorted(ROOT.glob(".ci/constraints/*.txt")), ids=lambda f: f.name)
@@ -128,19 +146,7 @@ def test_constraints_name_every_package_and_no_host(file):
     assert needed - constrained <= {"setuptools"}
 
 
-@pytest.mark.slow
-def test_pip_install_gives_the_command(tmp_path):
-    generated = shutil.ignore_patterns(".*", "build", "dist", "*.egg-info", "__pycache__")
-    source = shutil.copytree(ROOT, tmp_path / "source", ignore=generated)
-    environment = tmp_path / "environment"
-    venv.create(environment, with_pip=True)
-    scripts = environment / ("Scripts" if sys.platform == "win32" else "bin")
-    python = shutil.which("python", path=scripts)
-    subprocess.run([python, "-m", "pip", "install", "--quiet", str(source)], check=True)
-    shutil.rmtree(source)
-
-    command = shutil.which("rotemina", path=scripts)
-    process = subprocess.run([command, "--help"], check=True, capture_output=True, text=True)
-    assert "rotemina" in process.stdout
-    installed = {path.name for path in environment.rglob("rotemina/*")}
-    assert installed >= set(SETUPTOOLS["package-dir"].values())
+def test_the_citation_names_the_version():
+    citation = (ROOT / "docs" / "CITATION.cff").read_text("utf-8")
+    assert re.findall(r"^version: (.*)$", citation, re.MULTILINE) == [PROJECT["version"]]
+    assert re.findall(r"^license: (.*)$", citation, re.MULTILINE) == [PROJECT["license"]]

@@ -17,13 +17,15 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[1]
-PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
 
 
-def test_the_citation_names_the_version():
-    citation = (ROOT / "docs" / "CITATION.cff").read_text("utf-8")
-    assert re.findall(r"^version: (.*)$", citation, re.MULTILINE) == [PROJECT["version"]]
-    assert re.findall(r"^license: (.*)$", citation, re.MULTILINE) == [PROJECT["license"]]
+pytestmark = [
+    pytest.mark.slow,
+    # All tests share one wheel.
+    pytest.mark.xdist_group("release"),
+    pytest.mark.skipif(find_spec("build") is None, reason="build comes with the extra 'test'"),
+]
 
 
 @pytest.fixture(scope="module")
@@ -61,9 +63,6 @@ def command(archives):
     return shutil.which("rotemina", path=bin_folder)
 
 
-@pytest.mark.slow
-@pytest.mark.xdist_group("release")  # All tests share one wheel.
-@pytest.mark.skipif(find_spec("build") is None, reason="build comes with the extra 'test'")
 def test_the_source_archive_contains_the_sources_of_a_wheel(archives):
     (archive,) = archives.glob("*.tar.gz")
     with tarfile.open(archive) as file:
@@ -71,12 +70,12 @@ def test_the_source_archive_contains_the_sources_of_a_wheel(archives):
     assert {"pyproject.toml", "README.md", "LICENSE", "resources/robots/rotemina.toml"} <= names
 
 
-@pytest.mark.slow
-@pytest.mark.xdist_group("release")  # All tests share one wheel.
-@pytest.mark.skipif(find_spec("build") is None, reason="build comes with the extra 'test'")
-def test_the_wheel_contains_every_page_and_its_pictures(archives):
+def test_the_wheel_contains_every_layer_and_every_page_with_its_pictures(archives):
     (wheel,) = archives.glob("*.whl")
-    files = {name.removeprefix("rotemina/docs/") for name in zipfile.ZipFile(wheel).namelist()}
+    names = zipfile.ZipFile(wheel).namelist()
+    layers = {name.split("/")[1] for name in names if name.startswith("rotemina/")}
+    assert layers == set(PYPROJECT["tool"]["setuptools"]["package-dir"].values())
+    files = {name.removeprefix("rotemina/docs/") for name in names}
     pages = sorted((ROOT / "docs").glob("*.md")) + sorted((ROOT / "docs" / "decisions").glob("*"))
     assert {str(page.relative_to(ROOT / "docs")) for page in pages} <= files
     pictures = {
@@ -86,9 +85,6 @@ def test_the_wheel_contains_every_page_and_its_pictures(archives):
     assert len(pictures) > 2
 
 
-@pytest.mark.slow
-@pytest.mark.xdist_group("release")  # All tests share one wheel.
-@pytest.mark.skipif(find_spec("build") is None, reason="build comes with the extra 'test'")
 def test_the_wheel_runs_from_another_folder(command, tmp_path):
     def run(*arguments):
         environment = {**os.environ, "QT_QPA_PLATFORM": "offscreen"}
@@ -100,8 +96,9 @@ def test_the_wheel_runs_from_another_folder(command, tmp_path):
         assert process.returncode == 0, process.stdout + process.stderr
         return process.stdout
 
-    assert run("--version").strip() == f"rotemina {PROJECT['version']}"
+    assert run("--version").strip() == f"rotemina {PYPROJECT['project']['version']}"
     checks = {check["name"]: check for check in json.loads(run("doctor", "--json"))}
+    assert {"dependencies", "Qt platform", "rendering", "clock"} < set(checks)
     assert str(Path(command).parent) in checks["Python"]["seen"]
     run("excite", "sine", "--axes", "thx", "-o", "sine.csv")
     run("simulate", "sine.csv", "-o", "answer.csv")

@@ -66,25 +66,43 @@ def find_blocks(text: str) -> list[CodeBlock]:
     return blocks
 
 
-@pytest.fixture(params=PAGES, ids=lambda path: path.relative_to(ROOT).as_posix())
-def page(request) -> Path:
-    """One page; tests run for each page."""
-    return request.param
+def name_page(page: Path) -> str:
+    return page.relative_to(ROOT).as_posix()
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
+def pages() -> tuple[Path, ...]:
+    """All pages."""
+    return PAGES
+
+
+@pytest.fixture(scope="session")
+def blocks_of_pages() -> dict[str, list[CodeBlock]]:
+    """The blocks of each page, by its name."""
+    return {name_page(page): find_blocks(page.read_text("utf-8")) for page in PAGES}
+
+
+@pytest.fixture(scope="session")
 def root() -> Path:
     """The folder of README.md."""
     return ROOT
-
-
-@pytest.fixture
-def blocks(page) -> list[CodeBlock]:
-    """The blocks of the page."""
-    return find_blocks(page.read_text("utf-8"))
 
 
 @pytest.fixture(scope="session")
 def parse_blocks():
     """The function that finds blocks, for its own tests."""
     return find_blocks
+
+
+def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    """Run tests with ``page_to_run`` for the name of each page with code or commands."""
+    if "page_to_run" in metafunc.fixturenames:
+        names = [
+            name_page(page)
+            for page in PAGES
+            if any(
+                block.kind in ("python", "sh") and not block.not_run
+                for block in find_blocks(page.read_text("utf-8"))
+            )
+        ]
+        metafunc.parametrize("page_to_run", names)

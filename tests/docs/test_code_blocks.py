@@ -62,29 +62,37 @@ PREPARATION_COMMANDS = {
 
 
 @pytest.fixture
-def folder(root, tmp_path, monkeypatch):
-    """The reader's folder: the examples of the repository, a worn robot and the reader's robot."""
-    monkeypatch.chdir(tmp_path)
+def folder(files, tmp_path, monkeypatch):
+    """A copy of the reader's files, in which the commands run."""
+    folder = shutil.copytree(files, tmp_path / "reader")
+    monkeypatch.chdir(folder)
     monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / ".config"))
-    shutil.copytree(root / "resources", tmp_path / "resources")
+
+
+@pytest.fixture(scope="session")
+def files(root, tmp_path_factory):
+    """The files of a reader: examples of the repository, robots, records, a recording, a video."""
+    folder = tmp_path_factory.mktemp("reader")
+    shutil.copytree(root / "resources", folder / "resources")
     robot = (root / "resources" / "robots" / "rotemina.toml").read_text("utf-8")
-    (tmp_path / "lab.toml").write_text(robot, "utf-8")
-    (tmp_path / "worn.toml").write_text(robot + _HYSTERESIS, "utf-8")
+    (folder / "lab.toml").write_text(robot, "utf-8")
+    (folder / "worn.toml").write_text(robot + _HYSTERESIS, "utf-8")
     path = 0.1 - 0.1 * np.cos(2.0 * np.pi * np.arange(2000) / 1000.0)
     rows = "".join(f"{row / 1000},{position:.6f}\n" for row, position in enumerate(path))
     head = "# rotemina-record: 1\n# mode: closed_loop\nt [s],q.cmd [m]\n"
-    (tmp_path / "reference.csv").write_text(head + rows, "utf-8")
-    (tmp_path / "FOLDER").mkdir()
+    (folder / "reference.csv").write_text(head + rows, "utf-8")
+    (folder / "FOLDER").mkdir()
     shared = Path(os.environ.get("ROTEMINA_SHARED", root.parent / "shared"))
     measured_file = shared / "data" / "emps" / "DATA_EMPS.mat"
     if measured_file.exists():
-        shutil.copy(measured_file, tmp_path)
-    return tmp_path
+        shutil.copy(measured_file, folder)
+    record_jog(folder)
+    write_video(folder)
+    return folder
 
 
-@pytest.fixture
-def recording(folder):
-    """A recording of 25 s that contains a jog of x: ``run.arrows`` and ``today.arrows``."""
+def record_jog(folder):
+    """Record 25 s with a jog of x: ``run.arrows`` and ``today.arrows``."""
     clock = VirtualClock(7.0)
     session = MotionSession(Simulator(load_robot("rotemina"), clock=clock))
     session.connect()
@@ -104,9 +112,8 @@ def recording(folder):
     shutil.copy(folder / "run.arrows", folder / "today.arrows")
 
 
-@pytest.fixture
-def video(folder):
-    """Two pictures with their times: ``video.tif``."""
+def write_video(folder):
+    """Write two pictures with their times: ``video.tif``."""
     with tifffile.TiffWriter(folder / "video.tif") as file:
         for time_s in (0.0, 0.1):
             picture = np.zeros((8, 8), np.uint8)
@@ -145,48 +152,55 @@ def test_blocks_are_found_with_their_kinds_and_reasons(parse_blocks):
     assert equation.kind == "text"
 
 
-def test_commands_can_be_parsed(blocks):
+def test_commands_can_be_parsed(blocks_of_pages):
     parser = build_parser()
-    for block in blocks:
-        if block.kind != "sh" or block.not_run:
-            continue
-        for line in block.commands:
-            assert is_command(line), f"line {block.line}: {line}: say why it is not run"
-            try:
-                parser.parse_args(split_arguments(line))
-            except SystemExit:
-                pytest.fail(f"line {block.line}: {line}")
+    for page, blocks in blocks_of_pages.items():
+        for block in blocks:
+            if block.kind != "sh" or block.not_run:
+                continue
+            for line in block.commands:
+                place = f"{page}, line {block.line}: {line}"
+                assert is_command(line), f"{place}: say why it is not run"
+                try:
+                    parser.parse_args(split_arguments(line))
+                except SystemExit:
+                    pytest.fail(place)
 
 
-def test_imported_names_exist(blocks):
-    for block in blocks:
-        if block.kind != "python":
-            continue
-        for node in ast.walk(ast.parse(block.text)):
-            if isinstance(node, ast.ImportFrom) and node.module.startswith("rotemina."):
-                module = import_module(node.module)
-                missing = [alias.name for alias in node.names if not hasattr(module, alias.name)]
-                assert missing == [], f"line {block.line}: {node.module}"
+def test_imported_names_exist(blocks_of_pages):
+    for page, blocks in blocks_of_pages.items():
+        for block in blocks:
+            tree = ast.parse(block.text if block.kind == "python" else "")
+            for node in ast.walk(tree):
+                if isinstance(node, ast.ImportFrom) and node.module.startswith("rotemina."):
+                    module = import_module(node.module)
+                    names = [alias.name for alias in node.names]
+                    missing = [name for name in names if not hasattr(module, name)]
+                    assert missing == [], f"{page}, line {block.line}: {node.module}"
 
 
-def test_toml_and_json_blocks_are_valid(blocks):
+def test_toml_and_json_blocks_are_valid(blocks_of_pages):
     parsers = {"toml": tomllib.loads, "json": json.loads}
-    for block in blocks:
-        if block.kind in parsers:
-            parsers[block.kind](block.text)
+    for page, blocks in blocks_of_pages.items():
+        for block in blocks:
+            if block.kind in parsers:
+                try:
+                    parsers[block.kind](block.text)
+                except ValueError as error:
+                    pytest.fail(f"{page}, line {block.line}: {error}")
 
 
 @pytest.mark.slow
-@pytest.mark.usefixtures("recording", "video")
-def test_blocks_run_from_top_to_bottom(page, blocks, folder):
-    for line in PREPARATION_COMMANDS.get(page.name, ()):
+@pytest.mark.usefixtures("folder")
+def test_blocks_run_from_top_to_bottom(page_to_run, blocks_of_pages):
+    for line in PREPARATION_COMMANDS.get(Path(page_to_run).name, ()):
         run_command(f"rotemina {line}")
     names = {"__name__": "page", "desired": 1e-5, "positions": np.linspace(0.0, 1e-5, 9)}
-    for block in blocks:
+    for block in blocks_of_pages[page_to_run]:
         if block.not_run:
             continue
         if block.kind == "python":
-            code = compile("\n" * block.line + block.text, page.name, "exec")
+            code = compile("\n" * block.line + block.text, page_to_run, "exec")
             exec(code, names)  # noqa: S102 - the page's own code
         if block.kind == "sh":
             for line in block.commands:
