@@ -1,11 +1,12 @@
-"""Damaged files: every reader either reads one or refuses it with an error of the program."""
+"""Damaged files: every reader either reads one or refuses it with an error of the program.
 
-import gzip
+The undamaged files are those of ``tests/samples``.
+"""
+
 import json
 import random
-from io import BytesIO
+from pathlib import Path
 
-import cv2
 import numpy as np
 import pytest
 
@@ -13,36 +14,22 @@ from rotemina.app.bench.machine import find_machines
 from rotemina.app.blind.cases import FolderCaseSource
 from rotemina.app.blind.classifier import load_or_train_classifier
 from rotemina.app.calibration import CALIBRATION_FORMAT as SENSOR_FILES, HealthBook
-from rotemina.app.cli.main import main
 from rotemina.app.microscope.calibration_file import load_calibration, make_calibration_path
 from rotemina.app.motion.inputs.axis_calibration import InputCalibrationFolder
 from rotemina.app.motion.inputs.profile import load_profile
-from rotemina.app.motion.penetration import (
-    PenetrationParameters,
-    PenetrationRun,
-    PenetrationVerdict,
-    RunLog,
-)
+from rotemina.app.motion.penetration import PenetrationParameters, RunLog
 from rotemina.app.motion.recording import Recording, recover_recording
-from rotemina.app.motion.recording.writer import RecordingWriter
 from rotemina.app.motion.session import SavedPositions
 from rotemina.app.motion.session.saved_positions import POSITIONS_FOLDER
 from rotemina.app.motion.teleoperation import ModeScales
 from rotemina.app.records import make_timeline_events
 from rotemina.app.settings import UserSettings
 from rotemina.drivers.cameras.sequence import ImageSequenceSource
-from rotemina.drivers.contract import CameraLostError, DeviceSamples, VirtualClock
+from rotemina.drivers.contract import CameraLostError
 from rotemina.drivers.inputs import InputIdentity
 from rotemina.drivers.inputs.script import InputScript
 from rotemina.plugins.gap.blind.blind_figures import BlindResult
-from rotemina.sim.compensate import (
-    InverseProvenance,
-    TrainingSamples,
-    anfis,
-    read_trained,
-    train,
-    write_trained,
-)
+from rotemina.sim.compensate import read_trained
 from rotemina.sim.errors import InputError
 from rotemina.sim.gap.output import read_document
 from rotemina.sim.plugin_points.trial_import import _read_results
@@ -51,166 +38,29 @@ from rotemina.sim.robot_files import load_robot, read_robot_file
 from rotemina.sim.tuning import load_tuning
 
 #: Mutations of each kind of file.
-MUTATIONS = 2000
+MUTATIONS = 500
+SAMPLES = Path(__file__).parents[1] / "samples"
+CALIBRATIONS = "config/calibrations"
 ROBOT = load_robot("rotemina")
-
-RECORD = "# mode: open_loop\nt [s],x.cmd [um],x.meas [um]\n" + "".join(
-    f"{0.001 * row:.3f},{row},{row + 0.5}\n" for row in range(40)
-)
-PROFILE = """name = "Two sticks"
-[[devices]]
-key = "046d:c215"
-seat = "trainer"
-[[devices.axes]]
-control = "axis 1"
-drives = "x"
-"""
-POSITIONS = """robot = "RoTeMiNa"
-[positions.home]
-x = 0.0
-y = 0.0
-z = 0.0
-thx = 0.0
-thy = 0.0
-zn = 1e-5
-"""
-BLIND_RESULT = {
-    "figures": {"top1": {"value": 0.9, "interval": [0.8, 0.95], "n": 40}},
-    "confusion": [{"truth": "creep", "named": "creep", "number": 3}],
-    "done": 40,
-    "asked": 50,
+JOYSTICK = InputIdentity("hid:046d:c215:0001", "a stick", "hid")
+RECORD = "# mode: open_loop\nt [s],x.cmd [um],x.meas [um]\n0,0,0.5\n0.001,1,1.5\n"
+#: Files that only people write, or that the program can make again.
+TEXTS = {
+    "script.csv": "time_s,axis x,button a,plugged\n0,0.5,1,1\n1,-0.5,0,0\n",
+    "truth.toml": (
+        'causes = [["hysteresis", "creep"]]\nalso = ["friction"]\ntap = "meas"\nto_beat = 0.5\n'
+    ),
+    "labels.json": json.dumps(
+        {
+            "case": {
+                "verdict": "explained",
+                "effects": [{"axis": "zn", "effect": "creep"}],
+                "floors": 3.0,
+            }
+        }
+    ),
+    "imports.json": json.dumps({"a:b 0": "it fails"}),
 }
-DIAGNOSIS = {
-    "format": "rotemina-diagnosis 1",
-    "verdict": "explained",
-    "axes": {"zn": "explained"},
-    "model": {
-        "robot": read_robot_file("rotemina"),
-        "effects": [{"axis": "zn", "effect": "creep", "parameters": {"rate": 0.02}}],
-    },
-}
-TRUTH = 'causes = [["hysteresis", "creep"]]\nalso = ["friction"]\ntap = "meas"\nto_beat = 0.5\n'
-LABELS = {
-    "case": {
-        "verdict": "explained",
-        "effects": [{"axis": "zn", "effect": "creep"}],
-        "floors": 3.0,
-    }
-}
-SENSOR_CALIBRATION = """robot = "RoTeMiNa"
-axis = "zn"
-unit = "m"
-date = "2024-01-01T10:00:00+00:00"
-travel = [0.0, 65e-6]
-runs = 3
-before_rms = 1e-7
-after_rms = 1e-9
-notes = ["warm"]
-[sensor]
-low = 0.0
-high = 65e-6
-offset = 1e-8
-gain_error = 0.01
-bend = [1e-9, 2e-9]
-lag = "delay"
-lag_s = 1e-4
-[[figures]]
-name = "gain_error"
-value = 0.01
-half_width = 0.001
-unit = "1"
-[[sources]]
-name = "a.csv"
-digest = "0123456789abcdef"
-"""
-MICROSCOPE_CALIBRATION = """camera = "simulated:1"
-objective = "20x"
-[view]
-left = 0
-top = 0
-width = 1300
-height = 1030
-[micro]
-date = "2024-01-01T10:00:00+00:00"
-matrix = [[3e6, 1e3], [-1e3, 3e6]]
-covariance = [[1.0, 0, 0, 0], [0, 1.0, 0, 0], [0, 0, 1.0, 0], [0, 0, 0, 1.0]]
-tip_m = [0.0, 0.0, 0.01]
-tip_px = [650.0, 515.0]
-residual_px = 0.1
-"""
-JOYSTICK_CALIBRATION = """device = "046d:c215"
-[axes."axis 1"]
-low = -0.9
-centre = 0.0
-high = 0.95
-dead_zone = 0.02
-expo = 0.3
-"""
-JOYSTICK = InputIdentity("046d:c215", "stick", "somebody")
-HEALTH_CARD = {
-    "version": 1,
-    "date": "2024-01-01",
-    "record": "a.csv",
-    "figures": [["a", 1.0, 0.1, "m"]],
-}
-PENETRATION_RUN = PenetrationRun(
-    started="2024-01-01T10:00:00+00:00",
-    robot="RoTeMiNa",
-    driver="simulator",
-    parameters={"axis": "zn"},
-    verdict=PenetrationVerdict.DONE,
-    reason="",
-    phases=(("approach", 0.0),),
-)
-
-
-def make_recordings(folder):
-    """Return the bytes of a recording while it runs and after it has ended."""
-    times = map(float, range(1000))
-    writer = RecordingWriter(
-        folder / "made.arrows",
-        {"x": "m"},
-        {"robot": "r", "robot_file": read_robot_file("rotemina")},
-        clock=lambda: next(times),
-    )
-    values = np.arange(300.0)[:, None]
-    samples = DeviceSamples(values[:, 0], values, values, values, np.arange(300))
-    writer.start_connection()
-    writer.add(samples, values, 1.0)
-    writer.add_event("log", "said", {"level": "WARNING"})
-    writer.add_row("stick", 1.0, {"x": 1.0})
-    writer.run_once()
-    running = writer.path.with_name("made.arrows.part").read_bytes()
-    writer.close()
-    return running, (folder / "made.arrows").read_bytes()
-
-
-def make_tuning(folder):
-    path = folder / "made.toml"
-    options = ["--generations", "6", "--population", "12", "--jobs", "1"]
-    assert main(["tune", "--axis", "zn", *options, "-o", str(path)]) == 0
-    return path.read_bytes()
-
-
-def make_inverse(folder):
-    """Return a small inverse model as ``compensate train`` writes it."""
-    rng = np.random.default_rng(0)
-    phase = np.linspace(0.0, 40.0, 3000)
-    command = 65e-6 * (0.5 - 0.4 * np.linspace(1.0, 0.2, 3000) * np.cos(phase))
-    measured = 0.9 * command + 1e-9 * rng.standard_normal(3000)
-    samples = TrainingSamples("made", "zn", "m", 1e-3, command, measured)
-    settings = anfis.AnfisSettings(memberships=3, plays=(), epochs=2, patience=2)
-    provenance = InverseProvenance(
-        robot="RoTeMiNa", trained_on=[], held_out=[], seed=None, versions={}
-    )
-    write_trained(folder / "made.json", train(ROBOT, [samples], settings=settings), provenance)
-    return (folder / "made.json").read_bytes()
-
-
-def make_classifier(_):
-    file = BytesIO()
-    np.savez(file, rows=np.arange(12.0).reshape(3, 4), names=np.array(["a", "b", "c"]))
-    return file.getvalue()
 
 
 def read_recording(path):
@@ -271,6 +121,14 @@ def read_labels(path):
         cases.open_label("case", "salt", case.seal)
 
 
+def read_classifier(path):
+    load_or_train_classifier(ROBOT, path)
+
+
+def read_sensor_calibration(path):
+    assert SENSOR_FILES.load(path).applied_calibration
+
+
 def read_joystick_calibration(path):
     folder = InputCalibrationFolder(path.parent)
     path.rename(folder.make_path(JOYSTICK))
@@ -278,49 +136,45 @@ def read_joystick_calibration(path):
 
 
 def read_microscope_calibration(path):
-    path.rename(make_calibration_path(path.parent, "simulated:1", "20x"))
-    calibration = load_calibration(path.parent, "simulated:1", "20x")
+    path.rename(make_calibration_path(path.parent, "opencv:0", "20x/0.4"))
+    calibration = load_calibration(path.parent, "opencv:0", "20x/0.4")
     calibration.get_stage("micro").predict_pixel(np.zeros(3))
 
 
 def read_settings(path):
     settings = UserSettings(path)
-    for key, default in (("a", 1.0), ("b", "text"), ("c", False)):
-        settings.get(key, default)
-
-
-def encode_picture(kind):
-    pixels = np.arange(48 * 64, dtype=np.uint16).reshape(48, 64)
-    return cv2.imencode(kind, pixels)[1].tobytes()
+    for key in [*settings.values]:
+        for default in (1.0, "text", False):
+            settings.get(key, default)
 
 
 READERS = {
-    "robot.toml": (read_robot_file("rotemina"), load_robot),
-    "record.csv": (RECORD, read_record),
-    "record.csv.gz": (gzip.compress(RECORD.encode(), mtime=0), read_record),
-    "script.csv": ("time_s,axis x,button a,plugged\n0,0.5,1,1\n1,-0.5,0,0\n", InputScript.load),
-    "profile.toml": (PROFILE, load_profile),
-    "positions.toml": (POSITIONS, read_positions),
-    "scales.toml": ("[modes.joints.x]\nway = 1e-4\nspeed = 1e-3\n", ModeScales.load),
-    "penetration.toml": (PenetrationParameters().text(), PenetrationParameters.load),
-    "runs.jsonl": (PENETRATION_RUN.to_json() + "\n", lambda path: RunLog(path).read()),
-    "cards.jsonl": (json.dumps(HEALTH_CARD) + "\n", read_cards),
-    "inverse.json": (make_inverse, read_trained),
-    "sensor.toml": (SENSOR_CALIBRATION, lambda path: SENSOR_FILES.load(path).applied_calibration),
-    "pictures.toml": (MICROSCOPE_CALIBRATION, read_microscope_calibration),
-    "stick.toml": (JOYSTICK_CALIBRATION, read_joystick_calibration),
-    "truth.toml": (TRUTH, read_truth),
-    "labels.json": (json.dumps(LABELS), read_labels),
-    "classifier.npz": (make_classifier, lambda path: load_or_train_classifier(ROBOT, path)),
-    "tuning.toml": (make_tuning, load_tuning),
-    "diagnosis.json": (json.dumps(DIAGNOSIS), lambda path: read_document(path).corrected),
-    "blind.json": (json.dumps(BLIND_RESULT), BlindResult.read),
-    "imports.json": (json.dumps({"a:b 0": "it fails"}), _read_results),
-    "settings.json": (json.dumps({"a": 1.5, "b": "c", "c": True}), read_settings),
-    "picture.png": (encode_picture(".png"), read_sequence),
-    "picture.tiff": (encode_picture(".tiff"), read_sequence),
-    "run.arrows": (lambda folder: make_recordings(folder)[1], read_recording),
-    "run.arrows.part": (lambda folder: make_recordings(folder)[0], read_unfinished),
+    "files/robot.toml": load_robot,
+    "files/record.csv": read_record,
+    "data/played/2026-03-04_05-06-07-000000_tour.csv.gz": read_record,
+    "config/profiles/Two sticks.toml": load_profile,
+    "config/positions/RoTeMiNa.toml": read_positions,
+    "config/scales.toml": ModeScales.load,
+    "config/penetration.toml": PenetrationParameters.load,
+    "data/penetrations.jsonl": lambda path: RunLog(path).read(),
+    "config/health/RoTeMiNa--zn.jsonl": read_cards,
+    "files/inverse.json": read_trained,
+    f"{CALIBRATIONS}/RoTeMiNa/zn--2026-03-04T05-06-07+00-00.toml": read_sensor_calibration,
+    f"{CALIBRATIONS}/hid_046d_c215_0001-fa0e56c6.toml": read_joystick_calibration,
+    "config/microscope/opencv_0--20x_0.4.toml": read_microscope_calibration,
+    "data/blind/RoTeMiNa-seed-7/classifier.npz": read_classifier,
+    "files/tuning.toml": load_tuning,
+    "outputs/gap.json": lambda path: read_document(path).corrected,
+    "outputs/blind.json": BlindResult.read,
+    "config/settings.json": read_settings,
+    "files/snapshot.png": read_sequence,
+    "files/stack.tif": read_sequence,
+    "data/recordings/2026-03-04_05-06-07-000000_session.arrows": read_recording,
+    "data/recordings/2026-03-04_06-07-08-000000.arrows.part": read_unfinished,
+    "script.csv": InputScript.load,
+    "truth.toml": read_truth,
+    "labels.json": read_labels,
+    "imports.json": _read_results,
 }
 
 
@@ -355,11 +209,10 @@ AWKWARD_BYTES = (
 @pytest.mark.slow
 @pytest.mark.parametrize("name", READERS)
 def test_a_damaged_file_is_read_or_refused(name, tmp_path, capfd):
-    source, read = READERS[name]
-    data = source(tmp_path) if callable(source) else source
-    data = data.encode() if isinstance(data, str) else data
+    read = READERS[name]
+    data = TEXTS[name].encode() if name in TEXTS else (SAMPLES / name).read_bytes()
     rng = random.Random(name)  # noqa: S311 (nothing secret)
-    path = tmp_path / name
+    path = tmp_path / Path(name).name
     read_once(path, data, read)
     for number in range(MUTATIONS):
         damaged = mutate(data, rng)

