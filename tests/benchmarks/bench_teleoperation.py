@@ -1,4 +1,4 @@
-"""Teleoperation: latency from a stick to the wire, and steps of the command while switching.
+"""Teleoperation: latency from a stick to the wire.
 
 ``make bench`` runs it on an idle machine. The boards are a separate process at true baud; a stick
 is a fake below hidapi. The latency is measured from a report of the stick to the last byte of the
@@ -16,23 +16,18 @@ from contextlib import contextmanager
 import numpy as np
 import pytest
 
-from rotemina.app.motion.inputs import Intent, OperatorAction
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import SessionPhase
-from rotemina.app.motion.teleoperation import LawKind, Teleoperator
 from rotemina.app.operation import OperatorControl
-from rotemina.drivers.contract import VirtualClock
 from rotemina.drivers.inputs import HidSource
 from rotemina.drivers.mc68hc11.driver import MC68HC11Driver
 from rotemina.drivers.mc68hc11.protocol import FrameDecoder, MoveVelocity
 from rotemina.drivers.serial_lines import open_port
-from rotemina.drivers.simulator import Simulator
 from rotemina.sim.robot_files import load_robot
 
 ROBOT = load_robot("rotemina")
 CHANGES = 400
 BAUD, BITS_A_BYTE = 125_000, 10
-TICK_S = 0.005
 DESCRIPTOR = bytes.fromhex(
     "05 01 09 04 A1 01 16 01 80 26 FF 7F 75 10 95 03 09 30 09 31 09 35 81 02"
     "05 09 19 01 29 02 15 00 25 01 75 01 95 02 81 02 75 06 95 01 81 03 C0"
@@ -173,49 +168,3 @@ def test_from_stick_to_wire(tmp_path, clock):
         f"\nstick to wire, {clock} MHz, {CHANGES} changes, ms: median {np.median(latencies):.1f} "
         f"(limit 10), 99 % {np.percentile(latencies, 99):.1f} (20), worst {latencies.max():.1f}"
     )
-
-
-@pytest.mark.parametrize(
-    "sticks", [{"x": 0.0, "y": 0.0, "z": 0.0}, {"x": 0.7, "y": -0.5, "z": 0.6}]
-)
-def test_switching_leaves_no_step_in_the_command(sticks):
-    """Switch through all modes and laws on the simulator; print the largest step of a command."""
-    clock = VirtualClock(1.0)
-    session = MotionSession(Simulator(ROBOT, clock=clock))
-    session.connect()
-    session.run_once()
-    teleoperator, samples = Teleoperator(session), []
-    session.tap(lambda portion, _: samples.append(portion))
-    rest = dict.fromkeys(sticks, 0.0)
-    step_times_s = []
-
-    def run(seconds, deflections, *pressed):
-        for number in range(max(1, round(seconds / TICK_S))):
-            clock.advance(TICK_S)
-            session.run_once()
-            actions = frozenset(pressed if number == 0 else ())
-            intent = Intent(clock(), deflections, actions, frozenset(), "bench")
-            begin_s = time.perf_counter()
-            teleoperator.step(intent, clock())
-            step_times_s.append(time.perf_counter() - begin_s)
-
-    for law in LawKind:
-        teleoperator.use_law(law)
-        for _ in teleoperator.modes.names:
-            run(0.2, rest)
-            run(0.3, sticks)
-            run(0.2, sticks, OperatorAction.STAGE)
-            run(0.2, sticks, OperatorAction.LAW)
-    commands = np.concatenate([portion.command for portion in samples])
-    second_differences = np.abs(np.diff(commands, n=2, axis=0)).max(axis=0)
-    stick_texts = ", ".join(f"{name} {deflection:g}" for name, deflection in sticks.items())
-    steps = dict(zip(ROBOT.axes, second_differences, strict=True))
-    results = ", ".join(f"{name} {step:.3g}" for name, step in steps.items())
-    print(
-        f"\nsticks at {stick_texts}: loop step {1e3 * np.median(step_times_s):.2f} ms; greatest "
-        "second "
-        "difference of a command while switching, m or rad (limit: greatest acceleration × "
-        f"(1 ms)²): {results}"
-    )
-    for name, step in steps.items():
-        assert step <= ROBOT.axes[name].max_acceleration * 1e-6 * (1.0 + 1e-6), name

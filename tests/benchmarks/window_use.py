@@ -174,12 +174,6 @@ class WindowUse:
                 widget.close()
         self.settle()
 
-    def notify(self, text: str) -> None:
-        """Show a notice."""
-        from rotemina.app.workbench import Level
-
-        self.bench.notify(Level.INFO, text)
-
     def _close_modal(self) -> None:
         dialog = QApplication.activeModalWidget()
         if isinstance(dialog, QMessageBox | QDialog):
