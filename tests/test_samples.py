@@ -754,8 +754,8 @@ SLOW_SAMPLES = (
     "data/records.sqlite3",
     f"data/{BLIND}",
 )
-# A window writes the preferences, and a crash leaves interrupted files. Other tests check pictures.
-OTHERWISE_TESTED = ("config/settings.json", "outputs/", "files/cells.csv", ".tif", ".png", ".part")
+# A crash leaves interrupted files. Other tests check pictures.
+OTHERWISE_TESTED = ("outputs/", "files/cells.csv", ".tif", ".png", ".part")
 QUICK_SAMPLES = [
     name
     for name in SAMPLE_SCRIPT.MAKERS
@@ -926,7 +926,7 @@ def test_every_module_that_writes_or_reads_data_has_a_sample():
 def test_every_sample_exists_and_belongs_to_a_module():
     names = {name for name in SAMPLES_OF_MODULES.values() if not name.startswith("(")}
     assert {name for name in names if not (SAMPLES / name).exists()} == set()
-    sample_paths = tuple(SAMPLES / name for name in SAMPLE_SCRIPT.MAKERS)
+    sample_paths = (CONFIG / "settings.json", *(SAMPLES / name for name in SAMPLE_SCRIPT.MAKERS))
     files = (
         path for path in SAMPLES.rglob("*") if path.is_file() and path.suffix not in (".py", ".pyc")
     )

@@ -8,8 +8,9 @@ version of a format gets another sample with a new name.
 
 Each kind of file has one function, which is registered with the name of its sample. The result is
 the same each time, except for the version of the program, and modification times and sizes of its
-modules. The folders are those of the program: ``config`` contains preferences, ``data`` records,
-``files`` what a user saves anywhere, and ``outputs`` what other programs read.
+modules. Only the preferences were written by a window with all panels; a new one is added by hand.
+The folders are those of the program: ``config`` contains preferences, ``data`` records, ``files``
+what a user saves anywhere, and ``outputs`` what other programs read.
 """
 
 import gzip
@@ -67,126 +68,6 @@ def output(name: str) -> Callable[[Callable[[], Any]], Callable[[], Any]]:
         return make
 
     return register
-
-
-@sample("config/settings.json")
-def write_preferences(path: Path) -> None:
-    """Write all preferences with their own classes, those of the window with a complete window."""
-    from PySide6.QtWidgets import QApplication
-
-    from rotemina.app.motion.session import MotionSession
-    from rotemina.app.settings import UserSettings
-    from rotemina.app.shell.startup.window_run import make_window
-    from rotemina.app.shell.window import layouts
-    from rotemina.drivers.simulator import Simulator
-
-    settings = UserSettings(path)
-    _store_devices(settings)
-    session = MotionSession(Simulator(load_robot("rotemina"), {"settle_s": 0.02}))
-    with TemporaryDirectory() as folder:
-        window = make_window(session, settings, Path(folder) / "played")
-        window.show()
-        arrangement = window.arrangement
-        arrangement.use_theme("light")
-        arrangement.step_scale(1)
-        _use_panels(window)
-        for layout in layouts.BUILT_IN:
-            arrangement.arrange(layout)
-            QApplication.processEvents()
-            arrangement.save_layout(f"My {layout.plain_title}")
-        arrangement.arrange(layouts.TUNE)
-        window.docks["faults"].setFloating(True)
-        window.docks["faults"].show()
-        window.docks["effects"].close()
-        QApplication.processEvents()
-        arrangement.save_layout("Faults & more")
-        arrangement.save_state()
-        window.workbench.close()
-        window.hide()
-
-
-def _store_devices(settings: Any) -> None:
-    """Store the choices of robot, camera, drivers and input devices."""
-    from rotemina.app.microscope.camera_memory import CameraMemory, RememberedCamera
-    from rotemina.app.motion.session import store_ranges
-    from rotemina.app.settings import driver_settings
-    from rotemina.drivers.cameras import (
-        CameraIdentity,
-        CameraSettings,
-        CameraTrigger,
-        PixelType,
-        SensorRegion,
-    )
-    from rotemina.drivers.contract import find_driver
-
-    # Ranges belong to one exact content of a robot file, so this file must not change.
-    robot = load_robot(ensure_sample("files/robot.toml"))
-    store_ranges(settings, robot, {"table": (0.01, 0.04), "tilt": (1e-4, 9e-4)})
-    camera = CameraSettings(
-        exposure_s=0.02,
-        gain=3.5,
-        rate_hz=12.5,
-        region=SensorRegion(8, 16, 640, 480),
-        pixel_type=PixelType.MONO16,
-        trigger=CameraTrigger.SOFTWARE,
-        repeat=False,
-    )
-    identity = CameraIdentity("sequence:/records/cells", "cells", "sequence")
-    CameraMemory(settings).store(RememberedCamera(identity, camera, by_address=True))
-    for name in ("gcode", "mc68hc11", "simulator"):
-        kind = find_driver(name)
-        changed_settings = {
-            key: _change_value(value) for key, value in kind.default_settings.items()
-        }
-        driver_settings.store_settings(settings, kind, changed_settings)
-
-
-def _change_value(value: Any) -> Any:
-    """Return another value of the same type."""
-    if isinstance(value, bool):
-        return not value
-    if isinstance(value, str):
-        return f"{value}ttyUSB7" if not value else value[::-1]
-    return value + type(value)(1) if isinstance(value, int) else 0.5 * value + 0.125
-
-
-def _use_panels(window: Any) -> None:
-    """Make those changes in the window that it stores."""
-    from rotemina.app.motion.state import RunLabels
-    from rotemina.app.shell.records import column_mapping, file_dialog
-    from rotemina.app.shell.window import language_menu
-    from rotemina.app.workbench import record_library
-    from rotemina.plugins.control import overview
-    from rotemina.plugins.gap.blind import hidden_machine
-    from rotemina.plugins.inputs import profiles
-    from rotemina.plugins.microscope import saving_section
-    from rotemina.plugins.microscope.picture_section import LayerSection
-    from rotemina.plugins.recorder import recording_controls
-    from rotemina.sim.records import read_preview
-
-    bench, settings = window.workbench, window.workbench.settings
-    settings.set(language_menu.LANGUAGE_KEY, "de")
-    window.recent_files.add("record", RECORDS / "run 7.csv.gz")
-    window.recent_files.add("trajectory", RECORDS / "tour.csv")
-    file_dialog._remember_folder(bench, str(RECORDS / "tour.csv"))
-    bench.library.use_labels(RunLabels("run 7", "an operator", "dish B"))
-    settings.set(record_library.MAX_PLAYED_KEY, 25)
-    window.first_steps.end()
-    with TemporaryDirectory() as folder:
-        plain = Path(folder) / "plain.csv"
-        plain.write_text("0,0.01,0.02\n0.001,0.01,0.02\n0.002,0.01,0.03\n")
-        column_mapping._open_dialog(plain, read_preview(plain), bench, window, lambda *_: None)
-        dialog = window.findChild(column_mapping.ColumnMappingDialog)
-        dialog.set_columns("t [s], x [m], y [m]")
-        dialog.accept()
-    settings.set(overview._SPEED_KEY, 0.25)
-    settings.set(hidden_machine.CORRECT_COUNT_KEY, 3)
-    settings.set(hidden_machine.PLAYED_COUNT_KEY, 4)
-    settings.set(profiles.PROFILE_KEY, "Two sticks")
-    settings.set(saving_section.FOLLOW_SETTING, True)
-    settings.set(recording_controls.AT_START_SETTING, True)
-    for box in window.findChild(LayerSection).boxes.values():
-        box.toggle()
 
 
 @sample("config/profiles")
