@@ -3,14 +3,12 @@
 Limits: six axes with hysteresis (10 plays), creep, friction and a further mode each, recorded at
 2 kHz and stepped at 20 kHz, run at least 50 times faster than real time and take at most twice the
 time of reference.c at -O3. One axis with one effect, 10 s at 2 kHz: 5 ms without inner steps, 50 ms
-with them. The first call, including compilation: 10 s.
+with them.
 """
 
 import ctypes
-import os
 import shutil
 import subprocess
-import sys
 import time
 from dataclasses import replace
 from math import inf
@@ -200,34 +198,3 @@ def time_effect(effect):
         seconds.append(time.thread_time() - begin)
     has_inner_steps = plant.assembly.inner_step_s < 0.999 / RATE_HZ
     return 1e3 * median(seconds), has_inner_steps, f"{effect.id}/{effect.formulation}"
-
-
-def test_first_call(tmp_path):
-    """Measure the first simulation on a machine, with compilation, and the first of a process."""
-    code = (
-        "import time, numpy as np\n"
-        "from rotemina.sim.robot_files.reading import load_robot\n"
-        "from rotemina.sim.robot.model import AxisEffect\n"
-        "from rotemina.sim.records.record import Record, Tap\n"
-        "from rotemina.sim.simulation.simulation import simulate\n"
-        "begin = time.perf_counter()\n"
-        "time_s = np.arange(1000) / 1000.0\n"
-        "record = Record.from_signals(time_s, {('thx', Tap.CMD): 5e-4 + 0 * time_s},"
-        " {'thx': 'rad'})\n"
-        "simulate(load_robot('rotemina'), [AxisEffect(axis='thx', id='hysteresis')], record)\n"
-        "print(time.perf_counter() - begin)\n"
-    )
-    seconds = []
-    for _ in range(2):
-        process = subprocess.run(
-            [sys.executable, "-c", code],
-            env={**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)},
-            capture_output=True,
-            text=True,
-            check=True,
-        )
-        seconds.append(float(process.stdout))
-    print(
-        f"\nfirst simulation with an effect: {seconds[0]:.1f} s with compilation (limit 10), "
-        f"{seconds[1]:.2f} s with the compiled one from the cache"
-    )

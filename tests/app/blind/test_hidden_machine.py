@@ -26,11 +26,9 @@ ROBOT = load_robot("rotemina")
 
 @pytest.fixture(scope="module")
 def hidden_effects():
-    return next(
-        drawn
-        for drawn in (draw_hidden_effects(ROBOT, seed) for seed in range(1, 9))
-        if drawn.causes
-    )
+    drawn = draw_hidden_effects(ROBOT, 1)
+    assert drawn.causes
+    return drawn
 
 
 def start_hidden_session(hidden_effects):
@@ -58,12 +56,10 @@ def test_same_seed_draws_same_machine_with_known_effects(hidden_effects):
 
 
 def test_some_machines_are_healthy():
-    healthy_draws = [np.random.default_rng(seed).uniform() < 0.2 for seed in range(40)]
-    healthy_seed = healthy_draws.index(True)
-    assert draw_hidden_effects(ROBOT, healthy_seed).causes == frozenset()
+    assert draw_hidden_effects(ROBOT, 3).causes == frozenset()
 
 
-@pytest.mark.parametrize("oversampling", [1, 2, 5])
+@pytest.mark.parametrize("oversampling", [1, 5])
 def test_stepped_plant_matches_the_generator(hidden_effects, oversampling):
     case, tick_s = hidden_effects.case, 5e-4
     columns = [list(ROBOT.axes).index(name) for name in case.axis_names]

@@ -88,12 +88,9 @@ def test_existing_path_is_not_overwritten(tmp_path, existing):
     assert [entry.name for entry in tmp_path.iterdir()] == ["rotemina-glass"]
 
 
-def test_missing_folder_is_refused(tmp_path):
+def test_package_that_cannot_be_completed_leaves_nothing(tmp_path, monkeypatch):
     with pytest.raises(PluginWriteError, match="folder not found"):
         write_plugin(PluginKind.PANEL, "glass", tmp_path / "gone")
-
-
-def test_package_that_cannot_be_completed_leaves_nothing(tmp_path, monkeypatch):
     files = dict(render_package(PluginKind.PANEL, "glass"))
     files["README.md/inside"] = "a file cannot be a folder"
     monkeypatch.setattr(writing, "render_package", lambda *_: files)
