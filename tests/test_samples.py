@@ -13,6 +13,7 @@ import tomllib
 from collections import Counter
 from collections.abc import Mapping
 from contextlib import closing
+from dataclasses import replace
 from datetime import UTC, datetime
 from functools import cache
 from importlib.metadata import entry_points
@@ -31,7 +32,7 @@ from rotemina.app.calibration import CalibrationStore, HealthBook
 from rotemina.app.microscope.calibration_file import load_calibration as load_microscope
 from rotemina.app.microscope.camera_memory import CameraMemory
 from rotemina.app.microscope.microscope import CALIBRATION_FOLDER as MICROSCOPE
-from rotemina.app.motion.inputs import OperatorAction, OperatorRole, SilencePolicy
+from rotemina.app.motion.inputs import OperatorAction
 from rotemina.app.motion.inputs.axis_calibration import InputCalibrationFolder
 from rotemina.app.motion.inputs.profile import list_profiles
 from rotemina.app.motion.model import ModelInUse
@@ -86,14 +87,12 @@ from rotemina.sim.effects import (
 )
 from rotemina.sim.errors import InputError
 from rotemina.sim.feedback import ControllerGains
-from rotemina.sim.feedback.gains import AntiWindup
 from rotemina.sim.gap.compare.calibration import calibration_in
 from rotemina.sim.gap.output import read_document
 from rotemina.sim.gap.result import GapVerdict, ModelOffset
 from rotemina.sim.records import Tap, read_record
-from rotemina.sim.robot import CascadeController
 from rotemina.sim.robot_files import load_robot
-from rotemina.sim.tuning import SecondObjective, load_tuning
+from rotemina.sim.tuning import load_tuning
 
 ROOT = Path(__file__).parents[1]
 SAMPLES = Path(__file__).parent / "samples"
@@ -302,33 +301,14 @@ def test_an_operator_control_loads_all_files_of_its_user(config, data):
 def test_a_profile(config):
     (listed,) = list_profiles(config / "profiles")
     assert listed.problem is None
-    assert listed.profile.name == "Two sticks"
-    first, second = listed.profile.devices
-    assert (first.key, first.seat, first.when_silent) == (
-        STICK.key,
-        OperatorRole.TRAINER,
-        SilencePolicy.STOP,
-    )
-    assert (second.seat, second.when_silent) == (OperatorRole.TRAINEE, SilencePolicy.CONTINUE)
-    assert [(axis.control, axis.drives, axis.inverted) for axis in first.axes] == [
-        ("axis 1", "x", False),
-        ("axis 2", "zn", True),
-    ]
-    *buttons, axis_action = first.actions
-    assert {button.action for button in buttons} == set(OperatorAction)
-    assert (axis_action.control, axis_action.action, axis_action.at, axis_action.hysteresis) == (
-        "axis 3",
-        OperatorAction.FINE,
-        -0.6,
-        0.2,
-    )
+    assert listed.profile == SAMPLE_SCRIPT.make_profile()
+    actions = {mapping.action for mapping in listed.profile.devices[0].actions}
+    assert actions == set(OperatorAction)
 
 
 def test_the_calibration_of_a_stick(config):
-    calibration = InputCalibrationFolder(config / "calibrations").read(STICK).find_axis("axis 1")
-    assert (calibration.low, calibration.centre, calibration.high) == (-0.9, 0.02, 0.95)
-    assert (calibration.dead_zone, calibration.expo, calibration.inverted) == (0.03, 0.4, True)
-    assert calibration.travel_m == 0.03
+    calibration = InputCalibrationFolder(config / "calibrations").read(STICK)
+    assert calibration == SAMPLE_SCRIPT.make_stick_calibration()
 
 
 def test_calibrations_of_sensors(config):
@@ -336,27 +316,15 @@ def test_calibrations_of_sensors(config):
     assert problems == ()
     by_axis = {entry.calibration.axis: entry for entry in stored}
     assert {axis: entry.on for axis, entry in by_axis.items()} == {"x": False, "zn": True}
-    zn, x = by_axis["zn"].calibration, by_axis["x"].calibration
+    calibrations = {axis: entry.calibration for axis, entry in by_axis.items()}
+    assert calibrations == SAMPLE_SCRIPT.make_sensor_calibrations()
+    zn = calibrations["zn"]
     # Records refer to it by its digest.
     assert zn.name == "2026-03-04T05:06:07+00:00 aab6493f"
-    assert (zn.before_rms, zn.after_rms, zn.runs, zn.notes) == (
-        1e-7,
-        2e-9,
-        3,
-        ("the laser drifted",),
-    )
     model = zn.applied_calibration.model
     assert (model.gain_error, model.bend, model.weights) == (0.0125, (2e-8, -1e-8), (0.01, 0.02))
     assert (model.lag, model.lag_s) == ("first_order", 1e-4)
-    assert x.sensor.model.lag == "delay"
-    assert x.sensor.harmonics == (1e-8, 2e-8, 3e-9, 4e-9)
-    assert [(figure.value, figure.half_width) for figure in zn.figures] == [
-        (0.0125, 1e-4),
-        (4e-10, None),
-    ]
-    assert (zn.sources[0].name, zn.sources[0].digest) == ("run 7.csv.gz", "0123456789abcdef")
     assert zn.iso_reached.positioning.accuracy == 1e-7
-    assert zn.iso_reading_before.positioning.mean_reversal == -2e-8
 
 
 def test_health_cards(config):
@@ -367,14 +335,13 @@ def test_health_cards(config):
 
 def test_the_calibration_of_a_microscope(config):
     calibration = load_microscope(config / MICROSCOPE, "opencv:0", "20x/0.4")
+    assert calibration == SAMPLE_SCRIPT.make_microscope_calibration()
     assert calibration.view.contains(np.array([639.0, 479.0]))
-    assert calibration.get_stage("micro").map.matrix.tolist() == [[3.1e6, 1.5e3], [-1.6e3, 3.2e6]]
     assert calibration.get_stage("micro").map.covariance[1, 2] == 6.0
     assert calibration.get_stage("nano").predict_pixel(np.array([0.01, 0.02, 0.0])).tolist() == [
         321.5,
         241.25,
     ]
-    assert (calibration.focus.axis, calibration.focus.sharpest) == ("z", 0.0125)
 
 
 def test_saved_positions(config):
@@ -406,23 +373,17 @@ def test_scales_of_every_mode(config):
 def test_parameters_of_a_penetration(config):
     parameters = PenetrationParameters.load(config / "penetration.toml")
     assert parameters == SAMPLE_SCRIPT.make_penetration_parameters()
-    assert (parameters.direction, parameters.shape, parameters.shaping) == (
-        "up",
-        "table",
-        "inverse",
-    )
 
 
 def test_runs_of_penetrations(data):
     runs, problems = RunLog(data / "penetrations.jsonl").read()
     assert problems == ()
+    made = SAMPLE_SCRIPT.make_penetrations()
+    assert [replace(run, parameters={}) for run in runs] == [
+        replace(run, parameters={}) for run in made
+    ]
     assert {run.verdict for run in runs} == set(PenetrationVerdict)
     assert {name for name, _ in runs[0].phases} == set(PenetrationPhase)
-    assert (runs[0].run, runs[0].operator, runs[0].sample) == LABELS
-    assert runs[0].thrust.depth == 4.9e-5
-    assert runs[0].contact_height == 0.0125
-    assert runs[0].gave_way is True
-    assert runs[1].thrust is None
     # A panel offers these parameters for another run.
     assert (
         PenetrationParameters(**runs[0].parameters) == SAMPLE_SCRIPT.make_penetration_parameters()
@@ -533,27 +494,12 @@ def test_the_score_of_a_blind_test():
 
 def test_a_robot_file():
     robot = load_robot(FILES / "robot.toml")
-    table, tilt, push, still = (robot.axes[name] for name in ("table", "tilt", "push", "still"))
-    assert (table.kind, tilt.kind, push.kind) == ("stepper", "piezo", "force")
-    assert (table.max_speed, table.max_acceleration, table.following_limit) == (0.01, 0.2, 1e-3)
-    assert (table.steps_per_rev, table.microsteps_per_step, table.pitch) == (200, 16, 1e-3)
+    assert robot == SAMPLE_SCRIPT.make_robot()
+    table, tilt = robot.axes["table"], robot.axes["tilt"]
+    assert table.following_limit == 1e-3
     assert table.sensor.noise_floor == pytest.approx(np.hypot(2e-8, 1e-8 / np.sqrt(12.0)))
     assert (tilt.natural_frequency_hz, tilt.damping_ratio, tilt.gain) == (300.0, 0.03, 8.95e-6)
-    assert push.controller == CascadeController(
-        kind="cascade", kp=100.0, kv=200.0, limit=9.0, velocity="backward", delay_s=1e-3
-    )
-    assert still.static
-    assert robot.stages == {"coarse": ("table",), "fine": ("tilt", "still")}
-    (coupling,) = robot.couplings
-    assert (coupling.matrix, coupling.axes, coupling.value) == ("M", ("table", "tilt"), 1e-4)
     assert robot.reference.noise_rms.of("rad") == 2e-9
-    assert (robot.keep_out.floor, robot.keep_out.radius) == (0.001, 0.02)
-    assert robot.plate.cutout[0].twist == 0.5
-    assert robot.plate.pin.diameter == 0.004
-    coupled, loop = robot.effects
-    assert (coupled.id, coupled.from_axis, coupled.enabled) == ("cross_coupling", "tilt", True)
-    assert (loop.id, loop.formulation, loop.enabled) == ("hysteresis", "bouc_wen", False)
-    assert loop.parameters == {"width": 1.1e-4}
 
 
 def test_every_formulation_of_every_effect():
@@ -620,18 +566,8 @@ def test_inverses():
 
 def test_tuned_gains():
     tuning = load_tuning(FILES / "tuning.toml")
-    assert (tuning.axis, tuning.rate_hz, tuning.delay) == ("zn", 5000.0, 2)
-    assert (tuning.recommended, tuning.chosen, tuning.chosen_point.gains) == (
-        0,
-        1,
-        ControllerGains(),
-    )
-    gains = tuning.points[0].gains
-    assert (gains.proportional, gains.integral, gains.derivative) == (0.07, 1100.0, 1.7e-4)
-    assert gains.anti_windup is AntiWindup.CONDITIONAL
-    assert gains.notch.frequency_hz == 420.0
-    assert tuning.points[0].figures.settling_s == 0.03
-    assert tuning.provenance.against is SecondObjective.SETTLING
+    assert tuning == SAMPLE_SCRIPT.make_tuning()
+    assert tuning.chosen_point.gains == ControllerGains()
     assert not tuning.provenance.is_complete
 
 

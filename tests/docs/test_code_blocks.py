@@ -44,14 +44,13 @@ PREPARATION_COMMANDS = {
     "file-formats.md": ("excite sine --axes zn -o zn.csv", "simulate zn.csv -o run.csv.gz"),
     "gap-diagnosis.md": (
         f"{_THX} -o new.csv",
-        "excite multisine --axes thx,zn --seed 2 -o second.csv",
+        f"{_THX} --seed 2 -o second.csv",
         "play second.csv -o day2.csv",
     ),
     "gap-json.md": (
         f"{_THX} -o new.csv",
-        "excite multisine --axes thx,zn -o try.csv",
-        "play try.csv -o day1.csv",
-        "excite multisine --axes thx,zn --seed 2 -o second.csv",
+        "play new.csv -o day1.csv",
+        f"{_THX} --seed 2 -o second.csv",
         "play second.csv -o day2.csv",
         "gap diagnose day1.csv day2.csv --json out.json",
     ),

@@ -73,6 +73,13 @@ def output(name: str) -> Callable[[Callable[[], Any]], Callable[[], Any]]:
 @sample("config/profiles")
 def write_profile(folder: Path) -> None:
     """Write a profile of two devices with every action."""
+    from rotemina.app.motion.inputs.profile import save_profile
+
+    save_profile(folder, make_profile())
+
+
+def make_profile() -> Any:
+    """Return a profile of two devices with every action."""
     from rotemina.app.motion.inputs import (
         ActionMapping,
         AxisMapping,
@@ -82,7 +89,6 @@ def write_profile(folder: Path) -> None:
         OperatorRole,
         SilencePolicy,
     )
-    from rotemina.app.motion.inputs.profile import save_profile
 
     buttons = tuple(
         ActionMapping(control=f"button {number}", action=action)
@@ -102,27 +108,39 @@ def write_profile(folder: Path) -> None:
     second = DeviceMapping(
         key="board:*", seat=OperatorRole.TRAINEE, when_silent=SilencePolicy.CONTINUE
     )
-    save_profile(folder, InputProfile(name="Two sticks", devices=(first, second)))
+    return InputProfile(name="Two sticks", devices=(first, second))
 
 
 @sample("config/calibrations")
 def write_calibrations(folder: Path) -> None:
     """Write the calibration of a stick, and of two sensors, one of them in use."""
-    from rotemina.app.calibration import CalibrationFile, CalibrationStore, SourceRecord
-    from rotemina.app.calibration.files import (
-        IsoFigures,
-        StoredFigure,
-        StoredSensorModel,
-    )
-    from rotemina.app.motion.inputs import InputAxisCalibration, InputCalibration
+    from rotemina.app.calibration import CalibrationStore
     from rotemina.app.motion.inputs.axis_calibration import InputCalibrationFolder
     from rotemina.drivers.inputs import InputIdentity
 
-    stick = InputAxisCalibration(
+    stick = InputIdentity(STICK, "a stick", "hid")
+    InputCalibrationFolder(folder).save(stick, make_stick_calibration())
+    store, calibrations = CalibrationStore(folder.parent, load_robot("rotemina")), {}
+    for axis, calibration in make_sensor_calibrations().items():
+        calibrations[axis] = store.save(calibration)
+    store.select("zn", calibrations["zn"])
+
+
+def make_stick_calibration() -> Any:
+    """Return the calibration of an axis of a stick."""
+    from rotemina.app.motion.inputs import InputAxisCalibration, InputCalibration
+
+    axis = InputAxisCalibration(
         low=-0.9, centre=0.02, high=0.95, dead_zone=0.03, expo=0.4, inverted=True, travel_m=0.03
     )
-    calibration = InputCalibration(device=STICK, axes={"axis 1": stick})
-    InputCalibrationFolder(folder).save(InputIdentity(STICK, "a stick", "hid"), calibration)
+    return InputCalibration(device=STICK, axes={"axis 1": axis})
+
+
+def make_sensor_calibrations() -> dict[str, Any]:
+    """Return the calibrations of the sensors of two axes."""
+    from rotemina.app.calibration import CalibrationFile, SourceRecord
+    from rotemina.app.calibration.files import IsoFigures, StoredFigure, StoredSensorModel
+
     figures = {
         "accuracy": 4e-7,
         "repeatability": 1e-7,
@@ -179,9 +197,7 @@ def write_calibrations(folder: Path) -> None:
         ),
         iso_reached=None,
     )
-    store = CalibrationStore(folder.parent, load_robot("rotemina"))
-    store.save(x)
-    store.select("zn", store.save(zn))
+    return {"x": x, "zn": zn}
 
 
 @sample("config/health")
@@ -202,6 +218,13 @@ def write_health_cards(folder: Path) -> None:
 @sample("config/microscope")
 def write_microscope(folder: Path) -> None:
     """Write the calibration of both stages and the focus, for a camera behind an objective."""
+    from rotemina.app.microscope.calibration_file import save_calibration
+
+    save_calibration(folder, make_microscope_calibration())
+
+
+def make_microscope_calibration() -> Any:
+    """Return the calibration of both stages and the focus."""
     from rotemina.app.microscope import calibration_file as file
 
     stage = file.StageCalibration(
@@ -212,7 +235,7 @@ def write_microscope(folder: Path) -> None:
         tip_px=(320.5, 240.25),
         residual_px=0.125,
     )
-    calibration = file.MicroscopeCalibration(
+    return file.MicroscopeCalibration(
         camera="opencv:0",
         objective="20x/0.4",
         view=file.CalibratedRegion(left=8, top=16, width=640, height=480),
@@ -222,7 +245,6 @@ def write_microscope(folder: Path) -> None:
             date=START_TIME.isoformat(), axis="z", sharpest=0.0125, uncertainty=2e-7
         ),
     )
-    file.save_calibration(folder, calibration)
 
 
 @sample("config/positions")
@@ -316,13 +338,21 @@ def make_penetration_parameters() -> Any:
 @sample("data/penetrations.jsonl")
 def write_penetrations(path: Path) -> None:
     """Write a run of each verdict, the first with all possible entries."""
+    from rotemina.app.motion.penetration import RunLog
+
+    log = RunLog(path)
+    for run in make_penetrations():
+        log.append(run)
+
+
+def make_penetrations() -> list[Any]:
+    """Return a run of each verdict, the first with all possible entries."""
     from dataclasses import asdict
 
     from rotemina.app.motion.penetration import (
         PenetrationPhase,
         PenetrationRun,
         PenetrationVerdict,
-        RunLog,
     )
     from rotemina.app.motion.penetration.thrust import MeasuredThrust
 
@@ -362,11 +392,12 @@ def write_penetrations(path: Path) -> None:
         final_deviation=2e-7,
         gave_way=True,
     )
-    log = RunLog(path)
-    log.append(run)
     incomplete_run = replace(run, thrust=None, phases=phases[:3], contact=None, gave_way=None)
-    for verdict in (PenetrationVerdict.ABORTED, PenetrationVerdict.FAILED, PenetrationVerdict.HELD):
-        log.append(replace(incomplete_run, verdict=verdict, reason=f"it was {verdict}"))
+    verdicts = PenetrationVerdict.ABORTED, PenetrationVerdict.FAILED, PenetrationVerdict.HELD
+    return [
+        run,
+        *(replace(incomplete_run, verdict=v, reason=f"it was {v}") for v in verdicts),
+    ]
 
 
 @sample(PLAYBACK_SAMPLE)
@@ -624,8 +655,14 @@ def write_blind_test(folder: Path) -> None:
 @sample("files/robot.toml")
 def write_robot_file(path: Path) -> None:
     """Write a robot file with every kind of axis and every table."""
-    from rotemina.sim.robot import model, plate
     from rotemina.sim.robot_files import write_robot
+
+    write_robot(make_robot(), path)
+
+
+def make_robot() -> Any:
+    """Return a robot with every kind of axis and every table."""
+    from rotemina.sim.robot import model, plate
 
     sensor = model.AxisSensor(kind="linear encoder", resolution=1e-8, noise_rms=2e-8)
     cascade = model.CascadeController(
@@ -682,58 +719,53 @@ def write_robot_file(path: Path) -> None:
         twist=0.5,
     )
     holes = plate.PlateCutout(kind="hole", count=12, circle_radius=0.0158, radius=0.0005)
-    write_robot(
-        model.Robot(
-            name="Everything",
-            axes=axes,
-            stages={"coarse": ("table",), "fine": ("tilt", "still")},
-            couplings=(model.AxisCoupling(matrix="M", axes=("table", "tilt"), value=1e-4),),
-            pin_length=0.05,
-            piezo_lever_arm=0.011,
-            reference=model.ReferenceSensor(
-                noise_rms=model.ReferenceNoise(linear=1e-9, angular=2e-9)
-            ),
-            tool=model.RobotTool(approach_angle=0.75),
-            microscope=model.RobotMicroscope(
-                optical_axis=(0.0, 0.0, 1.0),
-                pixel_size=6.5e-6,
-                magnification=20.0,
-                numerical_aperture=0.4,
-                depth_of_field=5.8e-6,
-            ),
-            keep_out=model.KeepOut(floor=0.001, radius=0.02, objective=0.03),
-            plate=plate.Plate(
-                rim_radius=0.018,
-                hub_radius=0.006,
-                thickness=0.0005,
-                youngs_modulus=2e11,
-                poissons_ratio=0.25,
-                density=7900.0,
-                yield_stress=9e8,
-                cutout=(ring, holes),
-                hub=plate.PlateHub(mass=0.125, inertia=2e-5, product=2e-7),
-                pin=plate.PlatePin(
-                    length=0.06,
-                    diameter=0.004,
-                    youngs_modulus=2.1e11,
-                    poissons_ratio=0.3,
-                    density=7800.0,
-                    yield_stress=8e8,
-                ),
-                joint=plate.PinJoint(friction=0.2, clamp_force=900.0, arm=0.003),
-            ),
-            effects=(
-                model.AxisEffect(
-                    axis="tilt",
-                    id="hysteresis",
-                    formulation="bouc_wen",
-                    parameters={"width": 1.1e-4},
-                    enabled=False,
-                ),
-                model.AxisEffect(axis="table", id="cross_coupling", from_axis="tilt"),
-            ),
+    return model.Robot(
+        name="Everything",
+        axes=axes,
+        stages={"coarse": ("table",), "fine": ("tilt", "still")},
+        couplings=(model.AxisCoupling(matrix="M", axes=("table", "tilt"), value=1e-4),),
+        pin_length=0.05,
+        piezo_lever_arm=0.011,
+        reference=model.ReferenceSensor(noise_rms=model.ReferenceNoise(linear=1e-9, angular=2e-9)),
+        tool=model.RobotTool(approach_angle=0.75),
+        microscope=model.RobotMicroscope(
+            optical_axis=(0.0, 0.0, 1.0),
+            pixel_size=6.5e-6,
+            magnification=20.0,
+            numerical_aperture=0.4,
+            depth_of_field=5.8e-6,
         ),
-        path,
+        keep_out=model.KeepOut(floor=0.001, radius=0.02, objective=0.03),
+        plate=plate.Plate(
+            rim_radius=0.018,
+            hub_radius=0.006,
+            thickness=0.0005,
+            youngs_modulus=2e11,
+            poissons_ratio=0.25,
+            density=7900.0,
+            yield_stress=9e8,
+            cutout=(ring, holes),
+            hub=plate.PlateHub(mass=0.125, inertia=2e-5, product=2e-7),
+            pin=plate.PlatePin(
+                length=0.06,
+                diameter=0.004,
+                youngs_modulus=2.1e11,
+                poissons_ratio=0.3,
+                density=7800.0,
+                yield_stress=8e8,
+            ),
+            joint=plate.PinJoint(friction=0.2, clamp_force=900.0, arm=0.003),
+        ),
+        effects=(
+            model.AxisEffect(
+                axis="tilt",
+                id="hysteresis",
+                formulation="bouc_wen",
+                parameters={"width": 1.1e-4},
+                enabled=False,
+            ),
+            model.AxisEffect(axis="table", id="cross_coupling", from_axis="tilt"),
+        ),
     )
 
 
@@ -849,9 +881,16 @@ def write_inverse(path: Path) -> None:
 @sample("files/tuning.toml")
 def write_tuning(path: Path) -> None:
     """Write a Pareto front of two points."""
+    from rotemina.sim.tuning import save_tuning
+
+    save_tuning(make_tuning(), path)
+
+
+def make_tuning() -> Any:
+    """Return a Pareto front of two points."""
     from rotemina.sim.feedback import ControllerGains, NotchFilter
     from rotemina.sim.feedback.gains import AntiWindup
-    from rotemina.sim.tuning import FrontPoint, SecondObjective, TuningResult, save_tuning
+    from rotemina.sim.tuning import FrontPoint, SecondObjective, TuningResult
     from rotemina.sim.tuning.performance_figures import TuningFigures
     from rotemina.sim.tuning.tuning_result import TuningProvenance
 
@@ -893,7 +932,7 @@ def write_tuning(path: Path) -> None:
         FrontPoint(gains=gains, figures=figures),
         FrontPoint(gains=ControllerGains(), figures=figures),
     )
-    tuning = TuningResult(
+    return TuningResult(
         axis="zn",
         rate_hz=5000.0,
         delay=2,
@@ -902,7 +941,6 @@ def write_tuning(path: Path) -> None:
         provenance=source,
         points=points,
     )
-    save_tuning(tuning, path)
 
 
 @sample("files/diagnosis_calibration.json")

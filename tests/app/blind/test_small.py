@@ -1,17 +1,23 @@
 """A small blind test with the real diagnosis, from the command line to its page."""
 
 import json
+import shutil
+from pathlib import Path
 
 import pytest
 
 from rotemina.app.cli.main import main
 
 CASES = 2
+# Training of a classifier for the naive methods takes long.
+CLASSIFIER = Path(__file__).parents[2] / "samples/data/blind/RoTeMiNa-seed-7/classifier.npz"
 
 
 @pytest.mark.slow
 def test_a_few_sealed_cases_are_diagnosed_and_scored(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
+    (tmp_path / "run").mkdir()
+    shutil.copy(CLASSIFIER, tmp_path / "run")
     arguments = ["gap", "blind", "--cases", str(CASES), "--seed", "1377", "--folder", "run"]
     assert main([*arguments, "--shard", "1/2"]) == 0
     assert main([*arguments, "--json", "score.json", "--report", "page.md"]) == 0
