@@ -229,7 +229,6 @@ session = MotionSession(StopRecorder(load_robot("rotemina")))
 sys.exit(run(session, UserSettings(Path("settings.json"))))
 """
 LEAVING_PANEL = """
-    import os, sys
     from PySide6.QtCore import QTimer
     from rotemina.app.panel import Panel
 
@@ -249,18 +248,15 @@ LEAVING_PANEL = """
                 QTimer.singleShot(1500, self.leave)
 
         def leave(self):
-            {end}
+            raise SystemExit(3)
 """
 
 
-@pytest.mark.parametrize(
-    ("end", "expected_stop"), [("raise SystemExit(3)", "stop"), ("os.abort()", "")]
-)
-def test_machine_is_stopped_when_a_panel_ends_the_process(run_window, tmp_path, end, expected_stop):
-    """The exit path sends the stop if Python still runs. Otherwise the watchdog does."""
-    process = run_window({"leaving": LEAVING_PANEL.replace("{end}", end)}, MOTION_SCRIPT)
+def test_machine_is_stopped_when_a_panel_ends_the_process(run_window, tmp_path):
+    """The exit path sends the stop, and the watchdog reports that the program has ended."""
+    process = run_window({"leaving": LEAVING_PANEL}, MOTION_SCRIPT)
     assert process.returncode != 0
-    assert (tmp_path / "stops").read_text().startswith(expected_stop)
+    assert (tmp_path / "stops").read_text().startswith("stop")
     log = tmp_path / "DATA" / "rotemina" / "watchdog.log"
     end_s = time.monotonic() + 20.0
     while not (log.exists() and "has ended without disconnecting" in log.read_text()):
