@@ -213,7 +213,6 @@ from pathlib import Path
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.settings import UserSettings
 from rotemina.app.shell.startup.window_run import run
-from rotemina.app.workbench import NoticePoster
 from rotemina.drivers.simulator import Simulator
 from rotemina.sim.robot_files import load_robot
 
