@@ -85,20 +85,20 @@ def test_the_version_is_written_once():
 
 def find_required_packages(requirements):
     """Return the packages that an installation of requirements brings in."""
-    pending, names = [*requirements], set()
+    pending, names = [("", requirement) for requirement in requirements], set()
     while pending:
-        requirement = Requirement(pending.pop())
-        name = canonicalize_name(requirement.name)
-        if name not in names and (requirement.marker is None or requirement.marker.evaluate()):
-            names.add(name)
-            # A package of an extra may be missing.
-            with suppress(metadata.PackageNotFoundError):
-                pending += [
-                    dependency
-                    for dependency in metadata.requires(name) or ()
-                    if "extra ==" not in dependency
-                ]
-    return names
+        extra, text = pending.pop()
+        requirement = Requirement(text)
+        if requirement.marker is not None and not requirement.marker.evaluate({"extra": extra}):
+            continue
+        for own_extra in ("", *requirement.extras):
+            name = canonicalize_name(requirement.name)
+            if (name, own_extra) not in names:
+                names.add((name, own_extra))
+                # A package of an extra may be missing.
+                with suppress(metadata.PackageNotFoundError):
+                    pending += [(own_extra, text) for text in metadata.requires(name) or ()]
+    return {name for name, _ in names}
 
 
 def test_no_unsuitable_package_is_installed():

@@ -25,7 +25,7 @@ from rotemina.app.motion.teleoperation import ModeScales
 from rotemina.app.records import make_timeline_events
 from rotemina.app.settings import UserSettings
 from rotemina.drivers.cameras.sequence import ImageSequenceSource
-from rotemina.drivers.contract import CameraLostError
+from rotemina.drivers.contract import CameraLostError, VirtualClock
 from rotemina.drivers.inputs import InputIdentity
 from rotemina.drivers.inputs.script import InputScript
 from rotemina.plugins.gap.blind.blind_figures import BlindResult

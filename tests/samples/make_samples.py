@@ -757,6 +757,7 @@ def make_robot() -> Any:
             joint=plate.PinJoint(friction=0.2, clamp_force=900.0, arm=0.003),
         ),
         effects=(
+            model.AxisEffect(axis="table", id="cross_coupling", from_axis="tilt"),
             model.AxisEffect(
                 axis="tilt",
                 id="hysteresis",
@@ -764,7 +765,6 @@ def make_robot() -> Any:
                 parameters={"width": 1.1e-4},
                 enabled=False,
             ),
-            model.AxisEffect(axis="table", id="cross_coupling", from_axis="tilt"),
         ),
     )
 

@@ -119,7 +119,6 @@ def test_interrupt_before_the_first_points_leaves_no_file(capsys, monkeypatch):
         ("-o zn.toml", "--axis"),
         ("-o zn.toml --axis q", "no such axis"),
         ("-o zn.toml --axis zn --rate 900", "too slow"),
-        ("-o zn.toml --axis zn --jobs 0", "--jobs 0"),
         ("-o zn.toml --axis zn --generations 0", "generations 0"),
         ("-o zn.toml --axis zn --json zn.toml", "named twice"),
         ("-o no/zn.toml --axis zn", "there is no folder no"),

@@ -65,15 +65,16 @@ def test_record_metadata_describes_the_simulation(robot_with_effects):
     write_commands(note="n", history="unknown", **{"simulated effect 7": "of another time"})
     arguments = ["simulate", "c.csv", "--robot", robot_with_effects, "--seed", "4", "-o", "r.csv"]
     assert main(arguments) == 0
-    metadata = read_record("r.csv").metadata
+    record = read_record("r.csv")
+    # A machine whose past is unknown was at rest.
+    assert record.history == "rest"
+    metadata = record.metadata
     assert metadata["note"] == "n"
     assert metadata["simulated robot"] == "RoTeMiNa"
     assert metadata["simulated seed"] == "4"
     assert metadata["simulated effect 1"].startswith("friction on x; lugre; ")
     assert metadata["simulated effect 2"].startswith("hysteresis on thx; ")
     assert "simulated effect 7" not in metadata
-    # A machine whose past is unknown was at rest.
-    assert metadata["history"] == "rest"
     assert main(["simulate", "c.csv", "--no-noise", "-o", "r.csv"]) == 0
     metadata = read_record("r.csv").metadata
     assert metadata["simulated seed"] == "none"
