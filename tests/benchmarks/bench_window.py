@@ -67,9 +67,9 @@ STARTS = 6
 
 
 def test_time_to_first_paint(tmp_path):
+    folders = {f"XDG_{kind}_HOME": str(tmp_path) for kind in ("DATA", "CONFIG", "CACHE")}
+    environment = {**os.environ, **folders}
     # A warm start has compiled modules, like an installed program from its second start on.
-    environment = {**os.environ, "PYTHONPYCACHEPREFIX": str(tmp_path / "compiled")}
-    environment |= {f"XDG_{kind}_HOME": str(tmp_path) for kind in ("DATA", "CONFIG", "CACHE")}
     environment.pop("PYTHONDONTWRITEBYTECODE", None)
     runs = []
     for _ in range(STARTS):
