@@ -206,7 +206,6 @@ AWKWARD_BYTES = (
 )  # fmt: skip
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", READERS)
 def test_a_damaged_file_is_read_or_refused(name, tmp_path, capfd):
     read = READERS[name]

@@ -26,6 +26,8 @@ def cases(tmp_path_factory):
     for name, (kind, seed, effect) in DRAWN_CASES.items():
         case = draw_case(ROBOT, kind, seed, effect)
         write_case(folder / "plain" / name, case, ROBOT)
+        for path in (folder / "plain" / name).glob("train_*"):
+            shorten_record(path)
         labels[name] = case.label()
     (folder / "plain.json").write_text(json.dumps(labels))
     for name, other in zip(DRAWN_CASES, reversed(DRAWN_CASES), strict=True):
@@ -34,6 +36,12 @@ def cases(tmp_path_factory):
     swapped = dict(zip(names, labels.values(), strict=True))
     (folder / "changed.json").write_text(json.dumps(swapped))
     return folder
+
+
+def shorten_record(path):
+    """Remove the second half of a record, so that the diagnosis is quick."""
+    lines = gzip.decompress(path.read_bytes()).decode().splitlines(keepends=True)
+    path.write_bytes(gzip.compress("".join(lines[: len(lines) // 2]).encode()))
 
 
 def write_disguised_case(source, target):
@@ -64,5 +72,6 @@ def test_labels_names_metadata_and_order_do_not_change_the_answers(cases, tmp_pa
     plain = collect_answers(cases, "plain", tmp_path)
     changed = collect_answers(cases, "changed", tmp_path)
     assert plain["first"]["verdict"] == "none"
+    assert plain["second"]["verdict"] != "none"
     assert plain["first"] == changed["a_second_hysteresis"]
     assert plain["second"] == changed["a_first_hysteresis"]
