@@ -17,45 +17,8 @@ from rotemina.app.bench.result import BenchResult, NamedCause
 from rotemina.app.bench.words import format_line, format_page
 from rotemina.app.cli.main import main
 from rotemina.app.errors import BenchError
-from rotemina.sim.records import Record, Tap, write_record
-from rotemina.sim.robot import AxisEffect
+from rotemina.sim.records import Record, Tap
 from rotemina.sim.robot_files import load_robot
-from rotemina.sim.simulation import simulate
-
-ROBOT_TOML = """[robot]
-name = "A table"
-axes = ["q"]
-
-[axis.q]
-kind = "stepper"
-range = [0.0, 0.01]
-static = true
-sensor.kind = "encoder"
-sensor.resolution = 1.0e-8
-sensor.noise_rms = 2.0e-8
-"""
-TRUTH_TOML = 'causes = [["backlash"]]\nto_beat = 1e-7\n'
-
-
-def make_machine(folder, truth=TRUTH_TOML):
-    folder.mkdir(parents=True)
-    (folder / "robot.toml").write_text(ROBOT_TOML)
-    if truth is not None:
-        (folder / "truth.toml").write_text(truth)
-    robot = load_robot(folder / "robot.toml")
-    backlash = AxisEffect(axis="q", id="backlash", parameters={"width": 2e-5})
-    time_s = np.arange(400) / 100.0
-    for number, name in enumerate(("train_1", "train_2", "test_1"), start=1):
-        command = 5e-3 + 1e-3 * np.sin(7.0 * number * time_s) * np.cos(1.7 * time_s)
-        commands = Record.from_signals(time_s, {("q", Tap.CMD): command}, {"q": "m"})
-        run = simulate(robot, [backlash], commands, np.random.default_rng(number))
-        write_record(run, folder / f"{name}.csv")
-    return folder
-
-
-@pytest.fixture(scope="module")
-def machine_folder(tmp_path_factory):
-    return make_machine(tmp_path_factory.mktemp("machines") / "table")
 
 
 def make_bench_result(named=(), before=1e-3, after=2e-5, seconds=5.0, **known):
@@ -124,7 +87,7 @@ def test_failing_or_slow_diagnosis_does_not_end_the_bench(machine_folder):
     assert timed_out_result.not_run == "it took longer than 0.2 s"
 
 
-def test_without_truth_file_only_the_diagnosis_is_reported(tmp_path):
+def test_without_truth_file_only_the_diagnosis_is_reported(make_machine, tmp_path):
     (machine,) = find_machines([make_machine(tmp_path / "own", truth=None)])
     result = diagnose_machine(machine, 1)
     assert result.unmet_requirements == []
@@ -189,9 +152,9 @@ def test_unreadable_truth_file_is_refused(machine_folder, tmp_path, text, messag
     assert message in str(error_info.value)
 
 
-def test_folder_without_machine_is_refused(tmp_path):
+def test_folder_without_machine_is_refused(machine_folder, tmp_path):
     with pytest.raises(BenchError, match=r"no robot\.toml in it .*; name the folder of a machine"):
         find_machines([tmp_path])
-    (tmp_path / "robot.toml").write_text(ROBOT_TOML)
+    shutil.copyfile(machine_folder / "robot.toml", tmp_path / "robot.toml")
     with pytest.raises(BenchError, match="no record train_"):
         run_bench(Namespace(folders=[tmp_path], jobs=1, json=None, report=None, longest=1.0))
