@@ -93,8 +93,8 @@ def check_output_files(outputs: Iterable[Path | None], inputs: Iterable[Path | N
     Raises
     ------
     InputError
-        If the folder of an output does not exist, or an output is the same file as another one,
-        also through a link.
+        If the folder of an output does not exist or cannot be written, an output is a folder, or
+        it is the same file as another one, also through a link.
     """
     used_paths = [path for path in inputs if path is not None]
     for output in filter(None, outputs):
@@ -102,6 +102,17 @@ def check_output_files(outputs: Iterable[Path | None], inputs: Iterable[Path | N
             raise CommandError(
                 "{output} cannot be written: there is no folder {parent}; create it, or "
                 "choose another",
+                output=output,
+                parent=output.parent,
+            )
+        if output.is_dir():
+            raise CommandError(
+                "{output} cannot be written: it is a folder; name a file in it", output=output
+            )
+        if not os.access(output.parent, os.W_OK):
+            raise CommandError(
+                "{output} cannot be written: no permission to create files in {parent}; choose "
+                "another folder",
                 output=output,
                 parent=output.parent,
             )

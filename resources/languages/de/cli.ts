@@ -217,6 +217,14 @@
         <translation>die Roboterdatei nennt keine Geschwindigkeitsgrenze (max_speed) für {axes}; die größte Geschwindigkeit angeben, mit der die Maschine fahren darf, etwa --max-speed {example}</translation>
     </message>
     <message>
+        <source>{output} cannot be written: it is a folder; name a file in it</source>
+        <translation>{output} kann nicht geschrieben werden: Das ist ein Ordner; geben Sie eine Datei darin an</translation>
+    </message>
+    <message>
+        <source>{output} cannot be written: no permission to create files in {parent}; choose another folder</source>
+        <translation>{output} kann nicht geschrieben werden: keine Berechtigung, Dateien in {parent} anzulegen; wählen Sie einen anderen Ordner</translation>
+    </message>
+    <message>
         <source>{effects}: on robot {name}: {error}</source>
         <translation>{effects}: bei Roboter {name}: {error}</translation>
     </message>

@@ -45,3 +45,17 @@ def test_the_check_does_not_overwrite_a_record(record_file, capsys):
     assert main(["gap", "check", str(record_file), "--json", str(record_file)]) == 2
     assert str(record_file) in capsys.readouterr().err
     assert record_file.read_bytes() == before
+
+
+def test_an_output_that_cannot_be_written_is_refused_at_once(
+    record_file, tmp_path, capsys, monkeypatch
+):
+    arguments = ["gap", "check", str(record_file), "--json"]
+    assert main([*arguments, str(tmp_path)]) == 2
+    assert f"{tmp_path} cannot be written: it is a folder; name a file" in capsys.readouterr().err
+    assert main([*arguments, str(tmp_path / "none" / "out.json")]) == 2
+    assert "there is no folder" in capsys.readouterr().err
+    # A test that runs as root could write to any folder.
+    monkeypatch.setattr("os.access", lambda *_: False)
+    assert main([*arguments, str(tmp_path / "out.json")]) == 2
+    assert f"no permission to create files in {tmp_path}" in capsys.readouterr().err
