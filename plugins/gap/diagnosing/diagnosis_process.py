@@ -97,11 +97,14 @@ class DiagnosisProcess:
             If there is a programming error.
         """
         self._request_number += 1
+        request = DiagnosisRequest(self._request_number, robot, tuple(names), tuple(records))
+        # This may fail, and then the process has nothing to cancel.
+        data = _pickle_message(request)
         try:
-            request = DiagnosisRequest(self._request_number, robot, tuple(names), tuple(records))
             stream = self._ensure_started().stdin
             assert stream is not None
-            send_message(request, stream)
+            stream.write(data)
+            stream.flush()
             reply = self._wait_for_reply(listener)
         except (EOFError, OSError):
             raise InputError(tr(_PROCESS_ENDED).format(status=self.close())) from None
@@ -227,12 +230,16 @@ def send_message(message: object, stream: IO[bytes]) -> None:
 
     So nothing is sent of a message that cannot be pickled.
     """
+    stream.write(_pickle_message(message))
+    stream.flush()
+
+
+def _pickle_message(message: object) -> memoryview:
     buffer = BytesIO()
     pickler = pickle.Pickler(buffer)
     pickler.dispatch_table = copyreg.dispatch_table | {MappingProxyType: _reduce_proxy}
     pickler.dump(message)
-    stream.write(buffer.getbuffer())
-    stream.flush()
+    return buffer.getbuffer()
 
 
 def receive_messages(stream: IO[bytes]) -> Iterator[object]:

@@ -170,6 +170,8 @@ def test_a_process_that_was_killed_or_ignores_a_stop_is_replaced(
     with pytest.raises((TypeError, AttributeError, PicklingError)):
         process.diagnose(lambda: None, ["one"], [healthy], lambda _: None)
     assert process.diagnose(ROBOT, ["one"], [healthy], lambda _: None).diagnosis.causes == ()
+    # Nothing had been sent of the request that could not be pickled, so no process was killed.
+    assert len(started_processes) == 3
 
 
 def test_the_process_ends_when_its_input_is_closed(record, monkeypatch):
