@@ -748,6 +748,7 @@ SAMPLES_OF_MODULES = {
     "app/calibration/store.py": "config/calibrations",
     "app/cameras/snapshot.py": "files/stack.tif",
     "app/cameras/video_file.py": "files/film.tif",
+    "app/cli/gap/gap_check.py": "outputs/check.json",
     "app/cli/machine/calibrate.py": "outputs/calibrations.json",
     "app/cli/records/compare.py": "outputs/comparison.json",
     "app/cli/control/compensate_check.py": "outputs/inverses.json",

@@ -1134,7 +1134,8 @@ def make_diagnosis() -> Any:
     zn = gap.AxisDiagnosis("zn", gap.GapVerdict.INSUFFICIENT, ())
     robot = load_robot("rotemina")
     axes = {"thx": thx, "y": y, "zn": zn}
-    return gap.Diagnosis(robot, axes, experiments=(experiment,), seed=3)
+    failed = gap.FailedStep("zn", ("delay",), "Singular matrix")
+    return gap.Diagnosis(robot, axes, experiments=(experiment,), seed=3, failed=(failed,))
 
 
 @output("gap.json")
@@ -1144,6 +1145,23 @@ def gap_document() -> Any:
 
     files = ExperimentFiles("gap_experiment_1.csv", {"creep": "gap_experiment_1_creep.csv"})
     return as_json(make_diagnosis(), [files])
+
+
+@output("check.json")
+def check_document() -> Any:
+    """Return the output of ``gap check --json`` for visible and hidden effects."""
+    from rotemina.app.cli.gap.gap_check import make_check_document
+    from rotemina.sim.gap.experiment import AxisVisibility, EffectVisibility
+    from rotemina.sim.gap.experiment.safe_tests import SafeTest
+    from rotemina.sim.messages import message
+
+    test = SafeTest(message("gap", "staircase"), _make_measured_record(0.0))
+    effects = (
+        EffectVisibility("hysteresis", None, 76.0),
+        EffectVisibility("creep", None, 0.4, test, 5.0),
+        EffectVisibility("cross_coupling", "x", 0.1),
+    )
+    return make_check_document([AxisVisibility("zn", effects, ("sensor_noise",))])
 
 
 @output("comparison.json")
@@ -1209,7 +1227,7 @@ def bench_document() -> Any:
         out = Path(folder) / "out.json"
         with redirect_stdout(StringIO()):
             bench_run.run_bench(
-                Namespace(folders=[], jobs=1, longest=1.0, json=str(out), report=None)
+                Namespace(folders=[], jobs=1, longest=1.0, json=str(out), report=None, against=None)
             )
         return json.loads(out.read_text("utf-8"))
 

@@ -106,9 +106,7 @@ def check_output_files(outputs: Iterable[Path | None], inputs: Iterable[Path | N
                 parent=output.parent,
             )
         if output.is_dir():
-            raise CommandError(
-                "{output} cannot be written: it is a folder; name a file in it", output=output
-            )
+            raise CommandError("{output} is a folder; name a file in it", output=output)
         if not os.access(output.parent, os.W_OK):
             raise CommandError(
                 "{output} cannot be written: no permission to create files in {parent}; choose "

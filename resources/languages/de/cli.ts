@@ -217,8 +217,8 @@
         <translation>die Roboterdatei nennt keine Geschwindigkeitsgrenze (max_speed) für {axes}; die größte Geschwindigkeit angeben, mit der die Maschine fahren darf, etwa --max-speed {example}</translation>
     </message>
     <message>
-        <source>{output} cannot be written: it is a folder; name a file in it</source>
-        <translation>{output} kann nicht geschrieben werden: Das ist ein Ordner; geben Sie eine Datei darin an</translation>
+        <source>{output} is a folder; name a file in it</source>
+        <translation>{output} ist ein Ordner; geben Sie eine Datei darin an</translation>
     </message>
     <message>
         <source>{output} cannot be written: no permission to create files in {parent}; choose another folder</source>

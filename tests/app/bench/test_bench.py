@@ -157,4 +157,4 @@ def test_folder_without_machine_is_refused(machine_folder, tmp_path):
         find_machines([tmp_path])
     shutil.copyfile(machine_folder / "robot.toml", tmp_path / "robot.toml")
     with pytest.raises(BenchError, match="no record train_"):
-        run_bench(Namespace(folders=[tmp_path], jobs=1, json=None, report=None, longest=1.0))
+        run_bench(Namespace(folders=[tmp_path]))

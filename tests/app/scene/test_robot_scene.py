@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from rotemina.app.scene import GhostPositions, RobotGhost, RobotScene, SceneColours, SceneViewpoint
-from rotemina.app.scene.frames import LINK_PATHS, compute_link_frames, exaggerate_nano_motion
+from rotemina.app.scene.link_frames import LINK_PATHS, compute_link_frames, exaggerate_nano_motion
 from rotemina.sim.errors import ChainError
 from rotemina.sim.kinematics import KeepOutZone, KinematicChain, compute_tip_position
 from rotemina.sim.robot_files import load_robot

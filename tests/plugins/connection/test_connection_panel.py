@@ -103,6 +103,8 @@ def test_back_undoes_a_move_but_not_of_the_previous_device(qtbot, window, panel,
     window.workbench.jog("zn", 1e-6)
     press(panel.position.back)
     qtbot.waitUntil(lambda: abs(session.snapshot().command["zn"] - start) < 1e-12, timeout=LONG_MS)
+    # A jog is refused while the axis still moves.
+    qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.IDLE, timeout=LONG_MS)
     window.workbench.jog("zn", 1e-6)
     qtbot.waitUntil(panel.position.back.isEnabled, timeout=LONG_MS)
     panel.device.form.fields["seed"].widget.setText("5")

@@ -228,7 +228,7 @@ def test_files_are_written_together_or_not_at_all(diagnosis_calls, monkeypatch, 
         ("predict none.json r.csv", "none.json cannot be read"),
         ("predict r.csv r.csv", "r.csv:1: not valid JSON"),
         ("twin r.csv -o r.csv", "r.csv is named twice"),
-        ("", "name a subcommand: diagnose, predict"),
+        ("", "name a subcommand: check, diagnose, predict"),
     ],
 )
 def test_bad_request_gives_one_clear_line_and_status_2(diagnosis_calls, arguments, message, capsys):

@@ -52,7 +52,7 @@ def test_an_output_that_cannot_be_written_is_refused_at_once(
 ):
     arguments = ["gap", "check", str(record_file), "--json"]
     assert main([*arguments, str(tmp_path)]) == 2
-    assert f"{tmp_path} cannot be written: it is a folder; name a file" in capsys.readouterr().err
+    assert f"{tmp_path} is a folder; name a file" in capsys.readouterr().err
     assert main([*arguments, str(tmp_path / "none" / "out.json")]) == 2
     assert "there is no folder" in capsys.readouterr().err
     # A test that runs as root could write to any folder.
