@@ -162,6 +162,9 @@ class IdentificationHints:
         Whether the effect can be fitted to a response; otherwise only its trace can be found.
     scout : str, optional
         The formulation that is examined first if none is quick to simulate.
+    shown_at_rest : frozenset of str
+        Formulations that only an axis that is held can show, because on a moving one another effect
+        has the same shape.
     from_other : callable, optional
         Converts the fitted parameters of another formulation to the start of this one.
     lateness_s : callable, optional
@@ -177,6 +180,7 @@ class IdentificationHints:
     shows_as: EffectSignature | None = None
     fitted: bool = True
     scout: str | None = None
+    shown_at_rest: frozenset[str] = frozenset()
     from_other: Callable[[Values], Values] | None = None
     lateness_s: Callable[[Values], float] | None = None
 

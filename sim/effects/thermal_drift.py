@@ -60,7 +60,10 @@ THERMAL_DRIFT = Effect(
     summary="Grows without motion and settles, regardless of the command.",
     stage=EffectStage.MECHANICS,
     kinds=EVERY_KIND,
-    identification=IdentificationHints(starts=_start_from_durations),
+    # On an axis that moves, creep after its moves has the same shape.
+    identification=IdentificationHints(
+        starts=_start_from_durations, shown_at_rest=frozenset({"two_bodies"})
+    ),
     kinship=EffectRelations(family=EffectFamily.DRIFT),
     formulations=(
         Formulation(

@@ -32,7 +32,7 @@ def candidates(evidence: Evidence) -> tuple[AxisEffect, ...]:
         if effect.identification.fitted:
             found += _formulations(evidence, effect, sources if effect.coupled else [None])
     if _has_motion(evidence):
-        return tuple(found)
+        return tuple(one for one in found if not _is_shown_at_rest(one))
     unchanged = evidence.response()
     return tuple(one for one in found if _is_excited(evidence, one, unchanged))
 
@@ -42,6 +42,10 @@ def _has_motion(evidence: Evidence) -> bool:
         np.ptp(observation.record.signal(evidence.axis, Tap.CMD)) > 0.0
         for observation in evidence.observations
     )
+
+
+def _is_shown_at_rest(candidate: AxisEffect) -> bool:
+    return candidate.formulation in load_effect(candidate.id).identification.shown_at_rest
 
 
 def _is_excited(evidence: Evidence, candidate: AxisEffect, unchanged: Sequence[Signals]) -> bool:

@@ -51,6 +51,18 @@ def test_a_held_axis_shows_drift_and_vibration_but_no_mode_and_no_lost_motion():
     assert held == {"thermal_drift", "vibration"}
 
 
+def test_a_moving_axis_does_not_show_the_drift_of_two_bodies():
+    time_s = 0.1 * np.arange(400)
+    signals = {("z", Tap.CMD): 1e-4 * np.sin(time_s)}
+    record = simulate(ROBOT, (), Record.from_signals(time_s, signals, {"z": "m"}))
+    drifts = {
+        effect.formulation
+        for effect in candidates(Evidence.of(ROBOT, "z", [record]))
+        if effect.id == "thermal_drift"
+    }
+    assert drifts == {"warm_up"}
+
+
 @pytest.mark.slow
 def test_drift_of_a_held_axis_with_unknown_history_is_no_mode():
     record = record_held_axis(1, WARM_UP, metadata={"history": "unknown"})
