@@ -34,7 +34,8 @@ def record_a_move(qtbot, window):
     assert not section.note_field.isEnabled()
     click(qtbot, section.record)
     qtbot.waitUntil(lambda: section.record.text() == "■ End recording", timeout=LONG_MS)
-    qtbot.waitUntil(window._bar.recording.isVisible, timeout=LONG_MS)
+    # The header may hide the chip of the recording for lack of space.
+    qtbot.waitUntil(lambda: operation.recording is not None, timeout=LONG_MS)
     start = session.snapshot().command["x"]
     pad_timer = QTimer(interval=20)
     pad_timer.timeout.connect(lambda: operation.pad.deflect("x", 0.8))
@@ -64,6 +65,7 @@ def record_a_move(qtbot, window):
     later = noted_s + 0.1  # the recording must include the constant last command
     qtbot.waitUntil(lambda: session.snapshot().device_time_s > later, timeout=LONG_MS)
     click(qtbot, section.record)
+    qtbot.waitUntil(lambda: operation.recording is None, timeout=LONG_MS)
     qtbot.waitUntil(window._bar.recording.isHidden, timeout=LONG_MS)
     return start, session.snapshot().command["x"]
 
